@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+/// Every sub-command of `madori` adds itself; its callback throws Error on failure (exit 1).
+namespace madori::app {
+
+void add_version(CLI::App& app);
+
+}  // namespace madori::app

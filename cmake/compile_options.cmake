@@ -1,0 +1,30 @@
+# Warnings, sanitizers, ccache and clang-tidy for every target of this project.
+find_program(MADORI_CCACHE ccache)
+if(MADORI_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${MADORI_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${MADORI_CCACHE})
+endif()
+
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+
+add_library(madori_options INTERFACE)
+target_include_directories(madori_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(madori_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
+  -Woverloaded-virtual -Wimplicit-fallthrough)
+target_link_libraries(madori_options INTERFACE Threads::Threads)
+
+if(MADORI_SANITIZE)
+  target_compile_options(madori_options INTERFACE
+    -fsanitize=${MADORI_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(madori_options INTERFACE -fsanitize=${MADORI_SANITIZE})
+endif()
+if(MADORI_FUZZ)
+  target_compile_options(madori_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+if(MADORI_TIDY)
+  find_program(MADORI_CLANG_TIDY NAMES clang-tidy-14 clang-tidy REQUIRED)
+  set(CMAKE_CXX_CLANG_TIDY ${MADORI_CLANG_TIDY} --quiet)
+endif()

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "core/frames.hpp"
+#include "core/stamp.hpp"
+#include "core/transform2.hpp"
+
+namespace madori {
+
+/// How far a pose can be trusted. Motion is refused while Lost.
+enum class LocalizationState { Localized, Degraded, Ambiguous, Lost };
+
+[[nodiscard]] constexpr const char* to_string(LocalizationState state) {
+  switch (state) {
+    case LocalizationState::Localized:
+      return "LOCALIZED";
+    case LocalizationState::Degraded:
+      return "DEGRADED";
+    case LocalizationState::Ambiguous:
+      return "AMBIGUOUS";
+    case LocalizationState::Lost:
+      return "LOST";
+  }
+  return "LOST";
+}
+
+struct LocalizationHealth {
+  LocalizationState state = LocalizationState::Lost;
+  std::string reason;  ///< in an operator's words; empty while Localized
+};
+
+/// Where the vehicle is on the drawing.
+struct PoseEstimate {
+  Stamp stamp{};
+  Transform2<Map, Base> map_from_base;
+  /// Of (x, y, yaw) in the Map frame: m^2, m*rad, rad^2.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  LocalizationHealth health;
+};
+
+}  // namespace madori

@@ -1,0 +1,59 @@
+#include "mapping/site/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include "core/result.hpp"
+
+namespace madori::mapping {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+  const int error = errno;
+  throw Error(
+      file.string(), what + ": " + std::strerror(error),
+      error == ENOSPC ? "free some disk space and try again" : "check the folder and its permissions");
+}
+
+/// Writes, syncs and closes; false with errno on failure.
+bool write_and_sync(int descriptor, std::string_view content) {
+  bool good = true;
+  while (good && !content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    good = written > 0;
+    if (good) content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  good = good && ::fsync(descriptor) == 0;
+  const int error = errno;
+  good = ::close(descriptor) == 0 && good;
+  if (!good && error != 0) errno = error;
+  return good;
+}
+
+}  // namespace
+
+void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
+  const std::string temporary = file.string() + ".tmp" + std::to_string(::getpid());
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail(file, "cannot be written");
+  errno = 0;
+  if (!write_and_sync(descriptor, content) || ::rename(temporary.c_str(), file.c_str()) != 0) {
+    const int error = errno;
+    ::unlink(temporary.c_str());
+    errno = error;
+    fail(file, "cannot be written");
+  }
+  const auto parent = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  const int folder = ::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder >= 0) {
+    ::fsync(folder);
+    ::close(folder);
+  }
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace madori::mapping {
+
+/// Writes the whole file or leaves the old one: temporary file beside it, fsync, rename, fsync of the folder.
+/// Throws Error (disk full, no permission) and leaves no temporary file behind.
+void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+
+}  // namespace madori::mapping

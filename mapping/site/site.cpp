@@ -1,0 +1,170 @@
+#include "mapping/site/site.hpp"
+
+#include <limits>
+
+#include "core/result.hpp"
+#include "mapping/site/atomic_file.hpp"
+#include "mapping/site/strict_yaml.hpp"
+
+namespace madori::mapping {
+namespace {
+
+constexpr int kFormat = 1;
+constexpr int kMaxSide = 1'000'000;
+
+DrawingRecord read_drawing(StrictYaml yaml) {
+  DrawingRecord record;
+  record.file = yaml.text("file");
+  record.width_px = yaml.integer("width_px", 1, kMaxSide);
+  record.height_px = yaml.integer("height_px", 1, kMaxSide);
+  record.page = yaml.integer_or("page", record.page, 1, 100'000);
+  record.dpi = yaml.number_or("dpi", record.dpi, 0.0, 100'000.0);
+  yaml.refuse_unknown_keys();
+  return record;
+}
+
+ScaleRecord read_scale(StrictYaml yaml) {
+  ScaleRecord record;
+  record.m_per_px = yaml.number("m_per_px", 1e-9, 1e6);
+  record.method = yaml.text("method");
+  record.relative_uncertainty = yaml.number_or("relative_uncertainty", 0.0, 0.0, 1.0);
+  record.residual_m = yaml.number_or("residual_m", 0.0, 0.0, 1e6);
+  record.date = yaml.text_or("date", "");
+  if (const YAML::Node inputs = yaml.raw("inputs")) record.inputs = inputs.as<std::vector<std::string>>();
+  yaml.refuse_unknown_keys();
+  return record;
+}
+
+GeoreferenceRecord read_georeference(StrictYaml yaml) {
+  GeoreferenceRecord record;
+  record.latitude_deg = yaml.number("latitude_deg", -90.0, 90.0);
+  record.longitude_deg = yaml.number("longitude_deg", -180.0, 180.0);
+  record.enu_from_map_yaw_deg = yaml.number("enu_from_map_yaw_deg", -360.0, 360.0);
+  yaml.refuse_unknown_keys();
+  return record;
+}
+
+VehicleRecord read_vehicle(StrictYaml yaml) {
+  VehicleRecord r;
+  r.wheel_radius_m = yaml.number_or("wheel_radius_m", r.wheel_radius_m, 0.005, 2.0);
+  r.half_wheel_separation_m = yaml.number_or("half_wheel_separation_m", r.half_wheel_separation_m, 0.01, 5.0);
+  r.length_m = yaml.number_or("length_m", r.length_m, 0.05, 20.0);
+  r.width_m = yaml.number_or("width_m", r.width_m, 0.05, 10.0);
+  r.height_m = yaml.number_or("height_m", r.height_m, 0.05, 10.0);
+  r.base_to_rear_m = yaml.number_or("base_to_rear_m", r.base_to_rear_m, 0.0, 20.0);
+  r.max_speed_mps = yaml.number_or("max_speed_mps", r.max_speed_mps, 0.01, 5.0);
+  r.max_acceleration_mps2 = yaml.number_or("max_acceleration_mps2", r.max_acceleration_mps2, 0.01, 10.0);
+  r.max_turn_rate_radps = yaml.number_or("max_turn_rate_radps", r.max_turn_rate_radps, 0.01, 10.0);
+  yaml.refuse_unknown_keys();
+  return r;
+}
+
+SensorRecord read_sensor(StrictYaml& yaml) {
+  SensorRecord record;
+  record.name = yaml.text("name");
+  record.type = yaml.text("type");
+  if (record.type != "vlp16" && record.type != "lms1xx" && record.type != "s300")
+    throw yaml.error("type", "\"" + record.type + "\" is no known sensor", "use vlp16, lms1xx or s300");
+  record.x_m = yaml.number_or("x_m", 0.0, -20.0, 20.0);
+  record.y_m = yaml.number_or("y_m", 0.0, -20.0, 20.0);
+  record.z_m = yaml.number_or("z_m", 0.0, -5.0, 20.0);
+  record.yaw_deg = yaml.number_or("yaw_deg", 0.0, -360.0, 360.0);
+  yaml.refuse_unknown_keys();
+  return record;
+}
+
+void emit_scale(YAML::Emitter& out, const ScaleRecord& scale) {
+  out << YAML::Key << "scale" << YAML::Value << YAML::BeginMap;
+  out << YAML::Key << "m_per_px" << YAML::Value << scale.m_per_px;
+  out << YAML::Key << "method" << YAML::Value << scale.method;
+  out << YAML::Key << "relative_uncertainty" << YAML::Value << scale.relative_uncertainty;
+  out << YAML::Key << "residual_m" << YAML::Value << scale.residual_m;
+  out << YAML::Key << "date" << YAML::Value << scale.date;
+  out << YAML::Key << "inputs" << YAML::Value << scale.inputs << YAML::EndMap;
+}
+
+void emit_vehicle(YAML::Emitter& out, const VehicleRecord& v) {
+  out << YAML::Key << "vehicle" << YAML::Value << YAML::BeginMap;
+  out << YAML::Key << "wheel_radius_m" << YAML::Value << v.wheel_radius_m;
+  out << YAML::Key << "half_wheel_separation_m" << YAML::Value << v.half_wheel_separation_m;
+  out << YAML::Key << "length_m" << YAML::Value << v.length_m;
+  out << YAML::Key << "width_m" << YAML::Value << v.width_m;
+  out << YAML::Key << "height_m" << YAML::Value << v.height_m;
+  out << YAML::Key << "base_to_rear_m" << YAML::Value << v.base_to_rear_m;
+  out << YAML::Key << "max_speed_mps" << YAML::Value << v.max_speed_mps;
+  out << YAML::Key << "max_acceleration_mps2" << YAML::Value << v.max_acceleration_mps2;
+  out << YAML::Key << "max_turn_rate_radps" << YAML::Value << v.max_turn_rate_radps << YAML::EndMap;
+}
+
+void emit_sensor(YAML::Emitter& out, const SensorRecord& s) {
+  out << YAML::BeginMap << YAML::Key << "name" << YAML::Value << s.name;
+  out << YAML::Key << "type" << YAML::Value << s.type;
+  out << YAML::Key << "x_m" << YAML::Value << s.x_m << YAML::Key << "y_m" << YAML::Value << s.y_m;
+  out << YAML::Key << "z_m" << YAML::Value << s.z_m << YAML::Key << "yaw_deg" << YAML::Value << s.yaw_deg;
+  out << YAML::EndMap;
+}
+
+}  // namespace
+
+Site load_site(const std::filesystem::path& folder) {
+  const auto file = folder / "site.yaml";
+  if (!std::filesystem::exists(file))
+    throw Error(folder.string(), "is no site folder (no site.yaml)",
+                "make one: madori import DRAWING --site " + folder.string());
+  StrictYaml yaml = StrictYaml::load(file);
+  yaml.integer("madori_site", kFormat, kFormat);
+  Site site;
+  site.name = yaml.text("name");
+  site.drawing = read_drawing(yaml.section("drawing"));
+  if (yaml.has("scale")) site.scale = read_scale(yaml.section("scale"));
+  if (yaml.has("georeference")) site.georeference = read_georeference(yaml.section("georeference"));
+  if (yaml.has("vehicle")) site.vehicle = read_vehicle(yaml.section("vehicle"));
+  for (StrictYaml& sensor : yaml.list("sensors")) site.sensors.push_back(read_sensor(sensor));
+  yaml.refuse_unknown_keys();
+  return site;
+}
+
+Site load_scaled_site(const std::filesystem::path& folder) {
+  Site site = load_site(folder);
+  if (!site.scale)
+    throw Error(
+        folder.string(), "the drawing has no scale yet, so nothing may drive on it",
+        "measure one length: madori scale " + folder.string() + " --known u1,v1,u2,v2=METRES --apply");
+  return site;
+}
+
+std::string site_yaml(const Site& site) {
+  YAML::Emitter out;
+  out.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
+  out << YAML::BeginMap << YAML::Key << "madori_site" << YAML::Value << kFormat;
+  out << YAML::Key << "name" << YAML::Value << site.name;
+  const DrawingRecord& drawing = site.drawing;
+  out << YAML::Key << "drawing" << YAML::Value << YAML::BeginMap;
+  out << YAML::Key << "file" << YAML::Value << drawing.file;
+  out << YAML::Key << "width_px" << YAML::Value << drawing.width_px;
+  out << YAML::Key << "height_px" << YAML::Value << drawing.height_px;
+  out << YAML::Key << "page" << YAML::Value << drawing.page;
+  out << YAML::Key << "dpi" << YAML::Value << drawing.dpi << YAML::EndMap;
+  if (site.scale) emit_scale(out, *site.scale);
+  if (site.georeference) {
+    out << YAML::Key << "georeference" << YAML::Value << YAML::BeginMap;
+    out << YAML::Key << "latitude_deg" << YAML::Value << site.georeference->latitude_deg;
+    out << YAML::Key << "longitude_deg" << YAML::Value << site.georeference->longitude_deg;
+    out << YAML::Key << "enu_from_map_yaw_deg" << YAML::Value << site.georeference->enu_from_map_yaw_deg;
+    out << YAML::EndMap;
+  }
+  emit_vehicle(out, site.vehicle);
+  if (!site.sensors.empty()) {
+    out << YAML::Key << "sensors" << YAML::Value << YAML::BeginSeq;
+    for (const SensorRecord& sensor : site.sensors) emit_sensor(out, sensor);
+    out << YAML::EndSeq;
+  }
+  out << YAML::EndMap;
+  return std::string(out.c_str()) + "\n";
+}
+
+void save_site(const std::filesystem::path& folder, const Site& site) {
+  write_file_atomically(folder / "site.yaml", site_yaml(site));
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace madori::mapping {
+
+/// The imported original, and the pixel grid whose lower-left corner is the Map origin.
+struct DrawingRecord {
+  std::string file;  ///< name inside the site folder
+  int width_px = 0;
+  int height_px = 0;
+  int page = 1;      ///< of a PDF
+  double dpi = 0.0;  ///< 0 where the drawing has none
+};
+
+/// How large the drawing is, and how that was found.
+struct ScaleRecord {
+  double m_per_px = 0.0;
+  std::string method;                 ///< option, dxf-units, known, control, overlay, paper
+  double relative_uncertainty = 0.0;  ///< one sigma; 0 where unknown
+  double residual_m = 0.0;            ///< RMS of the fit
+  std::string date;                   ///< ISO 8601, UTC
+  std::vector<std::string> inputs;    ///< as they were given
+};
+
+/// The place of the Map origin on Earth (WGS84) and the bearing of its x axis.
+struct GeoreferenceRecord {
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  double enu_from_map_yaw_deg = 0.0;
+};
+
+/// Shape and drive of the vehicle. Defaults are the reference vehicle's.
+struct VehicleRecord {
+  double wheel_radius_m = 0.1;
+  double half_wheel_separation_m = 0.25;  ///< `d` of the layout-map paper's Eq. (1)-(4)
+  double length_m = 1.0;
+  double width_m = 0.6;
+  double height_m = 0.8;        ///< with load
+  double base_to_rear_m = 0.2;  ///< from the Base origin back to the rear bumper
+  double max_speed_mps = 1.0;
+  double max_acceleration_mps2 = 0.5;
+  double max_turn_rate_radps = 1.0;
+};
+
+/// A sensor and where it is mounted, Base frame.
+struct SensorRecord {
+  std::string name;
+  std::string type;  ///< vlp16, lms1xx, s300
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double z_m = 0.0;
+  double yaw_deg = 0.0;
+};
+
+/// site.yaml of a site folder (docs/reference/site-folder.md).
+struct Site {
+  std::string name;
+  DrawingRecord drawing;
+  std::optional<ScaleRecord> scale;  ///< absent: unscaled, nothing may drive on it
+  std::optional<GeoreferenceRecord> georeference;
+  VehicleRecord vehicle;
+  std::vector<SensorRecord> sensors;
+};
+
+/// Reads and checks `folder`/site.yaml; throws Error with file, line and mend.
+[[nodiscard]] Site load_site(const std::filesystem::path& folder);
+/// The same, and throws an Error that says how to scale the drawing while the site is unscaled.
+[[nodiscard]] Site load_scaled_site(const std::filesystem::path& folder);
+/// The text of site.yaml.
+[[nodiscard]] std::string site_yaml(const Site& site);
+/// Writes `folder`/site.yaml atomically.
+void save_site(const std::filesystem::path& folder, const Site& site);
+
+}  // namespace madori::mapping

@@ -1,0 +1,115 @@
+#include "mapping/site/strict_yaml.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace madori::mapping {
+
+StrictYaml::StrictYaml(std::string file, std::string name, YAML::Node node)
+    : file_(std::move(file)), name_(std::move(name)), node_(std::move(node)) {
+  if (!node_.IsMap())
+    throw Error(file_ + ":" + std::to_string(node_.Mark().line + 1), name_ + " is no list of `key: value`",
+                "");
+}
+
+StrictYaml StrictYaml::load(const std::filesystem::path& file) {
+  try {
+    return {file.string(), "", YAML::LoadFile(file.string())};
+  } catch (const YAML::BadFile&) {
+    throw Error(file.string(), "cannot be opened", "check the path and its permissions");
+  } catch (const YAML::ParserException& e) {
+    throw Error(file.string() + ":" + std::to_string(e.mark.line + 1), "is no valid YAML: " + e.msg,
+                "mend that line");
+  }
+}
+
+Error StrictYaml::error(const std::string& key, const std::string& what, const std::string& mend) const {
+  const YAML::Node value = node_[key];
+  const int line = (value ? value.Mark().line : node_.Mark().line) + 1;
+  return {file_ + ":" + std::to_string(line), (name_.empty() ? key : name_ + "." + key) + ": " + what, mend};
+}
+
+template <class T>
+T StrictYaml::get(const std::string& key, const char* kind) {
+  known_.insert(key);
+  const YAML::Node value = node_[key];
+  if (!value) throw error(key, "is missing", std::string("add ") + kind);
+  try {
+    return value.as<T>();
+  } catch (const YAML::BadConversion&) {
+    throw error(key, std::string("is not ") + kind, "");
+  }
+}
+
+double StrictYaml::number(const std::string& key, double low, double high) {
+  const auto value = get<double>(key, "a number");
+  if (!(value >= low && value <= high)) {
+    std::ostringstream range;
+    range << "must lie between " << low << " and " << high;
+    throw error(key, range.str(), "");
+  }
+  return value;
+}
+
+double StrictYaml::number_or(const std::string& key, double fallback, double low, double high) {
+  known_.insert(key);
+  return has(key) ? number(key, low, high) : fallback;
+}
+
+int StrictYaml::integer(const std::string& key, int low, int high) {
+  const auto value = get<int>(key, "a whole number");
+  if (value < low || value > high)
+    throw error(key, "must lie between " + std::to_string(low) + " and " + std::to_string(high), "");
+  return value;
+}
+
+int StrictYaml::integer_or(const std::string& key, int fallback, int low, int high) {
+  known_.insert(key);
+  return has(key) ? integer(key, low, high) : fallback;
+}
+
+bool StrictYaml::boolean_or(const std::string& key, bool fallback) {
+  known_.insert(key);
+  return has(key) ? get<bool>(key, "true or false") : fallback;
+}
+
+std::string StrictYaml::text(const std::string& key) {
+  return get<std::string>(key, "a text");
+}
+
+std::string StrictYaml::text_or(const std::string& key, const std::string& fallback) {
+  known_.insert(key);
+  return has(key) ? text(key) : fallback;
+}
+
+StrictYaml StrictYaml::section(const std::string& key) {
+  known_.insert(key);
+  if (!has(key)) throw error(key, "is missing", "add this section");
+  return {file_, name_.empty() ? key : name_ + "." + key, node_[key]};
+}
+
+std::vector<StrictYaml> StrictYaml::list(const std::string& key) {
+  known_.insert(key);
+  std::vector<StrictYaml> items;
+  if (!has(key)) return items;
+  const YAML::Node value = node_[key];
+  if (!value.IsSequence()) throw error(key, "is no list", "begin each item with `- `");
+  for (const auto& item : value)
+    items.emplace_back(file_, key + "[" + std::to_string(items.size()) + "]", item);
+  return items;
+}
+
+YAML::Node StrictYaml::raw(const std::string& key) {
+  known_.insert(key);
+  return node_[key];
+}
+
+void StrictYaml::refuse_unknown_keys() const {
+  for (const auto& entry : node_) {
+    const auto key = entry.first.as<std::string>();
+    if (!known_.contains(key)) throw error(key, "is not a known setting", "check its spelling or remove it");
+  }
+}
+
+}  // namespace madori::mapping

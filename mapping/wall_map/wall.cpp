@@ -1,0 +1,59 @@
+#include "mapping/wall_map/wall.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+#include "core/result.hpp"
+
+namespace madori::mapping {
+namespace {
+
+/// The next field of a comma-separated row as a number; false when it is none.
+template <class T>
+bool take_number(std::string_view& row, T& value) {
+  const std::size_t comma = row.find(',');
+  std::string_view field = row.substr(0, comma);
+  row = comma == std::string_view::npos ? std::string_view() : row.substr(comma + 1);
+  while (!field.empty() && field.front() == ' ') field.remove_prefix(1);
+  while (!field.empty() && (field.back() == ' ' || field.back() == '\r')) field.remove_suffix(1);
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  return error == std::errc() && end == field.data() + field.size();
+}
+
+}  // namespace
+
+Walls load_walls(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw Error(file.string(), "cannot be opened", "import the drawing first: madori import");
+  Walls walls;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (number == 1 || line.empty() || line == "\r") continue;
+    Wall wall;
+    auto& [a, b] = wall.segment;
+    std::string_view row = line;
+    const bool good = take_number(row, wall.id) && take_number(row, a.x_m) && take_number(row, a.y_m) &&
+                      take_number(row, b.x_m) && take_number(row, b.y_m) && row.empty() &&
+                      std::isfinite(a.x_m + a.y_m + b.x_m + b.y_m);
+    if (!good)
+      throw Error(file.string() + ":" + std::to_string(number), "is not `id,x1,y1,x2,y2`",
+                  "mend or remove that line");
+    walls.push_back(wall);
+  }
+  return walls;
+}
+
+std::string walls_csv(const Walls& walls) {
+  std::ostringstream out;
+  out.setf(std::ios::fixed);
+  out.precision(6);
+  out << "id,x1,y1,x2,y2\n";
+  for (const auto& [id, s] : walls)
+    out << id << ',' << s.a.x_m << ',' << s.a.y_m << ',' << s.b.x_m << ',' << s.b.y_m << '\n';
+  return out.str();
+}
+
+}  // namespace madori::mapping

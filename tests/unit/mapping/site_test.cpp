@@ -1,0 +1,72 @@
+#include "mapping/site/site.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/result.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace madori::mapping {
+namespace {
+
+using test::TemporaryFolder;
+using ::testing::HasSubstr;
+
+std::string error_of(const std::string& yaml) {
+  const TemporaryFolder folder;
+  folder.write("site.yaml", yaml);
+  try {
+    (void)load_site(folder.path());
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+constexpr const char* kMinimal =
+    "madori_site: 1\nname: hall\ndrawing: {file: a.png, width_px: 10, height_px: 5}\n";
+
+TEST(Site, SurvivesSavingAndLoading) {
+  const TemporaryFolder folder;
+  Site site;
+  site.name = "hall 3: east";
+  site.drawing = {"drawing.png", 3047, 1717, 2, 300.0};
+  site.scale = ScaleRecord{0.00846, "known", 0.002, 0.01, "2026-01-02T03:04:05Z", {"1,2,3,4=5.0"}};
+  site.georeference = GeoreferenceRecord{35.464478, 136.739235, -12.5};
+  site.sensors.push_back({"roof", "vlp16", 0.1, 0.0, 1.2, 90.0});
+  save_site(folder.path(), site);
+  const Site loaded = load_site(folder.path());
+  EXPECT_EQ(site_yaml(loaded), site_yaml(site));
+  EXPECT_DOUBLE_EQ(loaded.scale->m_per_px, 0.00846);
+}
+
+TEST(Site, RefusesUnknownKeysWithTheirLine) {
+  EXPECT_THAT(error_of(std::string(kMinimal) + "scael: 3\n"), HasSubstr("site.yaml:4: scael"));
+}
+
+TEST(Site, RefusesValuesOutOfRange) {
+  EXPECT_THAT(error_of(std::string(kMinimal) + "scale: {m_per_px: -1, method: option}\n"),
+              HasSubstr("scale.m_per_px"));
+  EXPECT_THAT(error_of(std::string(kMinimal) + "scale: {m_per_px: .nan, method: option}\n"),
+              HasSubstr("m_per_px"));
+}
+
+TEST(Site, SaysHowToScaleAnUnscaledSite) {
+  const TemporaryFolder folder;
+  folder.write("site.yaml", kMinimal);
+  EXPECT_NO_THROW((void)load_site(folder.path()));
+  try {
+    (void)load_scaled_site(folder.path());
+    FAIL() << "an unscaled site was accepted";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("madori scale"));
+  }
+}
+
+TEST(Site, SaysThatAFolderIsNoSite) {
+  const TemporaryFolder folder;
+  EXPECT_THROW((void)load_site(folder.path()), Error);
+}
+
+}  // namespace
+}  // namespace madori::mapping
