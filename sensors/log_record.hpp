@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "core/frames.hpp"
+#include "core/laser_scan.hpp"
+#include "core/odometry.hpp"
+#include "core/point_cloud.hpp"
+#include "core/transform2.hpp"
+
+namespace madori::sensors {
+
+/// One 2D scan of a log.
+struct ScanRecord {
+  std::string source;  ///< FLASER, RLASER, ROBOTLASER1, or the topic
+  LaserScan scan;      ///< Lidar frame
+  Transform2<Base, Lidar> base_from_lidar;
+  /// The vehicle's dead reckoning at the scan, where the log states it beside the scan.
+  std::optional<Transform2<Odom, Base>> odom_from_base;
+};
+
+/// One revolution of a 3D lidar of a log.
+struct CloudRecord {
+  std::string source;  ///< vlp16, or the topic
+  PointCloud<Lidar> cloud;
+};
+
+using LogRecord = std::variant<OdometryReading, ScanRecord, CloudRecord>;
+
+[[nodiscard]] inline Stamp stamp_of(const LogRecord& record) {
+  if (const auto* scan = std::get_if<ScanRecord>(&record)) return scan->scan.stamp;
+  if (const auto* cloud = std::get_if<CloudRecord>(&record)) return cloud->cloud.stamp;
+  return std::get<OdometryReading>(record).stamp;
+}
+
+/// A log, read record by record; a log of any length needs the memory of a few records.
+class LogReader {
+ public:
+  LogReader() = default;
+  LogReader(const LogReader&) = delete;
+  LogReader& operator=(const LogReader&) = delete;
+  virtual ~LogReader() = default;
+
+  /// The next record, nothing at the end. Throws Error with the place in the file where the log is damaged.
+  [[nodiscard]] virtual std::optional<LogRecord> next() = 0;
+};
+
+}  // namespace madori::sensors
