@@ -1,0 +1,125 @@
+#include "mapping/drawing/raster/image_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace madori::mapping {
+namespace {
+
+constexpr double kInch = 0.0254;
+
+/// Bytes read as integers of either order; reading past the end gives zero.
+class Reader {
+ public:
+  Reader(std::span<const std::uint8_t> bytes, bool big_endian) : bytes_(bytes), big_(big_endian) {}
+
+  [[nodiscard]] std::uint32_t integer(std::size_t at, std::size_t count) const {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t where = at + (big_ ? i : count - 1 - i);
+      value = value << 8U | (where < bytes_.size() ? bytes_[where] : 0U);
+    }
+    return value;
+  }
+  [[nodiscard]] std::uint32_t u16(std::size_t at) const { return integer(at, 2); }
+  [[nodiscard]] std::uint32_t u32(std::size_t at) const { return integer(at, 4); }
+  [[nodiscard]] std::size_t size() const { return bytes_.size(); }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  bool big_;
+};
+
+template <std::size_t N>
+bool starts_with(std::span<const std::uint8_t> bytes, const std::array<std::uint8_t, N>& magic) {
+  return bytes.size() >= N && std::equal(magic.begin(), magic.end(), bytes.begin());
+}
+
+ImageHeader png(std::span<const std::uint8_t> bytes) {
+  const Reader read(bytes, true);
+  ImageHeader header{ImageFormat::Png, read.u32(16), read.u32(20), 0};
+  constexpr std::uint32_t kPhys = 0x70485973, kData = 0x49444154;
+  for (std::size_t at = 8; at + 12 <= read.size();) {
+    const std::uint32_t type = read.u32(at + 4);
+    if (type == kData) break;
+    if (type == kPhys && read.integer(at + 16, 1) == 1) header.dpi = read.u32(at + 8) * kInch;
+    at += 12 + static_cast<std::size_t>(read.u32(at));
+  }
+  return header;
+}
+
+double jfif_dpi(const Reader& read, std::size_t at) {
+  if (read.u32(at + 4) != 0x4A464946) return 0;  // "JFIF"
+  const std::uint32_t unit = read.integer(at + 11, 1);
+  return unit == 1 ? read.u16(at + 12) : unit == 2 ? read.u16(at + 12) * 2.54 : 0;
+}
+
+ImageHeader jpeg(std::span<const std::uint8_t> bytes) {
+  const Reader read(bytes, true);
+  ImageHeader header{ImageFormat::Jpeg, 0, 0, 0};
+  for (std::size_t at = 2; at + 9 <= read.size() && read.integer(at, 1) == 0xFF;) {
+    const std::uint32_t marker = read.integer(at + 1, 1);
+    if (marker == 0xE0) header.dpi = jfif_dpi(read, at);
+    const bool frame = marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (frame) {
+      header.height_px = read.u16(at + 5);
+      header.width_px = read.u16(at + 7);
+      break;
+    }
+    at += marker == 0xFF ? 1 : 2 + std::max<std::size_t>(2, read.u16(at + 2));
+  }
+  return header;
+}
+
+ImageHeader tiff(std::span<const std::uint8_t> bytes) {
+  const Reader read(bytes, bytes[0] == 'M');
+  ImageHeader header{ImageFormat::Tiff, 0, 0, 0};
+  const std::size_t directory = read.u32(4);
+  double resolution = 0;
+  std::uint32_t unit = 2;
+  for (std::size_t i = 0; i < read.u16(directory); ++i) {
+    const std::size_t at = directory + 2 + 12 * i;
+    const std::uint32_t value = read.u16(at + 2) == 3 ? read.u16(at + 8) : read.u32(at + 8);
+    switch (read.u16(at)) {
+      case 256:
+        header.width_px = value;
+        break;
+      case 257:
+        header.height_px = value;
+        break;
+      case 282:
+        resolution = read.u32(value) / std::max(1.0, 1.0 * read.u32(std::size_t{value} + 4));
+        break;
+      case 296:
+        unit = value;
+        break;
+      default:
+        break;
+    }
+  }
+  header.dpi = unit == 2 ? resolution : unit == 3 ? resolution * 2.54 : 0;
+  return header;
+}
+
+ImageHeader bmp(std::span<const std::uint8_t> bytes) {
+  const Reader read(bytes, false);
+  if (read.u32(14) == 12) return {ImageFormat::Bmp, read.u16(18), read.u16(20), 0};
+  const std::int64_t height = static_cast<std::int32_t>(read.u32(22));  // negative: top-down
+  return {ImageFormat::Bmp, read.u32(18), height < 0 ? -height : height, read.u32(38) * kInch};
+}
+
+}  // namespace
+
+std::optional<ImageHeader> read_image_header(std::span<const std::uint8_t> bytes) {
+  using Four = std::array<std::uint8_t, 4>;
+  if (starts_with(bytes, std::array<std::uint8_t, 8>{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}))
+    return png(bytes);
+  if (starts_with(bytes, std::array<std::uint8_t, 3>{0xFF, 0xD8, 0xFF})) return jpeg(bytes);
+  if (starts_with(bytes, Four{'I', 'I', 42, 0}) || starts_with(bytes, Four{'M', 'M', 0, 42}))
+    return tiff(bytes);
+  if (starts_with(bytes, std::array<std::uint8_t, 2>{'B', 'M'}) && bytes.size() >= 26) return bmp(bytes);
+  return std::nullopt;
+}
+
+}  // namespace madori::mapping

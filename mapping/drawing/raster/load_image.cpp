@@ -1,0 +1,97 @@
+#include "mapping/drawing/raster/load_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "core/result.hpp"
+#include "mapping/drawing/raster/image_header.hpp"
+
+namespace madori::mapping {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr auto kFormats = "give a PNG, JPEG, TIFF or BMP picture";
+
+std::vector<std::uint8_t> read_bytes(const fs::path& file) {
+  std::error_code error;
+  const auto status = fs::status(file, error);
+  if (!fs::exists(status)) throw Error(file.string(), "there is no such file", "check the path");
+  if (fs::is_directory(status)) throw Error(file.string(), "is a folder", "name the drawing inside it");
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const auto size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
+  if (size < 0) throw Error(file.string(), "cannot be read", "check its permissions");
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+  stream.seekg(0);
+  stream.read(reinterpret_cast<char*>(bytes.data()), size);
+  if (!stream) throw Error(file.string(), "cannot be read to its end", "check the disk");
+  return bytes;
+}
+
+ImageHeader checked_header(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
+  if (bytes.empty()) throw Error(file.string(), "is empty", kFormats);
+  const auto header = read_image_header(bytes);
+  if (!header) throw Error(file.string(), "is not an image that Madori reads", kFormats);
+  if (header->width_px <= 0 || header->height_px <= 0)
+    throw Error(file.string(), "has no pixels or is cut off", "export it again");
+  const double megapixels =
+      static_cast<double>(header->width_px) * static_cast<double>(header->height_px) / 1e6;
+  if (megapixels > kMaxImageMegapixels)
+    throw Error(file.string(),
+                "has " + std::to_string(std::llround(megapixels)) + " megapixels, more than " +
+                    std::to_string(std::llround(kMaxImageMegapixels)),
+                "export it at a lower resolution (12 megapixels are plenty for a floor)");
+  return *header;
+}
+
+/// Palette, colour and depth are OpenCV's; only JPEG carries an EXIF orientation, which IMREAD_UNCHANGED
+/// skips.
+cv::Mat decode(const fs::path& file, const std::vector<std::uint8_t>& bytes, ImageFormat format) {
+  const int flags = format == ImageFormat::Jpeg ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
+  cv::Mat picture;
+  try {
+    picture = cv::imdecode(bytes, flags);
+  } catch (const cv::Exception&) {
+    picture.release();
+  }
+  if (picture.empty()) throw Error(file.string(), "is damaged or cut off", "export it again");
+  return picture;
+}
+
+/// One row of any channel count and 8-bit depth to grey, its alpha composed on white.
+void compose_row(const cv::Mat& row, std::uint8_t* out) {
+  cv::Mat grey(1, row.cols, CV_8UC1, out);
+  if (row.channels() == 1) {
+    row.copyTo(grey);
+  } else {
+    cv::cvtColor(row, grey, row.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
+  }
+  if (row.channels() != 4) return;
+  const auto* bgra = row.ptr<std::uint8_t>();
+  for (int u = 0; u < row.cols; ++u) {
+    const int alpha = bgra[4 * u + 3];
+    if (alpha != 255) out[u] = static_cast<std::uint8_t>((out[u] * alpha + 255 * (255 - alpha) + 127) / 255);
+  }
+}
+
+}  // namespace
+
+GrayImage load_image(const fs::path& file) {
+  const auto bytes = read_bytes(file);
+  const ImageHeader header = checked_header(file, bytes);
+  const cv::Mat picture = decode(file, bytes, header.format);
+  GrayImage image{picture.cols, picture.rows, {}, header.dpi};
+  image.pixels.resize(picture.total());
+  const double to_8_bit = picture.depth() == CV_16U ? 1.0 / 257 : picture.depth() == CV_8U ? 1 : 255;
+  for (int v = 0; v < picture.rows; ++v) {
+    cv::Mat row = picture.row(v);
+    if (picture.depth() != CV_8U) row.convertTo(row, CV_8U, to_8_bit);
+    compose_row(row, &image.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(picture.cols)]);
+  }
+  return image;
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "mapping/drawing/gray_image.hpp"
+
+namespace madori::mapping {
+
+/// Larger pictures are refused before they are decoded.
+constexpr double kMaxImageMegapixels = 300;
+
+/// Reads PNG (grey, colour, palette, alpha; 1 to 16 bit), JPEG (its EXIF orientation applied), TIFF and BMP.
+/// Transparent becomes white. Throws Error naming the file and the mend: not a file, not readable, not an
+/// image, truncated, empty, too large.
+[[nodiscard]] GrayImage load_image(const std::filesystem::path& file);
+
+}  // namespace madori::mapping

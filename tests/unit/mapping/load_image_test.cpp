@@ -1,0 +1,97 @@
+// Pictures are written by OpenCV here and read by the importer.
+#include "mapping/drawing/raster/load_image.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/result.hpp"
+#include "mapping/drawing/raster/image_header.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace madori::mapping {
+namespace {
+
+using ::testing::HasSubstr;
+
+class LoadImage : public ::testing::Test {
+ protected:
+  std::filesystem::path write(const std::string& name, const cv::Mat& picture) {
+    const auto file = folder_.path() / name;
+    cv::imwrite(file.string(), picture);
+    return file;
+  }
+  std::filesystem::path write_text(const std::string& name, const std::string& text) {
+    std::ofstream(folder_.path() / name, std::ios::binary) << text;
+    return folder_.path() / name;
+  }
+  static std::string reason(const std::filesystem::path& file) {
+    try {
+      static_cast<void>(load_image(file));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(LoadImage, TransparentBecomesWhite) {
+  cv::Mat picture(2, 3, CV_8UC4, cv::Scalar(0, 0, 0, 0));
+  picture.at<cv::Vec4b>(1, 2) = {0, 0, 0, 255};
+  picture.at<cv::Vec4b>(0, 1) = {0, 0, 0, 128};
+  const GrayImage image = load_image(write("alpha.png", picture));
+  ASSERT_EQ(image.width_px, 3);
+  ASSERT_EQ(image.height_px, 2);
+  EXPECT_EQ(image.at(0, 0), 255);
+  EXPECT_EQ(image.at(2, 1), 0);
+  EXPECT_NEAR(image.at(1, 0), 127, 1);
+}
+
+TEST_F(LoadImage, EveryDepthAndFormat) {
+  cv::Mat picture(4, 4, CV_8UC1, cv::Scalar(200));
+  picture.at<std::uint8_t>(2, 1) = 40;
+  for (const char* name : {"grey.png", "grey.tiff", "grey.bmp"}) {
+    const GrayImage image = load_image(write(name, picture));
+    EXPECT_EQ(image.at(1, 2), 40) << name;
+    EXPECT_EQ(image.at(2, 1), 200) << name;
+  }
+  cv::Mat deep;
+  picture.convertTo(deep, CV_16U, 257);
+  EXPECT_EQ(load_image(write("deep.png", deep)).at(1, 2), 40);
+  EXPECT_EQ(load_image(write("deep.tiff", deep)).at(1, 2), 40);
+  std::vector<int> one_bit{cv::IMWRITE_PNG_BILEVEL, 1};
+  cv::Mat bilevel = picture > 100;
+  cv::imwrite((folder_.path() / "bit.png").string(), bilevel, one_bit);
+  EXPECT_EQ(load_image(folder_.path() / "bit.png").at(1, 2), 0);
+  EXPECT_EQ(load_image(folder_.path() / "bit.png").at(0, 0), 255);
+}
+
+TEST_F(LoadImage, BadInputIsNamedWithItsMend) {
+  EXPECT_THAT(reason(folder_.path() / "absent.png"), HasSubstr("no such file"));
+  EXPECT_THAT(reason(folder_.path()), HasSubstr("is a folder"));
+  EXPECT_THAT(reason(write_text("empty.png", "")), HasSubstr("is empty"));
+  EXPECT_THAT(reason(write_text("text.png", "this is no picture at all")), HasSubstr("not an image"));
+  const auto good = write("good.png", cv::Mat(300, 300, CV_8UC1, cv::Scalar(7)));
+  std::filesystem::resize_file(good, std::filesystem::file_size(good) / 2);
+  EXPECT_THAT(reason(good), HasSubstr("damaged or cut off"));
+}
+
+TEST_F(LoadImage, AGigapixelIsRefusedBeforeItIsDecoded) {
+  std::string header("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+  header += std::string("\0\0\x80\0\0\0\x80\0\x01\0\0\0\0", 13);  // 32768 x 32768, one bit
+  EXPECT_THAT(reason(write_text("huge.png", header)), HasSubstr("1074 megapixels"));
+}
+
+TEST(ImageHeader, TruncatedBytesAreNeverReadPastTheirEnd) {
+  const std::vector<std::uint8_t> tiff{'I', 'I', 42, 0, 0xFF, 0xFF, 0xFF, 0x7F};
+  const auto header = read_image_header(tiff);
+  ASSERT_TRUE(header);
+  EXPECT_EQ(header->width_px, 0);
+  EXPECT_FALSE(read_image_header({}));
+}
+
+}  // namespace
+}  // namespace madori::mapping
