@@ -1,0 +1,169 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/json_output.hpp"
+#include "app/route_tools.hpp"
+#include "core/result.hpp"
+#include "mapping/site/atomic_file.hpp"
+#include "mapping/site/site.hpp"
+#include "mapping/wall_map/wall.hpp"
+#include "planning/route_graph/route_check.hpp"
+#include "planning/route_graph/route_csv.hpp"
+#include "planning/route_graph/route_search.hpp"
+
+namespace madori::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct RouteArguments {
+  std::string site;
+  std::string from;
+  std::string to;
+  std::string metric = "hops";
+  double spacing_m = 0.1;
+  std::string out;
+  std::string json_file;
+  bool check = false;
+  bool symmetric = false;
+};
+
+void print_findings(const std::vector<planning::RouteFinding>& findings) {
+  for (const auto& finding : findings)
+    std::fprintf(stderr, "%s: %s\n", finding.severity == planning::Severity::Error ? "error" : "warning",
+                 finding.text().c_str());
+}
+
+json findings_json(const std::vector<planning::RouteFinding>& findings) {
+  json list = json::array();
+  for (const auto& f : findings)
+    list.push_back({{"severity", f.severity == planning::Severity::Error ? "error" : "warning"},
+                    {"file", f.file},
+                    {"line", f.line},
+                    {"message", f.message}});
+  return list;
+}
+
+/// The text goes to stderr where stdout carries the JSON.
+std::FILE* text_stream(const RouteArguments& arguments) {
+  return arguments.json_file == "-" ? stderr : stdout;
+}
+
+void check(const RouteArguments& arguments, const planning::ParsedRoutes& routes) {
+  const fs::path folder(arguments.site);
+  planning::RouteCheckOptions options;
+  options.tree_file = (folder / "routes/tree.csv").string();
+  options.path_file = (folder / "routes/path.csv").string();
+  std::vector<Segment2<Map>> walls;
+  if (fs::exists(folder / "site.yaml")) {
+    options.half_width_m = mapping::load_scaled_site(folder).vehicle.width_m / 2.0;
+    for (const auto& wall : mapping::load_walls(folder / "walls.csv")) walls.push_back(wall.segment);
+  }
+  std::vector<planning::RouteFinding> findings = routes.findings;
+  for (auto& finding : planning::check_routes(routes.graph, walls, options))
+    findings.push_back(std::move(finding));
+  print_findings(findings);
+  const auto errors = std::count_if(findings.begin(), findings.end(),
+                                    [](const auto& f) { return f.severity == planning::Severity::Error; });
+  write_json(arguments.json_file, {{"findings", findings_json(findings)}, {"errors", errors}});
+  if (errors > 0)
+    throw Error((folder / "routes").string(), std::to_string(errors) + " fault(s) in the routes",
+                "mend the lines above");
+  std::fprintf(text_stream(arguments), "routes are good: %zu nodes, %zu legs, %zu drawn walls checked\n",
+               routes.graph.nodes().size(), routes.graph.legs().size(), walls.size());
+}
+
+/// Writes tree.csv two-way and says which legs were added.
+planning::RouteGraph make_symmetric(const RouteArguments& arguments, const planning::RouteGraph& graph) {
+  const auto added = graph.one_way_legs();
+  planning::RouteGraph both = graph.symmetric();
+  if (added.empty()) return both;
+  const fs::path file = fs::path(arguments.site) / "routes/tree.csv";
+  mapping::write_file_atomically(file, planning::tree_csv(both));
+  for (const auto& leg : added)
+    std::fprintf(text_stream(arguments), "added the way back %d -> %d\n", graph.nodes()[leg.to].id,
+                 graph.nodes()[leg.from].id);
+  return both;
+}
+
+std::size_t node_named(const planning::RouteGraph& graph, const std::string& name) {
+  if (const auto node = graph.find(name)) return *node;
+  throw Error("node " + name, "is not in the routes", "madori route DIR --check lists what the files hold");
+}
+
+void search(const RouteArguments& arguments, const planning::RouteGraph& graph) {
+  const std::size_t from = node_named(graph, arguments.from);
+  const std::size_t to = node_named(graph, arguments.to);
+  const auto metric =
+      arguments.metric == "hops" ? planning::RouteMetric::Hops : planning::RouteMetric::Metres;
+  const auto route = planning::find_route(graph, from, to, metric);
+  if (!route) {
+    const auto one_way =
+        planning::one_way_warnings(graph, (fs::path(arguments.site) / "routes/tree.csv").string());
+    print_findings(one_way);
+    throw Error(arguments.site, route.reason(),
+                one_way.empty() ? "connect them in routes/tree.csv"
+                                : "if the one-way legs are meant both ways: --symmetric");
+  }
+  planning::WaypointOptions options;
+  options.spacing_m = arguments.spacing_m;
+  const auto path = route_path(graph, route.value(), options);
+  if (!path && from != to) throw Error(arguments.site, path.reason(), "move the nodes apart");
+  std::string names;
+  json ids = json::array();
+  for (const std::size_t node : route.value().nodes) {
+    names += (names.empty() ? "" : " -> ") + std::to_string(graph.nodes()[node].id);
+    ids.push_back(graph.nodes()[node].id);
+  }
+  const std::size_t points = path ? path.value().points.size() : 0;
+  std::fprintf(text_stream(arguments), "%s\n%zu legs, %.2f m, %zu waypoints\n", names.c_str(),
+               route.value().nodes.size() - 1, route.value().length_m, points);
+  if (!arguments.out.empty())
+    mapping::write_file_atomically(arguments.out, planning::waypoints_csv(path ? path.value() : Path{}));
+  write_json(arguments.json_file, {{"nodes", ids},
+                                   {"legs", route.value().nodes.size() - 1},
+                                   {"length_m", route.value().length_m},
+                                   {"metric", arguments.metric},
+                                   {"waypoints", points}});
+}
+
+void run(const RouteArguments& arguments) {
+  const auto routes = planning::read_routes(fs::path(arguments.site) / "routes");
+  if (arguments.check) return check(arguments, routes);
+  print_findings(routes.findings);
+  if (!routes.good()) throw Error(arguments.site, "the routes have faults", "mend the lines above");
+  const auto graph = arguments.symmetric ? make_symmetric(arguments, routes.graph) : routes.graph;
+  if (arguments.from.empty() != arguments.to.empty())
+    throw CLI::RequiredError("--from and --to stand together");
+  if (!arguments.to.empty()) return search(arguments, graph);
+  if (!arguments.symmetric) throw CLI::RequiredError("--from and --to, --check, or --symmetric");
+}
+
+}  // namespace
+
+void add_route(CLI::App& app) {
+  auto arguments = std::make_shared<RouteArguments>();
+  auto* command = app.add_subcommand("route", "find a way over the drawn routes, or check them");
+  command->add_option("DIR", arguments->site, "site folder")->required();
+  command->add_option("--from", arguments->from, "node ID or name");
+  command->add_option("--to", arguments->to, "node ID or name");
+  command->add_option("--metric", arguments->metric, "hops: fewest legs; metres: shortest way")
+      ->check(CLI::IsMember({"hops", "metres"}))
+      ->capture_default_str();
+  command->add_option("--spacing", arguments->spacing_m, "metres between waypoints")
+      ->check(CLI::Range(0.01, 10.0))
+      ->capture_default_str();
+  command->add_option("--out", arguments->out, "waypoints as CSV (ID,x,y)");
+  command->add_option("--json", arguments->json_file, "the answer as JSON, - for stdout");
+  command->add_flag("--check", arguments->check, "find faults in the routes, each with file and line");
+  command->add_flag("--symmetric", arguments->symmetric, "make every leg two-way and rewrite tree.csv");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace madori::app

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/path.hpp"
+#include "core/result.hpp"
+#include "planning/route_graph/route_search.hpp"
+#include "planning/waypoints/waypoints.hpp"
+
+namespace madori::app {
+
+/// The waypoints of a route; a leg's speed limit is the smaller one of its ends, the final heading that of
+/// the last node. Fails where the route is a single node.
+[[nodiscard]] Result<Path> route_path(const planning::RouteGraph& graph, const planning::Route& route,
+                                      const planning::WaypointOptions& options);
+
+}  // namespace madori::app

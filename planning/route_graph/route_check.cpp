@@ -1,0 +1,96 @@
+#include "planning/route_graph/route_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+
+#include "core/segment_distance.hpp"
+#include "planning/route_graph/route_search.hpp"
+
+namespace madori::planning {
+namespace {
+
+constexpr double kSameSpot_m = 0.05;
+
+std::string leg_name(const RouteGraph& graph, const RouteLeg& leg) {
+  return "leg " + std::to_string(graph.nodes()[leg.from].id) + " -> " +
+         std::to_string(graph.nodes()[leg.to].id);
+}
+
+std::string metres(double value_m) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.2f m", value_m);
+  return buffer.data();
+}
+
+/// Each leg once, also where it is two-way.
+bool is_second_direction(const RouteGraph& graph, const RouteLeg& leg) {
+  return leg.to < leg.from && graph.has_leg(leg.to, leg.from);
+}
+
+void check_walls(const RouteGraph& graph, const std::vector<Segment2<Map>>& walls,
+                 const RouteCheckOptions& options, std::vector<RouteFinding>& findings) {
+  for (const RouteLeg& leg : graph.legs()) {
+    if (is_second_direction(graph, leg)) continue;
+    const Segment2<Map> way{graph.nodes()[leg.from].position, graph.nodes()[leg.to].position};
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const auto& wall : walls) nearest_m = std::min(nearest_m, distance_m(way, wall));
+    if (nearest_m == 0.0)
+      findings.push_back(
+          {Severity::Error, options.tree_file, leg.line,
+           leg_name(graph, leg) + " goes through a drawn wall - move a node or erase the wall"});
+    else if (nearest_m < options.half_width_m)
+      findings.push_back({Severity::Warning, options.tree_file, leg.line,
+                          leg_name(graph, leg) + " passes a drawn wall at " + metres(nearest_m) +
+                              ", less than half the vehicle's width of " + metres(options.half_width_m)});
+  }
+}
+
+void check_reachability(const RouteGraph& graph, const RouteCheckOptions& options,
+                        std::vector<RouteFinding>& findings) {
+  if (graph.nodes().empty()) return;
+  const auto [component, largest] = strong_components(graph);
+  const auto hub =
+      static_cast<std::size_t>(std::find(component.begin(), component.end(), largest) - component.begin());
+  const auto reached = reachable_from(graph, hub);
+  for (const std::size_t station : graph.stations()) {
+    if (component[station] == largest) continue;
+    const RouteNode& node = graph.nodes()[station];
+    const std::string name = "node " + std::to_string(node.id);
+    findings.push_back({Severity::Error, options.path_file, node.line,
+                        reached[station] ? "from " + name + " no way leads back to the other nodes"
+                                         : name + " cannot be reached from the other nodes"});
+  }
+}
+
+void check_spots(const RouteGraph& graph, const RouteCheckOptions& options,
+                 std::vector<RouteFinding>& findings) {
+  for (const RouteLeg& leg : graph.legs())
+    if (leg.length_m < kSameSpot_m && !is_second_direction(graph, leg))
+      findings.push_back({Severity::Warning, options.path_file, graph.nodes()[leg.to].line,
+                          leg_name(graph, leg) + " is only " + metres(leg.length_m) + " long"});
+}
+
+}  // namespace
+
+std::vector<RouteFinding> one_way_warnings(const RouteGraph& graph, const std::string& tree_file) {
+  std::vector<RouteFinding> findings;
+  for (const RouteLeg& leg : graph.one_way_legs())
+    findings.push_back({Severity::Warning, tree_file, leg.line,
+                        leg_name(graph, leg) + " is one-way: node " +
+                            std::to_string(graph.nodes()[leg.to].id) + " does not list node " +
+                            std::to_string(graph.nodes()[leg.from].id)});
+  return findings;
+}
+
+std::vector<RouteFinding> check_routes(const RouteGraph& graph, const std::vector<Segment2<Map>>& walls,
+                                       const RouteCheckOptions& options) {
+  std::vector<RouteFinding> findings = one_way_warnings(graph, options.tree_file);
+  check_walls(graph, walls, options, findings);
+  check_reachability(graph, options, findings);
+  check_spots(graph, options, findings);
+  return findings;
+}
+
+}  // namespace madori::planning

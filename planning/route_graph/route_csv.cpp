@@ -1,0 +1,243 @@
+#include "planning/route_graph/route_csv.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "core/angle.hpp"
+#include "core/result.hpp"
+#include "planning/route_graph/csv_rows.hpp"
+
+namespace madori::planning {
+namespace {
+
+constexpr double kFarthest_m = 1e6;
+
+/// Collects the faults of one file.
+class Findings {
+ public:
+  Findings(std::string file, std::vector<RouteFinding>& findings)
+      : file_(std::move(file)), findings_(findings) {}
+  void error(int line, std::string message) {
+    findings_.push_back({Severity::Error, file_, line, std::move(message)});
+  }
+  void warning(int line, std::string message) {
+    findings_.push_back({Severity::Warning, file_, line, std::move(message)});
+  }
+
+ private:
+  std::string file_;
+  std::vector<RouteFinding>& findings_;
+};
+
+/// Column names of path.csv; the published order where the file has no header.
+std::map<std::string, std::size_t> take_header(std::vector<CsvRow>& rows, Findings& findings) {
+  static const std::set<std::string> known{"ID",      "x",           "y",         "name",
+                                           "station", "heading_deg", "speed_mps", "action"};
+  std::map<std::string, std::size_t> columns{{"ID", 0}, {"x", 1}, {"y", 2}};
+  if (rows.empty() || csv_integer(rows.front().fields.front())) return columns;
+  columns.clear();
+  const CsvRow& header = rows.front();
+  for (std::size_t i = 0; i < header.fields.size(); ++i) {
+    if (!known.contains(header.fields[i]))
+      findings.error(header.line,
+                     "column \"" + header.fields[i] +
+                         "\" is not known - use ID, x, y, name, station, heading_deg, speed_mps, action");
+    columns.emplace(header.fields[i], i);
+  }
+  for (const char* needed : {"ID", "x", "y"})
+    if (!columns.contains(needed))
+      findings.error(header.line, std::string("column ") + needed + " is missing");
+  rows.erase(rows.begin());
+  return columns;
+}
+
+/// The fields of one row of path.csv by column name.
+class NodeRow {
+ public:
+  NodeRow(const CsvRow& row, const std::map<std::string, std::size_t>& columns, Findings& findings)
+      : row_(row), columns_(columns), findings_(findings) {}
+
+  [[nodiscard]] std::string text(const std::string& column) const {
+    const auto found = columns_.find(column);
+    return found == columns_.end() || found->second >= row_.fields.size() ? "" : row_.fields[found->second];
+  }
+  std::optional<double> number(const std::string& column, double low, double high) {
+    const auto value = csv_number(text(column));
+    if (value && *value >= low && *value <= high) return value;
+    std::ostringstream message;
+    message << column << " \"" << text(column) << "\" must be a number from " << low << " to " << high;
+    fail(message.str());
+    return std::nullopt;
+  }
+  std::optional<double> optional_number(const std::string& column, double low, double high) {
+    return text(column).empty() ? std::nullopt : number(column, low, high);
+  }
+  void fail(const std::string& message) {
+    findings_.error(row_.line, message);
+    good_ = false;
+  }
+  [[nodiscard]] bool good() const { return good_; }
+
+ private:
+  const CsvRow& row_;
+  const std::map<std::string, std::size_t>& columns_;
+  Findings& findings_;
+  bool good_ = true;
+};
+
+NodeAction read_action(NodeRow& row) {
+  const std::string text = row.text("action");
+  if (text.empty()) return NodeAction::None;
+  for (const auto& [name, action] : kNodeActions)
+    if (text == name) return action;
+  row.fail("action \"" + text + "\" is not known - use load, unload, door or lift");
+  return NodeAction::None;
+}
+
+bool read_station(NodeRow& row) {
+  const std::string text = row.text("station");
+  if (text == "1" || text == "yes" || text == "true") return true;
+  if (!text.empty() && text != "0" && text != "no" && text != "false")
+    row.fail("station \"" + text + "\" must be 1 or 0");
+  return false;
+}
+
+std::optional<RouteNode> read_node(const CsvRow& csv, const std::map<std::string, std::size_t>& columns,
+                                   Findings& findings) {
+  NodeRow row(csv, columns, findings);
+  RouteNode node;
+  const auto id = csv_integer(row.text("ID"));
+  if (!id || *id < 0) row.fail("ID \"" + row.text("ID") + "\" must be a whole number from 0");
+  node.id = id.value_or(0);
+  node.position.x_m = row.number("x", -kFarthest_m, kFarthest_m).value_or(0.0);
+  node.position.y_m = row.number("y", -kFarthest_m, kFarthest_m).value_or(0.0);
+  node.name = row.text("name");
+  node.station = read_station(row);
+  if (const auto heading = row.optional_number("heading_deg", -360.0, 360.0))
+    node.heading_rad = to_rad(*heading);
+  node.speed_limit_mps = row.optional_number("speed_mps", 0.01, 5.0);
+  node.action = read_action(row);
+  node.line = csv.line;
+  if (!row.good()) return std::nullopt;
+  return node;
+}
+
+std::vector<RouteNode> read_nodes(std::string_view text, Findings findings) {
+  std::vector<CsvRow> rows = csv_rows(text);
+  const auto columns = take_header(rows, findings);
+  std::vector<RouteNode> nodes;
+  std::map<int, int> line_of;
+  for (const CsvRow& row : rows) {
+    auto node = read_node(row, columns, findings);
+    if (!node) continue;
+    const auto [first, fresh] = line_of.emplace(node->id, node->line);
+    if (fresh)
+      nodes.push_back(std::move(*node));
+    else
+      findings.error(row.line, "ID " + std::to_string(node->id) + " stands already on line " +
+                                   std::to_string(first->second) + " - give one of them another ID");
+  }
+  if (nodes.empty()) findings.error(0, "holds no node");
+  return nodes;
+}
+
+/// Legs of one row `ID,EDA`.
+void read_neighbours(const CsvRow& row, const std::map<int, std::size_t>& index, Findings& findings,
+                     std::vector<RouteLeg>& legs) {
+  const auto node_of = [&](const std::string& text) -> std::optional<std::size_t> {
+    const auto id = csv_integer(text);
+    const auto found = id ? index.find(*id) : index.end();
+    if (found != index.end()) return found->second;
+    findings.error(row.line,
+                   id ? "node " + text + " is not in path.csv - add its position there or remove it here"
+                      : "\"" + text + "\" is no node ID - separate neighbours by spaces");
+    return std::nullopt;
+  };
+  const auto from = node_of(row.fields.front());
+  if (!from) return;
+  if (row.fields.size() > 2)
+    findings.error(row.line, "has more than two columns - separate neighbours by spaces");
+  std::istringstream neighbours(row.fields.size() > 1 ? row.fields[1] : "");
+  std::set<std::size_t> seen;
+  for (std::string word; neighbours >> word;) {
+    const auto to = node_of(word);
+    if (!to) continue;
+    if (*to == *from)
+      findings.warning(row.line, "node " + word + " is its own neighbour - left out");
+    else if (!seen.insert(*to).second)
+      findings.warning(row.line, "neighbour " + word + " stands twice - counted once");
+    else
+      legs.push_back({*from, *to, 0.0, row.line});
+  }
+}
+
+std::vector<RouteLeg> read_legs(std::string_view text, const std::vector<RouteNode>& nodes,
+                                Findings findings) {
+  std::map<int, std::size_t> index;
+  for (std::size_t i = 0; i < nodes.size(); ++i) index.emplace(nodes[i].id, i);
+  std::vector<RouteLeg> legs;
+  std::map<int, int> line_of;
+  bool first = true;
+  for (const CsvRow& row : csv_rows(text)) {
+    const auto id = csv_integer(row.fields.front());
+    if (std::exchange(first, false) && !id) continue;  // the header
+    if (id) {
+      const auto [earlier, fresh] = line_of.emplace(*id, row.line);
+      if (!fresh) {
+        findings.error(row.line, "node " + std::to_string(*id) + " stands already on line " +
+                                     std::to_string(earlier->second) + " - join the two lines");
+        continue;
+      }
+    }
+    read_neighbours(row, index, findings, legs);
+  }
+  return legs;
+}
+
+std::string read_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw Error(file.string(), "cannot be opened",
+                "draw routes on the panel, or write both route files by hand");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+std::string RouteFinding::text() const {
+  return file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + message;
+}
+
+bool ParsedRoutes::good() const {
+  return std::none_of(findings.begin(), findings.end(),
+                      [](auto& f) { return f.severity == Severity::Error; });
+}
+
+ParsedRoutes parse_routes(std::string_view tree, std::string_view path, const std::string& tree_file,
+                          const std::string& path_file) {
+  ParsedRoutes parsed;
+  auto nodes = read_nodes(path, Findings(path_file, parsed.findings));
+  auto legs = read_legs(tree, nodes, Findings(tree_file, parsed.findings));
+  parsed.graph = RouteGraph(std::move(nodes), std::move(legs));
+  return parsed;
+}
+
+ParsedRoutes read_routes(const std::filesystem::path& folder) {
+  const auto tree = folder / "tree.csv";
+  const auto path = folder / "path.csv";
+  return parse_routes(read_file(tree), read_file(path), tree.string(), path.string());
+}
+
+RouteGraph load_routes(const std::filesystem::path& folder) {
+  ParsedRoutes parsed = read_routes(folder);
+  for (const RouteFinding& finding : parsed.findings)
+    if (finding.severity == Severity::Error) throw Error(finding.text());
+  return std::move(parsed.graph);
+}
+
+}  // namespace madori::planning
