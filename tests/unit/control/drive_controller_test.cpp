@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include "control/drive_link/controller.hpp"
+
+namespace madori::control::wire {
+namespace {
+
+/// A controller with a PC that sends and a clock that runs.
+class Bench {
+ public:
+  void send(bool enable, std::int32_t speed_uradps = 1'000'000) {
+    send_again(Command{++sequence_, enable, speed_uradps, speed_uradps});
+  }
+  void send_again(const Command& command) {
+    std::uint8_t frame[kMaxFrame];
+    const std::size_t size = encode(command, frame);
+    for (std::size_t i = 0; i < size; ++i) controller.receive(frame[i], now_us);
+    last = command;
+  }
+  void wait_ms(std::uint32_t duration_ms) {
+    for (std::uint32_t i = 0; i < duration_ms; ++i) controller.tick(inputs, now_us += 1000);
+  }
+  void start() {
+    wait_ms(1);
+    send(false);
+    send(true);
+  }
+
+  Controller controller;
+  ControllerInputs inputs;
+  Command last;
+  std::uint32_t now_us = 0xFFFFFF00U;  // the clock wraps at once
+
+ private:
+  std::uint16_t sequence_ = 0xFFFE;  // so does the number
+};
+
+TEST(DriveController, RunsOnlyAfterDisableThenEnable) {
+  Bench bench;
+  bench.wait_ms(1);
+  bench.send(true);
+  EXPECT_EQ(bench.controller.state(), DriveState::Idle);
+  EXPECT_EQ(bench.controller.left_uradps(), 0);
+  bench.send(false);
+  bench.send(true);
+  EXPECT_EQ(bench.controller.state(), DriveState::Running);
+  EXPECT_EQ(bench.controller.left_uradps(), 1'000'000);
+}
+
+TEST(DriveController, StopsByItselfAfter200msOfSilence) {
+  Bench bench;
+  bench.start();
+  bench.wait_ms(199);
+  EXPECT_EQ(bench.controller.state(), DriveState::Running);
+  bench.wait_ms(1);
+  EXPECT_EQ(bench.controller.state(), DriveState::WatchdogStop);
+  EXPECT_EQ(bench.controller.right_uradps(), 0);
+  EXPECT_TRUE(bench.controller.next_status().watchdog_expired);
+}
+
+TEST(DriveController, StaysStoppedWhenThePcComesBackWithItsOldOrder) {
+  Bench bench;
+  bench.start();
+  bench.wait_ms(300);
+  bench.send(true);
+  EXPECT_EQ(bench.controller.state(), DriveState::Idle);
+  bench.send(false);
+  bench.send(true);
+  EXPECT_EQ(bench.controller.state(), DriveState::Running);
+}
+
+TEST(DriveController, ARepeatedFrameIsNoSignOfLife) {
+  Bench bench;
+  bench.start();
+  for (int i = 0; i < 30; ++i) bench.wait_ms(10), bench.send_again(bench.last);
+  EXPECT_NE(bench.controller.state(), DriveState::Running);
+}
+
+TEST(DriveController, EveryCauseStopsAndIsHeld) {
+  struct Case {
+    ControllerInputs inputs;
+    DriveState state;
+  };
+  for (const auto& [inputs, state] :
+       {Case{{.emergency_stop = true}, DriveState::EmergencyStop},
+        Case{{.bumper = true}, DriveState::BumperStop}, Case{{.faults = kUndervoltage}, DriveState::Fault}}) {
+    Bench bench;
+    bench.start();
+    bench.inputs = inputs;
+    bench.wait_ms(1);
+    EXPECT_EQ(bench.controller.state(), state);
+    bench.send(false);
+    bench.send(true);
+    EXPECT_EQ(bench.controller.left_uradps(), 0);
+    bench.inputs = {};
+    bench.wait_ms(1);
+    bench.send(true);
+    EXPECT_EQ(bench.controller.state(), DriveState::Idle);
+    bench.send(false);
+    bench.send(true);
+    EXPECT_EQ(bench.controller.state(), DriveState::Running);
+  }
+}
+
+TEST(DriveController, CountsTurnsBothWays) {
+  Bench bench;
+  int counts = 0;
+  for (const int step : {4000, -4000}) {
+    for (int i = 0; i < 20; ++i) {
+      counts += step;
+      bench.inputs.left_angle = static_cast<std::uint16_t>(counts & (kCountsPerTurn - 1));
+      bench.wait_ms(1);
+      const Status status = bench.controller.next_status();
+      // The first tick only takes the reference: turns are counted from there.
+      ASSERT_EQ(status.left_turns * kCountsPerTurn + status.left_angle, counts);
+    }
+  }
+}
+
+TEST(DriveController, CountsDamagedFrames) {
+  Bench bench;
+  bench.start();
+  for (const std::uint8_t byte : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{0}})
+    bench.controller.receive(byte, bench.now_us);
+  for (int i = 0; i < 200; ++i) bench.controller.receive(7, bench.now_us);
+  bench.controller.receive(0, bench.now_us);
+  EXPECT_EQ(bench.controller.next_status().rejected_frames, 2);
+  EXPECT_EQ(bench.controller.state(), DriveState::Running);
+}
+
+}  // namespace
+}  // namespace madori::control::wire
