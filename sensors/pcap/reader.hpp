@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/stamp.hpp"
+#include "sensors/pcap/udp.hpp"
+
+namespace madori::sensors::pcap {
+
+/// A UDP packet of a capture. The bytes are valid until the next one is read.
+struct CapturedPacket {
+  Stamp captured{};
+  UdpPayload udp;
+};
+
+/// Reads .pcap and .pcapng files (libpcap), UDP over IPv4 only, in the order of the capture.
+class PcapReader {
+ public:
+  /// Throws Error when the file is no capture.
+  explicit PcapReader(const std::filesystem::path& file);
+  ~PcapReader();
+  PcapReader(const PcapReader&) = delete;
+  PcapReader& operator=(const PcapReader&) = delete;
+
+  /// Nothing at the end. A capture that was cut short ends there; truncated() tells.
+  [[nodiscard]] std::optional<CapturedPacket> next();
+  [[nodiscard]] bool truncated() const { return truncated_; }
+
+ private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+  bool truncated_ = false;
+};
+
+}  // namespace madori::sensors::pcap

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace madori::sensors::pcap {
+
+struct UdpPayload {
+  std::uint16_t source_port = 0;
+  std::uint16_t destination_port = 0;
+  std::span<const std::uint8_t> bytes;
+};
+
+/// The UDP payload of a captured link-layer frame. `link_type` is libpcap's DLT value: Ethernet (with VLAN
+/// tags), raw IP, BSD loopback, Linux "cooked" 1 and 2. Nothing for other traffic, IP fragments, and frames
+/// that the capture has cut short.
+[[nodiscard]] std::optional<UdpPayload> udp_payload(std::span<const std::uint8_t> frame, int link_type);
+
+}  // namespace madori::sensors::pcap
