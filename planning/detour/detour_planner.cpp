@@ -1,0 +1,103 @@
+#include "planning/detour/detour_planner.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace madori::planning {
+namespace {
+
+/// Points of the route at which a way through the free space may come back, nearest first.
+std::vector<std::size_t> rejoin_points(const DetourRequest& request, const CheckOptions& check) {
+  constexpr double kFirst_m = 0.4;
+  constexpr double kStep_m = 1.0;
+  constexpr std::size_t kMost = 3;
+  std::vector<std::size_t> points;
+  double wanted_m = check.vehicle.rear_m + check.ends_margin_m + kFirst_m;
+  double passed_m = 0.0;
+  const auto& path = request.path.points;
+  for (std::size_t i = request.check.last_blocked + 1; i < path.size() && points.size() < kMost; ++i) {
+    passed_m += distance_m(path[i - 1].position, path[i].position);
+    if (passed_m < wanted_m && i + 1 != path.size()) continue;
+    points.push_back(i);
+    wanted_m = passed_m + kStep_m;
+  }
+  return points;
+}
+
+Transform2<Map, Base> pose_at(const PathPoint& point) {
+  return {point.position.x_m, point.position.y_m, point.heading_rad};
+}
+
+}  // namespace
+
+DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls, const CheckOptions& check,
+                         const DetourOptions& options) {
+  DetourAnswer answer{request.id, std::nullopt, ""};
+  auto side =
+      side_detour(request.path, request.from, request.check, request.obstacles, walls, check, options.side);
+  if (side) {
+    answer.path = std::move(side).value().path;
+    return answer;
+  }
+  answer.reason = side.reason();
+  for (const std::size_t rejoin : rejoin_points(request, check)) {
+    const PathPoint& point = request.path.points[rejoin];
+    if (!is_free(pose_at(point), request.obstacles, walls, check)) continue;
+    const auto around = free_space_path(request.map_from_base, pose_at(point), request.obstacles, walls,
+                                        check, options.free_space);
+    if (!around) {
+      answer.reason = around.reason();
+      continue;
+    }
+    Path whole = around.value();
+    const std::size_t joined = whole.points.size();
+    whole.points.insert(whole.points.end(),
+                        request.path.points.begin() + static_cast<std::ptrdiff_t>(rejoin) + 1,
+                        request.path.points.end());
+    const PathCheck free = check_path(whole, 0, 1e3, request.obstacles, walls, check);
+    if (free.blocked() && free.first_blocked < joined) continue;
+    answer.path = std::move(whole);
+    return answer;
+  }
+  return answer;
+}
+
+DetourPlanner::DetourPlanner(std::shared_ptr<const WallGrid> walls, CheckOptions check, DetourOptions options)
+    : walls_(std::move(walls)), check_(check), options_(options), thread_([this] { run(); }) {}
+
+DetourPlanner::~DetourPlanner() {
+  {
+    const std::scoped_lock lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void DetourPlanner::submit(DetourRequest request) {
+  {
+    const std::scoped_lock lock(mutex_);
+    request_ = std::move(request);
+  }
+  wake_.notify_one();
+}
+
+std::optional<DetourAnswer> DetourPlanner::take() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(answer_, std::nullopt);
+}
+
+void DetourPlanner::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return stop_ || request_.has_value(); });
+    if (stop_) return;
+    const DetourRequest request = *std::exchange(request_, std::nullopt);
+    lock.unlock();
+    DetourAnswer answer = plan_detour(request, *walls_, check_, options_);
+    lock.lock();
+    answer_ = std::move(answer);
+  }
+}
+
+}  // namespace madori::planning

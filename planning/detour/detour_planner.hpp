@@ -1,0 +1,68 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "planning/detour/free_space.hpp"
+#include "planning/detour/side_detour.hpp"
+
+namespace madori::planning {
+
+/// What a way around is asked for with. Everything is copied, so that the cycle goes on meanwhile.
+struct DetourRequest {
+  std::uint32_t id = 0;
+  Path path;
+  std::size_t from = 0;  ///< the vehicle's place on the path
+  Transform2<Map, Base> map_from_base;
+  PathCheck check;
+  std::vector<Point2<Map>> obstacles;
+};
+
+struct DetourAnswer {
+  std::uint32_t id = 0;
+  std::optional<Path> path;  ///< from the vehicle to the end of the route; nothing where no way was found
+  std::string reason;        ///< then
+};
+
+struct DetourOptions {
+  SideDetourOptions side;
+  FreeSpaceOptions free_space;
+};
+
+/// First beside the route, then through the free space. Always ends: the search is bounded.
+[[nodiscard]] DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls,
+                                       const CheckOptions& check, const DetourOptions& options);
+
+/// Runs plan_detour() on a thread of its own, one request at a time.
+class DetourPlanner {
+ public:
+  DetourPlanner(std::shared_ptr<const WallGrid> walls, CheckOptions check, DetourOptions options);
+  ~DetourPlanner();
+  DetourPlanner(const DetourPlanner&) = delete;
+  DetourPlanner& operator=(const DetourPlanner&) = delete;
+
+  /// Replaces a request that has not begun.
+  void submit(DetourRequest request);
+  /// The answer once it is there; never waits.
+  [[nodiscard]] std::optional<DetourAnswer> take();
+
+ private:
+  void run();
+
+  std::shared_ptr<const WallGrid> walls_;
+  CheckOptions check_;
+  DetourOptions options_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<DetourRequest> request_;
+  std::optional<DetourAnswer> answer_;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace madori::planning

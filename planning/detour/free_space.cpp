@@ -1,0 +1,98 @@
+#include "planning/detour/free_space.hpp"
+
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/base/spaces/DubinsStateSpace.h>
+#include <ompl/geometric/PathSimplifier.h>
+#include <ompl/geometric/SimpleSetup.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <mutex>
+
+#include "planning/detour/side_detour.hpp"
+
+namespace madori::planning {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+using Space = ob::DubinsStateSpace;
+
+Transform2<Map, Base> pose_of(const ob::State* state) {
+  const auto* s = state->as<ob::SE2StateSpace::StateType>();
+  return {s->getX(), s->getY(), s->getYaw()};
+}
+
+void set_state(ob::ScopedState<Space>& state, const Transform2<Map, Base>& pose) {
+  state->setX(pose.x_m());
+  state->setY(pose.y_m());
+  state->setYaw(pose.yaw_rad());
+}
+
+ob::RealVectorBounds bounds_around(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b,
+                                   double room_m) {
+  ob::RealVectorBounds bounds(2);
+  bounds.setLow(0, std::min(a.x_m(), b.x_m()) - room_m);
+  bounds.setHigh(0, std::max(a.x_m(), b.x_m()) + room_m);
+  bounds.setLow(1, std::min(a.y_m(), b.y_m()) - room_m);
+  bounds.setHigh(1, std::max(a.y_m(), b.y_m()) + room_m);
+  return bounds;
+}
+
+Path to_path(og::PathGeometric& found, const FreeSpaceOptions& options) {
+  const double length_m = found.length();
+  found.interpolate(std::max(2U, static_cast<unsigned>(std::lround(length_m / options.spacing_m)) + 1));
+  Path path;
+  for (const ob::State* state : found.getStates()) {
+    const auto pose = pose_of(state);
+    path.points.push_back({pose.translation(), pose.yaw_rad(), 0.0, options.speed_mps});
+  }
+  // Headings are those of the curve already; only the curvature is missing.
+  for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
+    const PathPoint& a = path.points[i - 1];
+    const PathPoint& b = path.points[i + 1];
+    const double way_m = distance_m(a.position, b.position);
+    if (way_m > 1e-6) path.points[i].curvature_per_m = wrap_angle(b.heading_rad - a.heading_rad) / way_m;
+  }
+  return path;
+}
+
+}  // namespace
+
+Result<Path> free_space_path(const Transform2<Map, Base>& start, const Transform2<Map, Base>& goal,
+                             const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
+                             const CheckOptions& check, const FreeSpaceOptions& options) {
+  static std::mutex one_at_a_time;
+  const std::scoped_lock lock(one_at_a_time);
+  ompl::msg::noOutputHandler();
+  ompl::RNG::setSeed(options.seed);
+  const auto space = std::make_shared<Space>(options.turning_radius_m);
+  space->setBounds(bounds_around(start, goal, options.room_m));
+  og::SimpleSetup setup(space);
+  std::uint64_t checks = 0;
+  setup.setStateValidityChecker([&](const ob::State* state) {
+    ++checks;
+    return space->satisfiesBounds(state) && is_free(pose_of(state), obstacles, walls, check);
+  });
+  setup.getSpaceInformation()->setStateValidityCheckingResolution(0.05 / space->getMaximumExtent());
+  ob::ScopedState<Space> from(space);
+  ob::ScopedState<Space> to(space);
+  set_state(from, start);
+  set_state(to, goal);
+  setup.setStartAndGoalStates(from, to);
+  setup.setPlanner(std::make_shared<og::RRTConnect>(setup.getSpaceInformation()));
+  const auto bounded = options.max_checks > 0
+                           ? ob::PlannerTerminationCondition([&] { return checks >= options.max_checks; })
+                           : ob::timedPlannerTerminationCondition(options.time_limit_s);
+  if (setup.solve(bounded) != ob::PlannerStatus::EXACT_SOLUTION)
+    return Result<Path>::failure("no free way was found within the time allowed");
+  og::PathGeometric& found = setup.getSolutionPath();
+  og::PathSimplifier(setup.getSpaceInformation()).reduceVertices(found);
+  return to_path(found, options);
+}
+
+}  // namespace madori::planning

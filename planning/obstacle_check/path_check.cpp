@@ -1,0 +1,145 @@
+#include "planning/obstacle_check/path_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/angle.hpp"
+#include "core/segment_distance.hpp"
+
+namespace madori::planning {
+namespace {
+
+constexpr double kSamePoint_m = 1e-6;
+
+/// What one placement of the vehicle meets.
+struct Contact {
+  Point2<Map> where;
+  bool by_wall = false;
+};
+
+/// A vehicle's outline with margins, and the published cylinder.
+struct Zone {
+  VehicleOutline outline;
+  double radius_m;
+
+  Zone(const CheckOptions& o, double more_m)
+      : outline(o.vehicle.grown(o.ends_margin_m + more_m, o.sides_margin_m + more_m)),
+        radius_m(o.vehicle.half_width_m + o.sides_margin_m + more_m) {}
+  [[nodiscard]] double reach_m() const { return std::max(outline.reach_m(), radius_m); }
+  [[nodiscard]] bool holds(const Point2<Base>& p) const {
+    return outline.contains(p) || p.x_m * p.x_m + p.y_m * p.y_m <= radius_m * radius_m;
+  }
+};
+
+std::optional<Contact> meets_point(const Transform2<Map, Base>& pose,
+                                   const std::vector<Point2<Map>>& obstacles, const Zone& zone) {
+  const auto base_from_map = pose.inverse();
+  const double square = zone.reach_m() * zone.reach_m();
+  for (const Point2<Map>& point : obstacles) {
+    const double dx = point.x_m - pose.x_m();
+    const double dy = point.y_m - pose.y_m();
+    if (dx * dx + dy * dy <= square && zone.holds(base_from_map * point)) return Contact{point, false};
+  }
+  return std::nullopt;
+}
+
+std::optional<Contact> meets_wall(const Transform2<Map, Base>& pose, const WallGrid& walls,
+                                  const CheckOptions& options) {
+  const VehicleOutline outline = options.vehicle.grown(options.wall_margin_m, options.wall_margin_m);
+  const auto base_from_map = pose.inverse();
+  std::optional<Contact> contact;
+  walls.any_near(pose.translation(), outline.reach_m(), [&](const Segment2<Map>& wall) {
+    if (!outline.touches(base_from_map * wall)) return false;
+    contact = {nearest_point(wall, pose.translation()), true};
+    return true;
+  });
+  return contact;
+}
+
+/// Obstacles that any placement along the checked points could meet.
+std::vector<Point2<Map>> near_path(const Path& path, std::size_t from, std::size_t end,
+                                   const std::vector<Point2<Map>>& obstacles, double reach_m) {
+  Point2<Map> low = path.points[from].position;
+  Point2<Map> high = low;
+  for (std::size_t i = from; i < end; ++i) {
+    const Point2<Map>& p = path.points[i].position;
+    low = {std::min(low.x_m, p.x_m), std::min(low.y_m, p.y_m)};
+    high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
+  }
+  std::vector<Point2<Map>> near;
+  for (const Point2<Map>& p : obstacles)
+    if (p.x_m >= low.x_m - reach_m && p.x_m <= high.x_m + reach_m && p.y_m >= low.y_m - reach_m &&
+        p.y_m <= high.y_m + reach_m)
+      near.push_back(p);
+  return near;
+}
+
+Transform2<Map, Base> placed(const PathPoint& point, double heading_rad) {
+  return {point.position.x_m, point.position.y_m, heading_rad};
+}
+
+/// The headings in which the vehicle stands at a point: one, or all of a turn on the spot that begins there.
+template <class Visit>
+bool any_heading(const Path& path, std::size_t i, double turn_step_rad, Visit&& visit) {
+  const PathPoint& point = path.points[i];
+  const bool turns = i > 0 && distance_m(path.points[i - 1].position, point.position) < kSamePoint_m;
+  if (!turns) return visit(placed(point, point.heading_rad));
+  constexpr double kEitherWay_rad =
+      3.0;  // nearly about: noise decides which way it turns, so both must be free
+  double turn = wrap_angle(point.heading_rad - path.points[i - 1].heading_rad);
+  if (std::abs(turn) > kEitherWay_rad) turn = 2.0 * kPi;
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / turn_step_rad)));
+  for (int k = 1; k <= steps; ++k)
+    if (visit(placed(point, path.points[i - 1].heading_rad + turn * k / steps))) return true;
+  return false;
+}
+
+}  // namespace
+
+PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
+                     const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
+                     const CheckOptions& options) {
+  PathCheck check;
+  if (from >= path.points.size()) return check;
+  std::vector<double> along_m{0.0};
+  std::size_t end = from + 1;
+  for (; end < path.points.size() && along_m.back() <= ahead_m; ++end)
+    along_m.push_back(along_m.back() + distance_m(path.points[end - 1].position, path.points[end].position));
+  const Zone stop(options, 0.0);
+  const Zone care(options, options.care_margin_m);
+  const auto near = near_path(path, from, end, obstacles, care.reach_m());
+  double checked_m = -options.step_m;
+  for (std::size_t i = from; i < end; ++i) {
+    const double here_m = along_m[i - from];
+    const bool turns = i > from && here_m == along_m[i - from - 1];
+    if (here_m < checked_m + options.step_m && !turns && i + 1 != end) continue;
+    const double previous_m = std::max(0.0, checked_m);
+    checked_m = here_m;
+    std::optional<Contact> contact;
+    bool slow = false;
+    any_heading(path, i, options.turn_step_rad, [&](const Transform2<Map, Base>& pose) {
+      contact = meets_point(pose, near, stop);
+      if (!contact) contact = meets_wall(pose, walls, options);
+      slow = slow || contact || meets_point(pose, near, care);
+      return contact.has_value();
+    });
+    if (slow && check.care_m == PathCheck::kFree) check.care_m = previous_m;
+    if (!contact) continue;
+    if (!check.blocked()) {
+      check.free_m = previous_m;
+      check.first_blocked = i;
+      check.by_wall = contact->by_wall;
+      check.where = contact->where;
+    }
+    check.last_blocked = i;
+  }
+  return check;
+}
+
+bool is_free(const Transform2<Map, Base>& pose, const std::vector<Point2<Map>>& obstacles,
+             const WallGrid& walls, const CheckOptions& options) {
+  return !meets_point(pose, obstacles, Zone(options, 0.0)) && !meets_wall(pose, walls, options);
+}
+
+}  // namespace madori::planning

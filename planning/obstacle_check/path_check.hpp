@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "core/path.hpp"
+#include "core/transform2.hpp"
+#include "planning/obstacle_check/vehicle_outline.hpp"
+#include "planning/obstacle_check/wall_grid.hpp"
+
+namespace madori::planning {
+
+struct CheckOptions {
+  VehicleOutline vehicle;
+  double ends_margin_m = 0.20;   ///< kept free before and behind the vehicle
+  double sides_margin_m = 0.06;  ///< ... beside it
+  double care_margin_m = 0.15;   ///< something within this much more only slows the vehicle
+  double wall_margin_m = 0.03;   ///< to drawn walls, which lie as exactly as the drawing
+  double step_m = 0.15;          ///< waypoints nearer together than this are checked once
+  double turn_step_rad = 0.15;   ///< between the checked headings of a turn on the spot
+};
+
+/// Braking: within this distance of the vehicle something must be seen, or the vehicle could not stop before
+/// it.
+struct BrakingModel {
+  double deceleration_mps2 = 0.8;
+  double reaction_s = 0.25;  ///< sensing, computing, sending, motor
+  double scan_period_s = 0.1;
+
+  [[nodiscard]] double horizon_m(double speed_mps) const {
+    return speed_mps * (reaction_s + scan_period_s) + speed_mps * speed_mps / (2.0 * deceleration_mps2);
+  }
+};
+
+/// The way ahead, checked.
+struct PathCheck {
+  static constexpr double kFree = std::numeric_limits<double>::infinity();
+
+  double free_m = kFree;          ///< along the path to where the vehicle must stand
+  double care_m = kFree;          ///< along the path to where it must drive with care
+  std::size_t first_blocked = 0;  ///< points of the path; only where free_m is finite
+  std::size_t last_blocked = 0;   ///< ... within what was checked
+  bool by_wall = false;           ///< a drawn wall, not something seen
+  Point2<Map> where;              ///< what blocks, Map frame
+
+  [[nodiscard]] bool blocked() const { return free_m != kFree; }
+};
+
+/// Checks points [from, ...] of the path as far as `ahead_m` along it: at every waypoint the published
+/// cylinder (its radius half the vehicle's width and a margin; layout-map paper, section 3.4) and the
+/// vehicle's outline at that heading must hold no obstacle and no drawn wall, so that a long vehicle's nose
+/// swings clear too. Turns on the spot are checked through all their headings.
+[[nodiscard]] PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
+                                   const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
+                                   const CheckOptions& options);
+
+/// Whether the vehicle standing so touches nothing.
+[[nodiscard]] bool is_free(const Transform2<Map, Base>& map_from_base,
+                           const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
+                           const CheckOptions& options);
+
+}  // namespace madori::planning

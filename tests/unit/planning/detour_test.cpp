@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "core/angle.hpp"
+#include "planning/detour/detour_planner.hpp"
+#include "planning/waypoints/waypoints.hpp"
+
+namespace madori::planning {
+namespace {
+
+const CheckOptions kCheck;
+
+Path straight(double length_m) {
+  return make_waypoints({{{0, 0}}, {{length_m, 0}}}).value();
+}
+
+/// A row of points across the way.
+std::vector<Point2<Map>> row(double x_m, double low_m, double high_m) {
+  std::vector<Point2<Map>> points;
+  for (double y = low_m; y <= high_m; y += 0.05) points.push_back({x_m, y});
+  return points;
+}
+
+DetourRequest request_for(const Path& path, const std::vector<Point2<Map>>& obstacles,
+                          const WallGrid& walls) {
+  return {7, path, 0, {}, check_path(path, 0, 8.0, obstacles, walls, kCheck), obstacles};
+}
+
+TEST(SideDetour, GoesAroundAPalletAndComesBack) {
+  const Path path = straight(14);
+  const auto obstacles = row(6.0, -0.4, 0.4);
+  const WallGrid walls;
+  const auto detour =
+      side_detour(path, 0, check_path(path, 0, 8.0, obstacles, walls, kCheck), obstacles, walls, kCheck);
+  ASSERT_TRUE(detour);
+  EXPECT_FALSE(check_path(detour.value().path, 0, 20.0, obstacles, walls, kCheck).blocked());
+  EXPECT_NEAR(std::abs(detour.value().offset_m), 0.9, 0.21);
+  EXPECT_EQ(detour.value().path.points.back().position, path.points.back().position);
+  for (const auto& point : detour.value().path.points) EXPECT_LT(std::abs(point.curvature_per_m), 1.5);
+}
+
+TEST(SideDetour, TakesTheOpenSide) {
+  const Path path = straight(14);
+  const auto obstacles = row(6.0, -3.0, 0.2);
+  const WallGrid walls;
+  const auto check = check_path(path, 0, 8.0, obstacles, walls, kCheck);
+  EXPECT_GT(side_detour(path, 0, check, obstacles, walls, kCheck).value().offset_m, 0.0);
+  const WallGrid left(std::vector<Segment2<Map>>{{{0.0, 0.6}, {14.0, 0.6}}});
+  EXPECT_FALSE(side_detour(path, 0, check, obstacles, left, kCheck)) << "a drawn wall on the open side";
+}
+
+TEST(SideDetour, NeedsRoomToComeBack) {
+  const Path path = straight(7);
+  const auto obstacles = row(6.0, -0.2, 0.2);
+  const WallGrid walls;
+  EXPECT_FALSE(
+      side_detour(path, 0, check_path(path, 0, 8.0, obstacles, walls, kCheck), obstacles, walls, kCheck));
+}
+
+TEST(FreeSpace, FindsAWayAroundALongBarrierAndTheSameOneForASeed) {
+  const Path path = straight(16);
+  const auto obstacles = row(6.0, -2.6, 2.6);
+  const WallGrid walls;
+  DetourOptions options;
+  options.side.furthest_m = 1.0;
+  options.free_space.max_checks = 200'000;
+  const auto answer = plan_detour(request_for(path, obstacles, walls), walls, kCheck, options);
+  ASSERT_TRUE(answer.path.has_value()) << answer.reason;
+  EXPECT_EQ(answer.id, 7U);
+  EXPECT_FALSE(check_path(*answer.path, 0, 40.0, obstacles, walls, kCheck).blocked());
+  EXPECT_EQ(answer.path->points.back().position, path.points.back().position);
+}
+
+TEST(FreeSpace, AClosedRoomHasNoWayAndTheSearchEnds) {
+  const WallGrid walls(std::vector<Segment2<Map>>{
+      {{-3, -3}, {5, -3}}, {{5, -3}, {5, 3}}, {{5, 3}, {-3, 3}}, {{-3, 3}, {-3, -3}}});
+  FreeSpaceOptions options;
+  options.max_checks = 20'000;
+  const auto path = free_space_path({}, {8.0, 0.0, 0.0}, {}, walls, kCheck, options);
+  ASSERT_FALSE(path);
+  EXPECT_EQ(path.reason(), "no free way was found within the time allowed");
+}
+
+TEST(DetourPlanner, AnswersFromItsOwnThread) {
+  const Path path = straight(14);
+  const auto obstacles = row(6.0, -0.4, 0.4);
+  const auto walls = std::make_shared<const WallGrid>();
+  DetourPlanner planner(walls, kCheck, {});
+  EXPECT_FALSE(planner.take());
+  planner.submit(request_for(path, obstacles, *walls));
+  std::optional<DetourAnswer> answer;
+  for (int i = 0; i < 1000 && !answer; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    answer = planner.take();
+  }
+  ASSERT_TRUE(answer);
+  EXPECT_TRUE(answer->path.has_value());
+}
+
+}  // namespace
+}  // namespace madori::planning

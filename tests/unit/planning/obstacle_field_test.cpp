@@ -1,0 +1,123 @@
+#include "planning/obstacle_check/obstacle_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/angle.hpp"
+#include "tests/support/toy_lidar.hpp"
+
+namespace madori::planning {
+namespace {
+
+const SensorView kVlp{0.0, 0.0, 0.9, to_rad(-15.0), to_rad(15.0)};
+
+Stamp at(double seconds) {
+  return stamp_from_seconds(seconds);
+}
+
+int confirmed(const ObstacleField& field) {
+  int count = 0;
+  for (const Column& column : field.columns()) count += column.confirmed ? 1 : 0;
+  return count;
+}
+
+TEST(GroundPlane, FindsATiltedFloorAmongObstacles) {
+  std::mt19937 random(1);
+  test::ToyLidar lidar;
+  for (int i = 0; i < 10; ++i) lidar.posts.push_back({{3.0 + 0.2 * i, 0.1 * i}, 0.1, 1.5});
+  PointCloud<Base> cloud = lidar.scan({}, at(0), random);
+  for (auto& p : cloud.points) p.z_m += 0.02F * p.x_m - 0.01F;
+  const GroundPlane plane = fit_ground(cloud.points);
+  EXPECT_GT(plane.points, 1000);
+  EXPECT_NEAR(plane.slope_x, 0.02, 0.002);
+  EXPECT_NEAR(plane.offset_m, -0.01, 0.005);
+}
+
+TEST(GroundPlane, WithoutAFloorTheWheelsPlaneStands) {
+  EXPECT_EQ(fit_ground({}).points, 0);
+  std::vector<CloudPoint> wall;
+  for (int i = 0; i < 200; ++i) wall.push_back({2.0F, 0.02F * static_cast<float>(i), 0.05F, 0.0F, 1, 0});
+  EXPECT_EQ(fit_ground(wall).points, 0);
+}
+
+TEST(ObstacleField, AnEmptyFloorHoldsNoObstacle) {
+  std::mt19937 random(2);
+  ObstacleField field;
+  for (int i = 0; i < 20; ++i) field.update(test::ToyLidar().scan({}, at(0.1 * i), random), kVlp, {});
+  EXPECT_EQ(confirmed(field), 0);
+}
+
+TEST(ObstacleField, APostIsSeenAtOnce) {
+  std::mt19937 random(3);
+  test::ToyLidar lidar;
+  lidar.posts.push_back({{3.0, 0.0}});
+  ObstacleField field;
+  field.update(lidar.scan({}, at(0), random), kVlp, {});
+  ASSERT_GT(confirmed(field), 0);
+  EXPECT_NEAR(static_cast<double>(field.columns()[0].max_x_m), 3.0, 0.1);
+}
+
+TEST(ObstacleField, ASingleStrayPointIsNoObstacleButARepeatedOneIs) {
+  ObstacleField field;
+  PointCloud<Base> cloud{at(0), {{2.0F, 0.05F, 0.4F, 0.0F, 1, 5}}};
+  field.update(cloud, kVlp, {});
+  EXPECT_EQ(confirmed(field), 0);
+  cloud.stamp = at(0.1);
+  field.update(cloud, kVlp, {});
+  EXPECT_EQ(confirmed(field), 1);
+}
+
+TEST(ObstacleField, WhatHangsHigherThanTheVehicleIsNoObstacle) {
+  std::mt19937 random(4);
+  test::ToyLidar lidar;
+  lidar.posts.push_back({{3.0, 0.0}, 0.5, 2.5, 1.0});
+  ObstacleField field;
+  field.update(lidar.scan({}, at(0), random), kVlp, {});
+  EXPECT_EQ(confirmed(field), 0);
+  lidar.posts[0].bottom_m = 0.8;
+  field.update(lidar.scan({}, at(0.1), random), kVlp, {});
+  EXPECT_GT(confirmed(field), 0);
+}
+
+TEST(ObstacleField, ALowBodyIsRememberedInTheBlindZoneAndATallOneThatLeftIsNot) {
+  std::mt19937 random(5);
+  test::ToyLidar lidar;
+  lidar.bodies.push_back({{{3.0, -0.3}, {3.0, 0.3}}});
+  ObstacleField field;
+  for (int i = 0; i <= 22; ++i) {
+    const double x = 0.1 * i;
+    field.update(lidar.scan({x, 0.0, 0.0}, at(0.1 * i), random), kVlp, {x, 0.0, 0.0});
+  }
+  EXPECT_GT(confirmed(field), 3) << "0.7 m before the vehicle, where no beam reaches it";
+  const Transform2<Odom, Base> standing{2.2, 0.0, 0.0};
+  for (int i = 23; i < 100; ++i)
+    field.update(lidar.scan({2.2, 0.0, 0.0}, at(0.1 * i), random), kVlp, standing);
+  EXPECT_GT(confirmed(field), 3) << "standing before it";
+
+  field.clear();
+  lidar.bodies.clear();
+  lidar.posts.push_back({{3.3, 0.0}, 0.2, 1.7});
+  for (int i = 100; i < 110; ++i)
+    field.update(lidar.scan({2.2, 0.0, 0.0}, at(0.1 * i), random), kVlp, standing);
+  EXPECT_GT(confirmed(field), 0);
+  lidar.posts.clear();
+  for (int i = 110; i < 125; ++i)
+    field.update(lidar.scan({2.2, 0.0, 0.0}, at(0.1 * i), random), kVlp, standing);
+  EXPECT_EQ(confirmed(field), 0) << "a person who has left";
+}
+
+TEST(ObstacleField, NonFinitePointsAreLeftOut) {
+  ObstacleField field;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  PointCloud<Base> cloud{at(0), {}};
+  for (int i = 0; i < 5; ++i) {
+    cloud.points.push_back({nan, 1.0F, 0.4F, 0.0F, 1, 1});
+    cloud.points.push_back({1.0F, inf, 0.4F, 0.0F, 1, 1});
+    cloud.points.push_back({1.0F, 1.0F, nan, 0.0F, 1, 1});
+  }
+  field.update(cloud, kVlp, {});
+  EXPECT_TRUE(field.columns().empty());
+}
+
+}  // namespace
+}  // namespace madori::planning

@@ -1,0 +1,98 @@
+#include "planning/obstacle_check/path_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/angle.hpp"
+#include "core/segment_distance.hpp"
+#include "planning/waypoints/waypoints.hpp"
+
+namespace madori::planning {
+namespace {
+
+const CheckOptions kOptions;
+const WallGrid kNoWalls;
+
+Path straight(double length_m) {
+  return make_waypoints({{{0, 0}}, {{length_m, 0}}}).value();
+}
+
+TEST(PathCheck, AFreeWayIsFree) {
+  const auto check = check_path(straight(6), 0, 5.0, {{3.0, 2.0}}, kNoWalls, kOptions);
+  EXPECT_FALSE(check.blocked());
+  EXPECT_EQ(check.care_m, PathCheck::kFree);
+}
+
+TEST(PathCheck, AnObstacleLeavesRoomForTheVehiclesFront) {
+  const auto check = check_path(straight(8), 0, 7.0, {{5.0, 0.1}}, kNoWalls, kOptions);
+  ASSERT_TRUE(check.blocked());
+  EXPECT_LE(check.free_m, 5.0 - kOptions.vehicle.front_m - kOptions.ends_margin_m);
+  EXPECT_GE(check.free_m, 5.0 - kOptions.vehicle.front_m - kOptions.ends_margin_m - 2.0 * kOptions.step_m);
+  EXPECT_FALSE(check.by_wall);
+  EXPECT_LE(check.care_m, check.free_m);
+  EXPECT_GT(check.last_blocked, check.first_blocked);
+  EXPECT_FALSE(check_path(straight(8), 0, 3.0, {{5.0, 0.1}}, kNoWalls, kOptions).blocked())
+      << "beyond what is asked";
+}
+
+TEST(PathCheck, SomethingBesideTheWayOnlyAsksForCare) {
+  const double side = kOptions.vehicle.half_width_m + kOptions.sides_margin_m + 0.05;
+  const auto check = check_path(straight(6), 0, 5.0, {{3.0, side}}, kNoWalls, kOptions);
+  EXPECT_FALSE(check.blocked());
+  EXPECT_LT(check.care_m, 3.0);
+}
+
+TEST(PathCheck, ADrawnWallBlocks) {
+  const WallGrid walls(std::vector<Segment2<Map>>{{{4.0, -2.0}, {4.0, 2.0}}});
+  const auto check = check_path(straight(8), 0, 7.0, {}, walls, kOptions);
+  ASSERT_TRUE(check.blocked());
+  EXPECT_TRUE(check.by_wall);
+  EXPECT_NEAR(check.where.x_m, 4.0, 1e-9);
+}
+
+TEST(PathCheck, ATurnOnTheSpotSweepsItsCorners) {
+  Path path = straight(2);
+  PathPoint turn = path.points.back();
+  turn.heading_rad = kPi;
+  path.points.push_back(turn);
+  const auto check = check_path(path, 0, 5.0, {{2.0, 0.7}}, kNoWalls, kOptions);
+  ASSERT_TRUE(check.blocked()) << "free at both ends of the turn, not in its middle";
+  EXPECT_EQ(check.first_blocked, path.points.size() - 1);
+  EXPECT_NEAR(check.free_m, 2.0, 1e-9);
+}
+
+TEST(WallGrid, FindsEveryWallThatAFullSearchFinds) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-20.0, 20.0);
+  std::vector<Segment2<Map>> walls;
+  for (int i = 0; i < 200; ++i)
+    walls.push_back({{place(random), place(random)}, {place(random), place(random)}});
+  walls.push_back({{-5.0, 3.0}, {7.0, 3.0}});
+  walls.push_back({{2.0, -9.0}, {2.0, 9.0}});
+  const WallGrid grid(walls);
+  for (int i = 0; i < 300; ++i) {
+    const Point2<Map> centre{1.2 * place(random), 1.2 * place(random)};
+    std::size_t expected = 0;
+    for (const auto& wall : walls) expected += distance_m(wall, centre) <= 1.3 ? 1 : 0;
+    std::vector<Segment2<Map>> found;
+    grid.any_near(centre, 1.3, [&](const auto& wall) {
+      if (distance_m(wall, centre) <= 1.3 && std::find(found.begin(), found.end(), wall) == found.end())
+        found.push_back(wall);
+      return false;
+    });
+    EXPECT_EQ(found.size(), expected);
+  }
+}
+
+TEST(VehicleOutline, TouchesSegmentsThatCrossWithoutAnEndInside) {
+  const VehicleOutline outline;
+  EXPECT_TRUE(outline.touches({{0.3, -2.0}, {0.3, 2.0}}));
+  EXPECT_TRUE(outline.touches({{-5.0, 0.0}, {5.0, 0.0}}));
+  EXPECT_TRUE(outline.touches({{0.1, 0.1}, {0.2, 0.1}}));
+  EXPECT_FALSE(outline.touches({{0.9, -2.0}, {0.9, 2.0}}));
+  EXPECT_FALSE(outline.touches({{0.7, 0.5}, {1.0, 0.2}}));
+}
+
+}  // namespace
+}  // namespace madori::planning
