@@ -7,6 +7,7 @@ class App;
 /// Every sub-command of `madori` adds itself; its callback throws Error on failure (exit 1).
 namespace madori::app {
 
+void add_localize(CLI::App& app);
 void add_route(CLI::App& app);
 void add_version(CLI::App& app);
 

@@ -1,0 +1,85 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/commands.hpp"
+#include "app/json_output.hpp"
+#include "app/log_player.hpp"
+#include "app/trajectory_file.hpp"
+#include "core/result.hpp"
+#include "mapping/site/atomic_file.hpp"
+#include "mapping/site/site.hpp"
+#include "sensors/carmen/reader.hpp"
+
+namespace madori::app {
+namespace {
+
+struct LocalizeArguments {
+  std::string site;
+  std::string log;
+  std::string initial;
+  std::string out;
+  std::string json_file;
+  unsigned seed = 1;
+};
+
+/// "x y yaw_deg", metres and degrees.
+Transform2<Map, Base> parse_pose(const std::string& text) {
+  std::istringstream words(text);
+  double x = 0.0;
+  double y = 0.0;
+  double yaw_deg = 0.0;
+  std::string rest;
+  if (!(words >> x >> y >> yaw_deg) || words >> rest || !std::isfinite(x + y + yaw_deg)) {
+    throw CLI::ValidationError("--initial", "'" + text + "' is not \"x y yaw_deg\"");
+  }
+  return {x, y, to_rad(yaw_deg)};
+}
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+void localize(const LocalizeArguments& arguments) {
+  const std::filesystem::path folder(arguments.site);
+  (void)mapping::load_scaled_site(folder);
+  const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
+  localization::Localizer localizer(walls, {parse_pose(arguments.initial)});
+  sensors::carmen::CarmenReader log(arguments.log);
+  std::string trajectory = "# timestamp x y z qx qy qz qw, Map frame\n";
+  const PlayedLog played = play_log(
+      log, localizer, [&](const PoseEstimate& e) { trajectory += tum_line(e.stamp, e.map_from_base); });
+  mapping::write_file_atomically(arguments.out, trajectory);
+  const nlohmann::json result = {{"scans", played.scans},
+                                 {"odometry_records", played.odometry_records},
+                                 {"keyframes", localizer.memory().size()},
+                                 {"scan_ms_median", percentile(played.scan_ms, 0.5)},
+                                 {"scan_ms_p99", percentile(played.scan_ms, 0.99)},
+                                 {"seed", arguments.seed}};
+  write_json(arguments.json_file, result);
+  std::fprintf(arguments.json_file == "-" ? stderr : stdout, "%d scans, %d odometry records; %s written\n",
+               played.scans, played.odometry_records, arguments.out.c_str());
+}
+
+}  // namespace
+
+void add_localize(CLI::App& app) {
+  auto arguments = std::make_shared<LocalizeArguments>();
+  CLI::App* command = app.add_subcommand("localize", "where the vehicle of a log was on the site's drawing");
+  command->add_option("site", arguments->site, "site folder")->required()->check(CLI::ExistingDirectory);
+  command->add_option("--log", arguments->log, "CARMEN log")->required()->check(CLI::ExistingFile);
+  command->add_option("--initial", arguments->initial, "pose at the start, \"x y yaw_deg\", Map frame")
+      ->required();
+  command->add_option("--out", arguments->out, "trajectory to write (TUM), a pose a record")->required();
+  command->add_option("--json", arguments->json_file, "figures; - for stdout");
+  command->add_option("--seed", arguments->seed, "of everything left to chance");
+  command->callback([arguments] { localize(*arguments); });
+}
+
+}  // namespace madori::app

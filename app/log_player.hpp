@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+
+#include "core/pose_estimate.hpp"
+#include "localization/localizer/localizer.hpp"
+#include "sensors/log_record.hpp"
+
+namespace madori::app {
+
+/// What a log held, and what it cost.
+struct PlayedLog {
+  int scans = 0;
+  int odometry_records = 0;
+  std::vector<double> scan_ms;  ///< time of each scan's step
+};
+
+/// Runs a log through the localizer in the order of its records, and hands out the pose of every record.
+PlayedLog play_log(sensors::LogReader& log, localization::Localizer& localizer,
+                   const std::function<void(const PoseEstimate&)>& sink);
+
+}  // namespace madori::app

@@ -1,0 +1,214 @@
+#include "localization/drawing_fit/drawing_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace madori::localization {
+namespace {
+
+/// Errors of a drawing persist along a wall: its pieces within two metres are one observation.
+constexpr double kShare = kVoxel_m / 2.0;
+constexpr double kClutterWidth_m = 2.0 * WallIndex::kRadius_m;
+constexpr double kBeyond_m = 0.3;  // a surface may overshoot a drawn wall's end by this
+
+Transform2<Map, Map> about(const Point2<Map>& centre, double dx, double dy, double turn) {
+  const Transform2<Map, Map> rotation(0.0, 0.0, turn);
+  const Point2<Map> moved = rotation * centre;
+  return {centre.x_m + dx - moved.x_m, centre.y_m + dy - moved.y_m, turn};
+}
+
+Point2<Map> centre_of(const MemoryCloud& cloud) {
+  Point2<Map> centre;
+  double sum = 0.0;
+  for (const CloudSurface& p : cloud) {
+    centre.x_m += p.weight * p.x_m;
+    centre.y_m += p.weight * p.y_m;
+    sum += p.weight;
+  }
+  return sum > 0.0 ? Point2<Map>{centre.x_m / sum, centre.y_m / sum} : centre;
+}
+
+int turned_direction(const CloudSurface& p, const Transform2<Map, Map>& by) {
+  return WallIndex::direction_of(by.cos_yaw() * p.normal_x - by.sin_yaw() * p.normal_y,
+                                 by.sin_yaw() * p.normal_x + by.cos_yaw() * p.normal_y);
+}
+
+/// The two-sided story of a residual: a drawn wall with Gaussian error, or clutter anywhere.
+struct Mixture {
+  Mixture(const DrawingModel& model, double sigma) : sigma_m(sigma) {
+    const double inliers = std::clamp(model.inliers, 0.05, 0.98);
+    peak = inliers / (1.0 - inliers) * kClutterWidth_m / (sigma * std::sqrt(2.0 * kPi));
+  }
+  /// Odds of wall against clutter.
+  [[nodiscard]] double odds(double distance_m) const {
+    const double z = distance_m / sigma_m;
+    return peak * std::exp(-0.5 * z * z);
+  }
+  [[nodiscard]] double is_wall(double distance_m) const {
+    const double o = odds(distance_m);
+    return o / (1.0 + o);
+  }
+  double sigma_m;
+  double peak;
+};
+
+/// Calls visit(surface, place after the correction, hit) for each surface that has a wall to belong to.
+template <class Visit>
+void for_each_hit(const WallIndex& index, const MemoryCloud& cloud, const Transform2<Map, Map>& correction,
+                  Visit&& visit) {
+  for (const CloudSurface& p : cloud) {
+    const Point2<Map> q = correction * Point2<Map>{p.x_m, p.y_m};
+    const WallIndex::Hit hit = index.nearest(q.x_m, q.y_m, turned_direction(p, correction));
+    if (hit.wall >= 0 && hit.beyond_m <= kBeyond_m) {
+      visit(p, q, hit);
+    }
+  }
+}
+
+/// Of the signed distance to the wall's line, by a motion (dx, dy, turn about pivot).
+Eigen::Vector3d jacobian(const WallIndex::Hit& hit, const Point2<Map>& q, const Point2<Map>& pivot) {
+  return {hit.normal_x, hit.normal_y,
+          -hit.normal_x * (q.y_m - pivot.y_m) + hit.normal_y * (q.x_m - pivot.x_m)};
+}
+
+}  // namespace
+
+double DrawingFit::likelihood(const MemoryCloud& cloud, const Transform2<Map, Map>& correction,
+                              double sigma_m) const {
+  const Mixture mixture(model_, sigma_m);
+  double sum = 0.0;
+  for_each_hit(index_, cloud, correction, [&](const CloudSurface& p, const auto&, const auto& hit) {
+    sum += p.weight * kShare * std::log1p(mixture.odds(hit.distance_m));
+  });
+  return sum;
+}
+
+Transform2<Map, Map> DrawingFit::refine(const MemoryCloud& cloud, const Point2<Map>& centre,
+                                        Transform2<Map, Map> correction) const {
+  for (int i = 0; i < 12; ++i) {
+    const Mixture mixture(model_, std::max(model_.sigma_m, 0.35 * std::pow(0.75, i)));
+    const Point2<Map> pivot = correction * centre;
+    Eigen::Matrix3d h = 1e-3 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    for_each_hit(index_, cloud, correction, [&](const CloudSurface& p, const auto& q, const auto& hit) {
+      const double weight = p.weight * mixture.is_wall(hit.distance_m);
+      const Eigen::Vector3d j = jacobian(hit, q, pivot);
+      h += weight * j * j.transpose();
+      g += weight * hit.distance_m * j;
+    });
+    const Eigen::Vector3d step = -h.ldlt().solve(g);
+    correction = about(pivot, step[0], step[1], step[2]) * correction;
+  }
+  return correction;
+}
+
+std::vector<Transform2<Map, Map>> DrawingFit::coarse(const MemoryCloud& cloud, const Point2<Map>& centre,
+                                                     const AlignmentWindow& window) const {
+  static const auto blur = [] {
+    constexpr float kBlur_cm = 22.0F;
+    std::array<float, 256> t{};
+    for (std::size_t i = 0; i < 255; ++i) {
+      const float z = static_cast<float>(i) / kBlur_cm;
+      t[i] = std::exp(-0.5F * z * z);
+    }
+    return t;
+  }();
+  struct Found {
+    double score;
+    Transform2<Map, Map> correction;
+  };
+  std::vector<Found> found;
+  constexpr double kStep_m = 0.2;
+  constexpr double kStep_rad = 0.03;
+  const int reach = static_cast<int>(std::ceil(window.half_m / kStep_m));
+  const int turns = static_cast<int>(std::ceil(window.half_rad / kStep_rad));
+  const std::size_t stride = cloud.size() / 500 + 1;
+  for (int r = -turns; r <= turns; ++r) {
+    const auto turned = about(centre, 0.0, 0.0, r * kStep_rad);
+    std::vector<CloudSurface> sample;
+    for (std::size_t i = 0; i < cloud.size(); i += stride) {
+      const Point2<Map> q = turned * Point2<Map>{cloud[i].x_m, cloud[i].y_m};
+      sample.push_back({q.x_m, q.y_m, 0.0, 0.0, 0, turned_direction(cloud[i], turned), cloud[i].weight});
+    }
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        double score = 0.0;
+        for (const CloudSurface& p : sample) {
+          score += p.weight * blur[index_.centimetres(p.x_m + x * kStep_m, p.y_m + y * kStep_m, p.direction)];
+        }
+        found.push_back({score, about(centre, x * kStep_m, y * kStep_m, r * kStep_rad)});
+      }
+    }
+  }
+  const std::size_t kept = std::min<std::size_t>(6, found.size());
+  std::partial_sort(found.begin(), found.begin() + static_cast<long>(kept), found.end(),
+                    [](const Found& a, const Found& b) { return a.score > b.score; });
+  std::vector<Transform2<Map, Map>> best;
+  for (std::size_t i = 0; i < kept; ++i) {
+    best.push_back(found[i].correction);
+  }
+  return best;
+}
+
+Alignment DrawingFit::align(const MemoryCloud& cloud, const AlignmentWindow& window) const {
+  const Point2<Map> centre = centre_of(cloud);
+  const double sigma = std::max(0.1, model_.sigma_m);
+  Alignment best;
+  best.correction = refine(cloud, centre, {});
+  best.likelihood = likelihood(cloud, best.correction, sigma);
+  for (const Transform2<Map, Map>& start : coarse(cloud, centre, window)) {
+    const Transform2<Map, Map> correction = refine(cloud, centre, start);
+    const double value = likelihood(cloud, correction, sigma);
+    if (value > best.likelihood + 0.5) {
+      best.correction = correction;
+      best.likelihood = value;
+    }
+  }
+  best.gain = best.likelihood - likelihood(cloud, {}, sigma);
+  return best;
+}
+
+void DrawingFit::learn(const MemoryCloud& cloud) {
+  constexpr double kPriorCount = 10.0;  // walls' worth of belief in the first guess
+  constexpr double kPriorSigma_m = 0.2;
+  double all = kPriorCount;
+  for (const CloudSurface& p : cloud) {
+    all += p.weight * kShare;
+  }
+  for (int round = 0; round < 5; ++round) {
+    const Mixture mixture(model_, model_.sigma_m);
+    double squares = kPriorCount * kPriorSigma_m * kPriorSigma_m;
+    double count = 0.0;
+    for_each_hit(index_, cloud, {}, [&](const CloudSurface& p, const auto&, const auto& hit) {
+      const double share = p.weight * kShare * mixture.is_wall(hit.distance_m);
+      squares += share * hit.distance_m * hit.distance_m;
+      count += share;
+    });
+    model_.sigma_m = std::clamp(std::sqrt(squares / (kPriorCount + count)), 0.02, 0.5);
+    model_.inliers = std::clamp((count + 0.5 * kPriorCount) / all, 0.05, 0.98);
+  }
+}
+
+std::vector<UnaryFactor> DrawingFit::pulls(const MemoryCloud& cloud,
+                                           const std::vector<Transform2<Map, Base>>& poses) const {
+  std::vector<UnaryFactor> factors(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    factors[i].node = static_cast<int>(i);
+    factors[i].at = poses[i];
+  }
+  const double sigma = model_.sigma_m;
+  const Mixture mixture(model_, sigma);
+  for_each_hit(index_, cloud, {}, [&](const CloudSurface& p, const auto& q, const auto& hit) {
+    UnaryFactor& f = factors[static_cast<std::size_t>(p.keyframe)];
+    const double information = p.weight * kShare * mixture.is_wall(hit.distance_m) / (sigma * sigma);
+    const Eigen::Vector3d j = jacobian(hit, q, f.at.translation());
+    f.hessian += information * j * j.transpose();
+    f.gradient += information * hit.distance_m * j;
+  });
+  std::erase_if(factors, [](const UnaryFactor& f) { return f.hessian.isZero(0.0); });
+  return factors;
+}
+
+}  // namespace madori::localization

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "localization/memory/memory.hpp"
+
+namespace madori::localization {
+
+/// A piece of surface of the memory, Map frame, at most one every voxel and facing: a wall counts by its
+/// length, not by how often it was seen.
+struct CloudSurface {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double normal_x = 0.0;
+  double normal_y = 0.0;
+  int keyframe = 0;     ///< whose sight of it counts: the one that saw it from the nearest
+  int direction = 0;    ///< of its normal, WallIndex::direction_of
+  double weight = 0.0;  ///< 0..1, how long and straight the surface runs on: walls more than furniture
+};
+using MemoryCloud = std::vector<CloudSurface>;
+
+inline constexpr double kVoxel_m = 0.2;
+
+/// All surfaces of the memory with a known normal. Deterministic: ordered by voxel.
+[[nodiscard]] MemoryCloud memory_cloud(const Memory& memory);
+
+}  // namespace madori::localization

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mapping/wall_map/grid_frame.hpp"
+#include "mapping/wall_map/wall.hpp"
+
+namespace madori::localization {
+
+/// The nearest drawn wall of a given direction: furniture beside a wall, or the wall across a corner, seldom
+/// runs the way the seen surface runs. One table of nearest walls a direction, walls within 30 degrees in
+/// each.
+class WallIndex {
+ public:
+  static constexpr double kRadius_m = 1.5;  ///< farther from every wall, a surface belongs to none
+  static constexpr int kDirections = 8;     ///< over half a turn
+
+  struct Hit {
+    int wall = -1;            ///< position in the walls given, -1 for none
+    double distance_m = 0.0;  ///< to the wall's line, signed along the normal
+    double normal_x = 0.0;
+    double normal_y = 0.0;
+    double along_m = 0.0;   ///< from the wall's start; may lie beyond its ends
+    double beyond_m = 0.0;  ///< how far beyond its ends, 0 beside the wall
+  };
+
+  explicit WallIndex(const mapping::Walls& walls);
+
+  [[nodiscard]] const mapping::Walls& walls() const { return walls_; }
+  /// The table of a surface with this normal.
+  [[nodiscard]] static int direction_of(double normal_x, double normal_y);
+  [[nodiscard]] Hit nearest(double x_m, double y_m, int direction) const;
+  /// Distance to the nearest wall of the direction, centimetres, 255 for none within the radius.
+  [[nodiscard]] std::uint8_t centimetres(double x_m, double y_m, int direction) const {
+    const std::int64_t cell = frame_.find({x_m, y_m});
+    return cell < 0
+               ? kFar
+               : tables_[static_cast<std::size_t>(direction)].centimetres[static_cast<std::size_t>(cell)];
+  }
+
+ private:
+  static constexpr std::uint8_t kFar = 255;
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  struct Table {
+    std::vector<std::uint32_t> wall;
+    std::vector<std::uint8_t> centimetres;
+  };
+  mapping::Walls walls_;
+  mapping::GridFrame frame_;
+  std::array<Table, kDirections> tables_;
+};
+
+}  // namespace madori::localization

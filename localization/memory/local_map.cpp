@@ -1,0 +1,187 @@
+#include "localization/memory/local_map.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace madori::localization {
+namespace {
+
+constexpr double kCell_m = 0.2;
+constexpr double kSameDirection = 0.7;  // cosine of the angle between normals of the same surface
+/// Sigma of one residual. Range noise is a third of it; the rest stands for what neighbouring beams share
+/// (mixed pixels, the surface's own roughness), so that the information is not overrated.
+constexpr double kResidualSigma_m = 0.08;
+
+SurfacePoint moved(const Transform2<Map, Base>& pose, const SurfacePoint& p) {
+  const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
+  return {q.x_m, q.y_m, pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y,
+          pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y};
+}
+
+}  // namespace
+
+LocalMap::LocalMap(const std::vector<Piece>& pieces, const Point2<Map>& centre, double radius_m) {
+  for (const Piece& piece : pieces) {
+    for (const SurfacePoint& p : piece.scan->points) {
+      const SurfacePoint q = moved(piece.map_from_base, p);
+      if (std::hypot(q.x_m - centre.x_m, q.y_m - centre.y_m) < radius_m) {
+        points_.push_back(q);
+      }
+    }
+  }
+  build_index();
+}
+
+void LocalMap::build_index() {
+  if (points_.empty()) {
+    return;
+  }
+  Point2<Map> low{points_[0].x_m, points_[0].y_m};
+  Point2<Map> high = low;
+  for (const SurfacePoint& p : points_) {
+    low = {std::min(low.x_m, p.x_m), std::min(low.y_m, p.y_m)};
+    high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
+  }
+  origin_ = {low.x_m - kCell_m, low.y_m - kCell_m};
+  width_ = static_cast<int>((high.x_m - origin_.x_m) / kCell_m) + 2;
+  height_ = static_cast<int>((high.y_m - origin_.y_m) / kCell_m) + 2;
+  const auto cell_of = [this](const SurfacePoint& p) {
+    return static_cast<std::size_t>((p.y_m - origin_.y_m) / kCell_m) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>((p.x_m - origin_.x_m) / kCell_m);
+  };
+  cell_begin_.assign(static_cast<std::size_t>(width_) * height_ + 1, 0);
+  for (const SurfacePoint& p : points_) {
+    ++cell_begin_[cell_of(p) + 1];
+  }
+  for (std::size_t i = 1; i < cell_begin_.size(); ++i) {
+    cell_begin_[i] += cell_begin_[i - 1];
+  }
+  std::vector<SurfacePoint> sorted(points_.size());
+  std::vector<std::uint32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
+  for (const SurfacePoint& p : points_) {
+    sorted[next[cell_of(p)]++] = p;
+  }
+  points_ = std::move(sorted);
+}
+
+const SurfacePoint* LocalMap::nearest(double x_m, double y_m, double normal_x, double normal_y,
+                                      double reach_m) const {
+  const int cx = static_cast<int>(std::floor((x_m - origin_.x_m) / kCell_m));
+  const int cy = static_cast<int>(std::floor((y_m - origin_.y_m) / kCell_m));
+  const int r = static_cast<int>(std::ceil(reach_m / kCell_m));
+  const bool directed = normal_x != 0.0 || normal_y != 0.0;
+  const SurfacePoint* best = nullptr;
+  double best_sq = reach_m * reach_m;
+  for (int y = std::max(0, cy - r); y <= std::min(height_ - 1, cy + r); ++y) {
+    const int x_low = std::max(0, cx - r);
+    const int x_high = std::min(width_ - 1, cx + r);
+    if (x_low > x_high) {
+      break;
+    }
+    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+    for (std::uint32_t i = cell_begin_[row + x_low]; i < cell_begin_[row + x_high + 1]; ++i) {
+      const SurfacePoint& q = points_[i];
+      const double sq = (q.x_m - x_m) * (q.x_m - x_m) + (q.y_m - y_m) * (q.y_m - y_m);
+      if (sq < best_sq && q.has_normal() &&
+          (!directed || q.normal_x * normal_x + q.normal_y * normal_y > kSameDirection)) {
+        best_sq = sq;
+        best = &q;
+      }
+    }
+  }
+  return best;
+}
+
+SearchResult LocalMap::search(const SurfaceScan& scan, const Transform2<Map, Base>& prediction,
+                              const SearchWindow& window) const {
+  if (!grid_) {
+    std::vector<Point2<Map>> points;
+    points.reserve(points_.size());
+    for (const SurfacePoint& p : points_) {
+      points.push_back({p.x_m, p.y_m});
+    }
+    grid_ = std::make_unique<ScoreGrid>(points);
+  }
+  return grid_->search(scan, prediction, window);
+}
+
+namespace {
+
+/// Sums of one Gauss-Newton step.
+struct NormalEquations {
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  int covered = 0;
+  int inliers = 0;
+  double squares = 0.0;
+
+  void add(double residual, const Eigen::Vector3d& jacobian, double kernel_m) {
+    const double ratio = residual / kernel_m;
+    const double weight = 1.0 / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio));  // Geman-McClure
+    const double information = weight / (kResidualSigma_m * kResidualSigma_m);
+    hessian += information * jacobian * jacobian.transpose();
+    gradient += information * residual * jacobian;
+    if (std::abs(residual) < 0.1) {
+      ++inliers;
+      squares += residual * residual;
+    }
+  }
+};
+
+Eigen::Vector3d difference(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b) {
+  return {a.x_m() - b.x_m(), a.y_m() - b.y_m(), wrap_angle(a.yaw_rad() - b.yaw_rad())};
+}
+
+}  // namespace
+
+MatchResult LocalMap::refine(const SurfaceScan& scan, const Transform2<Map, Base>& start,
+                             const MatchPrior& prior) const {
+  MatchResult result;
+  result.map_from_base = start;
+  if (empty() || scan.points.empty()) {
+    return result;
+  }
+  constexpr int kMaxIterations = 20;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const double shrink = std::max(0.0, 1.0 - i / 6.0);
+    const double reach_m = 0.3 + 0.3 * shrink;
+    const double kernel_m = 0.08 + 0.2 * shrink;
+    NormalEquations sums;
+    const Transform2<Map, Base>& pose = result.map_from_base;
+    for (const SurfacePoint& p : scan.points) {
+      const SurfacePoint q = moved(pose, p);
+      const SurfacePoint* m = nearest(q.x_m, q.y_m, q.normal_x, q.normal_y, reach_m);
+      if (m == nullptr) {
+        continue;
+      }
+      ++sums.covered;
+      const double residual = m->normal_x * (q.x_m - m->x_m) + m->normal_y * (q.y_m - m->y_m);
+      const Eigen::Vector3d jacobian(
+          m->normal_x, m->normal_y, -m->normal_x * (q.y_m - pose.y_m()) + m->normal_y * (q.x_m - pose.x_m()));
+      sums.add(residual, jacobian, kernel_m);
+    }
+    const Eigen::Vector3d off = difference(pose, prior.map_from_base);
+    // Slipping wheels are far off at once: beyond three sigmas the prediction lets go (Cauchy).
+    const Eigen::Matrix3d lean = prior.information / (1.0 + off.dot(prior.information * off) / 9.0);
+    const Eigen::Matrix3d total = sums.hessian + lean + 1e-6 * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d slope = sums.gradient + lean * off;
+    const Eigen::Vector3d step = -total.ldlt().solve(slope);
+    result.information = sums.hessian;
+    result.iterations = i + 1;
+    const double points = static_cast<double>(scan.points.size());
+    result.covered_share = sums.covered / points;
+    result.inlier_share = sums.covered > 0 ? static_cast<double>(sums.inliers) / points : 0.0;
+    result.rms_m = sums.inliers > 0 ? std::sqrt(sums.squares / sums.inliers) : 0.0;
+    result.map_from_base =
+        Transform2<Map, Base>(pose.x_m() + step[0], pose.y_m() + step[1], pose.yaw_rad() + step[2]);
+    if (i >= 6 && step.head<2>().norm() < 1e-4 && std::abs(step[2]) < 1e-5) {
+      result.converged = true;
+      break;
+    }
+  }
+  return result;
+}
+
+}  // namespace madori::localization

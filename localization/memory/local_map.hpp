@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/frames.hpp"
+#include "core/transform2.hpp"
+#include "localization/memory/score_grid.hpp"
+#include "localization/memory/surface_scan.hpp"
+
+namespace madori::localization {
+
+/// How a scan fits a piece of the memory.
+struct MatchResult {
+  bool converged = false;
+  int iterations = 0;
+  Transform2<Map, Base> map_from_base;
+  /// Of (x, y, yaw) at the pose, Map axes; from the scan alone, without the prediction.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  double inlier_share = 0.0;   ///< of the points that had the map around them
+  double covered_share = 0.0;  ///< of the points, those that had the map around them
+  double rms_m = 0.0;          ///< of the inliers
+};
+
+/// A prediction to lean on: `information` of (x, y, yaw), Map axes; zero for none.
+struct MatchPrior {
+  Transform2<Map, Base> map_from_base;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+};
+
+/// The surfaces of some keyframes put together, for matching scans against. Immutable.
+class LocalMap {
+ public:
+  struct Piece {
+    const SurfaceScan* scan;
+    Transform2<Map, Base> map_from_base;
+  };
+  /// Keeps what lies within `radius_m` of `centre`.
+  LocalMap(const std::vector<Piece>& pieces, const Point2<Map>& centre, double radius_m);
+
+  [[nodiscard]] bool empty() const { return points_.empty(); }
+  /// Exhaustive search in a window around the prediction.
+  [[nodiscard]] SearchResult search(const SurfaceScan& scan, const Transform2<Map, Base>& prediction,
+                                    const SearchWindow& window) const;
+  /// Gauss-Newton on the distances to the nearest surface's tangent, robust (Geman-McClure), from `start`.
+  [[nodiscard]] MatchResult refine(const SurfaceScan& scan, const Transform2<Map, Base>& start,
+                                   const MatchPrior& prior) const;
+
+ private:
+  [[nodiscard]] const SurfacePoint* nearest(double x_m, double y_m, double normal_x, double normal_y,
+                                            double reach_m) const;
+  void build_index();
+
+  std::vector<SurfacePoint> points_;  ///< Map frame, sorted by cell
+  std::vector<std::uint32_t> cell_begin_;
+  int width_ = 0;
+  int height_ = 0;
+  Point2<Map> origin_;
+  mutable std::unique_ptr<ScoreGrid> grid_;  ///< built on the first search
+};
+
+}  // namespace madori::localization

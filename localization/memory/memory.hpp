@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/frames.hpp"
+#include "core/transform2.hpp"
+#include "localization/memory/local_map.hpp"
+#include "localization/memory/pose_graph.hpp"
+#include "localization/memory/surface_scan.hpp"
+
+namespace madori::localization {
+
+/// Sizes of the memory. Lengths are metres of driving unless said otherwise.
+struct MemoryOptions {
+  int max_keyframes = 1200;     ///< beyond it, old keyframes are fused into their neighbours
+  double window_path_m = 12.0;  ///< keyframes this recent are matched against in any case
+  int window_keyframes = 30;    ///< at most
+  double map_radius_m = 18.0;   ///< of the surfaces around the vehicle that are matched against
+  double loop_radius_m = 3.5;   ///< how near an old keyframe must be to close a loop with it
+  int loop_chain = 12;          ///< keyframes around the nearest one that make the piece to match against
+  double loop_inliers = 0.55;   ///< share of the scan that must fit
+  double drift_per_m = 0.015;   ///< growth of the uncertainty between loops, metres a metre
+  double drift_rad_per_m = 0.004;
+};
+
+/// A remembered scan at its pose.
+struct Keyframe {
+  SurfaceScan scan;
+  double path_m = 0.0;  ///< driven since the start
+};
+
+/// What the vehicle has seen itself: keyframes in a pose graph. Poses are Map frame, and are only as right as
+/// the first one and the unary factors of the drawing make them. Causal, deterministic, bounded.
+class Memory {
+ public:
+  explicit Memory(const MemoryOptions& options = {});
+
+  [[nodiscard]] bool empty() const { return keyframes_.empty(); }
+  [[nodiscard]] std::size_t size() const { return keyframes_.size(); }
+  [[nodiscard]] const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+  [[nodiscard]] const std::vector<Transform2<Map, Base>>& poses() const { return poses_; }
+  [[nodiscard]] const std::vector<RelativeFactor>& factors() const { return factors_; }
+  [[nodiscard]] int loops() const { return loops_; }
+
+  /// The recent surfaces around a place.
+  [[nodiscard]] LocalMap recent_map(const Point2<Map>& centre) const;
+  /// Adds a keyframe; `motion` from the newest one with its information (axes of the newest), if there is
+  /// one.
+  int add(Keyframe keyframe, const Transform2<Map, Base>& map_from_base,
+          const Eigen::Matrix3d& motion_information);
+  /// Looks for old keyframes near the newest and ties it to them. Returns how many loops were closed.
+  int close_loops();
+  /// Solves the graph with the drawing's pulls.
+  bool optimise(const std::vector<UnaryFactor>& unary);
+  /// Moves everything rigidly.
+  void move(const Transform2<Map, Map>& by);
+
+ private:
+  struct LoopCandidate {
+    std::size_t nearest;
+    std::size_t first;
+    std::size_t last;
+    double distance_m;
+  };
+  [[nodiscard]] std::size_t window_begin() const;
+  [[nodiscard]] std::vector<LoopCandidate> loop_candidates() const;
+  [[nodiscard]] bool close_loop(const LoopCandidate& candidate);
+  void fuse_if_full();
+
+  MemoryOptions options_;
+  std::vector<Keyframe> keyframes_;
+  std::vector<Transform2<Map, Base>> poses_;
+  std::vector<RelativeFactor> factors_;
+  int loops_ = 0;
+  double last_loop_path_m_ = 0.0;
+};
+
+}  // namespace madori::localization

@@ -1,0 +1,211 @@
+#include "localization/memory/score_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace madori::localization {
+namespace {
+
+constexpr int kReach = 4;             // cells that a point is smeared over
+constexpr double kSigma_m = 0.07;     // of the smear: range noise plus the grid's own rounding
+constexpr int kMargin = kReach + 16;  // so that windows may look over the border
+/// Against a score of 0..1. The penalty grows with the logarithm: wheels that slipped are far off at once.
+constexpr double kPenaltyWeight = 0.03;
+
+std::array<std::uint8_t, (2 * kReach + 1) * (2 * kReach + 1)> smear_kernel() {
+  std::array<std::uint8_t, (2 * kReach + 1) * (2 * kReach + 1)> kernel{};
+  for (int y = -kReach; y <= kReach; ++y) {
+    for (int x = -kReach; x <= kReach; ++x) {
+      const double d = std::hypot(x, y) * ScoreGrid::kResolution_m / kSigma_m;
+      kernel[static_cast<std::size_t>((y + kReach) * (2 * kReach + 1) + x + kReach)] =
+          static_cast<std::uint8_t>(std::lround(255.0 * std::exp(-0.5 * d * d)));
+    }
+  }
+  return kernel;
+}
+
+}  // namespace
+
+ScoreGrid::ScoreGrid(const std::vector<Point2<Map>>& points) {
+  if (points.empty()) {
+    return;
+  }
+  Point2<Map> low = points.front();
+  Point2<Map> high = low;
+  for (const Point2<Map>& p : points) {
+    low = {std::min(low.x_m, p.x_m), std::min(low.y_m, p.y_m)};
+    high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
+  }
+  origin_ = {low.x_m - kMargin * kResolution_m, low.y_m - kMargin * kResolution_m};
+  width_ = static_cast<int>((high.x_m - low.x_m) / kResolution_m) + 2 * kMargin + 1;
+  height_ = static_cast<int>((high.y_m - low.y_m) / kResolution_m) + 2 * kMargin + 1;
+  smear(points);
+  for (int level = 1; level < kLevels; ++level) {
+    pool(level);
+  }
+}
+
+void ScoreGrid::smear(const std::vector<Point2<Map>>& points) {
+  static const auto kernel = smear_kernel();
+  Level& grid = levels_[0];
+  grid.assign(static_cast<std::size_t>(width_) * height_, 0);
+  for (const Point2<Map>& p : points) {
+    const int cx = static_cast<int>((p.x_m - origin_.x_m) / kResolution_m);
+    const int cy = static_cast<int>((p.y_m - origin_.y_m) / kResolution_m);
+    const std::uint8_t* k = kernel.data();
+    for (int y = cy - kReach; y <= cy + kReach; ++y) {
+      std::uint8_t* row = grid.data() + static_cast<std::size_t>(y) * width_ + cx - kReach;
+      for (int x = 0; x < 2 * kReach + 1; ++x, ++k) {
+        row[x] = std::max(row[x], *k);
+      }
+    }
+  }
+}
+
+/// Level n at (x, y) is the maximum over the 2^n cells right of and above (x, y).
+void ScoreGrid::pool(int level) {
+  const int half = 1 << (level - 1);
+  const Level& fine = levels_[static_cast<std::size_t>(level - 1)];
+  Level across(fine);
+  for (int y = 0; y < height_; ++y) {
+    const std::uint8_t* from = fine.data() + static_cast<std::size_t>(y) * width_;
+    std::uint8_t* to = across.data() + static_cast<std::size_t>(y) * width_;
+    for (int x = 0; x + half < width_; ++x) {
+      to[x] = std::max(from[x], from[x + half]);
+    }
+  }
+  Level& out = levels_[static_cast<std::size_t>(level)];
+  out = across;
+  for (int y = 0; y + half < height_; ++y) {
+    const std::uint8_t* low = across.data() + static_cast<std::size_t>(y) * width_;
+    const std::uint8_t* high = across.data() + static_cast<std::size_t>(y + half) * width_;
+    std::uint8_t* to = out.data() + static_cast<std::size_t>(y) * width_;
+    for (int x = 0; x < width_; ++x) {
+      to[x] = std::max(low[x], high[x]);
+    }
+  }
+}
+
+/// One search: the scan's cells per rotation, and the depth-first descent through the levels.
+class BranchAndBound {
+ public:
+  BranchAndBound(const ScoreGrid& grid, const SurfaceScan& scan, const Transform2<Map, Base>& prediction,
+                 const SearchWindow& window)
+      : grid_(grid), scan_(scan), prediction_(prediction), window_(window) {}
+
+  SearchResult run() {
+    best_ = {prediction_, -1.0};
+    make_rotations();
+    const int reach = static_cast<int>(std::ceil(window_.half_m / ScoreGrid::kResolution_m));
+    constexpr int kTop = ScoreGrid::kLevels - 1;
+    std::vector<Candidate> top;
+    for (std::size_t r = 0; r < rotations_.size(); ++r) {
+      for (int y = -reach; y <= reach; y += 1 << kTop) {
+        for (int x = -reach; x <= reach; x += 1 << kTop) {
+          top.push_back({r, x, y, bound(r, x, y, kTop)});
+        }
+      }
+    }
+    descend(top, kTop, reach);
+    return best_;
+  }
+
+ private:
+  struct Rotation {
+    double offset_rad;
+    std::vector<int> x;
+    std::vector<int> y;
+  };
+  struct Candidate {
+    std::size_t rotation;
+    int x;
+    int y;
+    double bound;
+  };
+
+  void make_rotations() {
+    double far = 1.0;
+    std::vector<double> ranges;
+    for (const SurfacePoint& p : scan_.points) {
+      ranges.push_back(std::hypot(p.x_m, p.y_m));
+    }
+    if (!ranges.empty()) {  // a step moves three quarters of the points by less than two cells
+      std::nth_element(ranges.begin(), ranges.begin() + static_cast<long>(ranges.size() * 3 / 4),
+                       ranges.end());
+      far = std::max(far, ranges[ranges.size() * 3 / 4]);
+    }
+    const double step = std::clamp(1.5 * ScoreGrid::kResolution_m / far, 0.005, 0.035);
+    const int count = static_cast<int>(std::ceil(window_.half_rad / step));
+    for (int i = -count; i <= count; ++i) {
+      rotations_.push_back({i * step, {}, {}});
+      Rotation& rotation = rotations_.back();
+      const Transform2<Map, Base> pose(prediction_.x_m(), prediction_.y_m(),
+                                       prediction_.yaw_rad() + i * step);
+      for (const SurfacePoint& p : scan_.points) {
+        const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
+        rotation.x.push_back(
+            static_cast<int>(std::floor((q.x_m - grid_.origin_.x_m) / ScoreGrid::kResolution_m)));
+        rotation.y.push_back(
+            static_cast<int>(std::floor((q.y_m - grid_.origin_.y_m) / ScoreGrid::kResolution_m)));
+      }
+    }
+  }
+
+  /// Least penalty of any offset within the window of 2^level cells that starts at (x, y).
+  double penalty(std::size_t r, int x, int y, int level) const {
+    const int width = (1 << level) - 1;
+    const auto nearest = [width](int v) { return v > 0 ? v : std::min(0, v + width); };
+    const double d = std::hypot(nearest(x), nearest(y)) * ScoreGrid::kResolution_m / window_.sigma_m;
+    const double a = rotations_[r].offset_rad / window_.sigma_rad;
+    return kPenaltyWeight * std::log1p(d * d + a * a);
+  }
+
+  double bound(std::size_t r, int x, int y, int level) const {
+    const Rotation& rotation = rotations_[r];
+    unsigned sum = 0;
+    for (std::size_t i = 0; i < rotation.x.size(); ++i) {
+      sum += grid_.at(level, rotation.x[i] + x, rotation.y[i] + y);
+    }
+    const double mean = rotation.x.empty() ? 0.0 : sum / (255.0 * static_cast<double>(rotation.x.size()));
+    return mean - penalty(r, x, y, level);
+  }
+
+  void descend(std::vector<Candidate>& candidates, int level, int reach) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.bound > b.bound; });
+    for (const Candidate& c : candidates) {
+      if (c.bound <= best_.score) {
+        return;
+      }
+      if (level == 0) {
+        const double cell = ScoreGrid::kResolution_m;
+        best_ = {Transform2<Map, Base>(prediction_.x_m() + c.x * cell, prediction_.y_m() + c.y * cell,
+                                       prediction_.yaw_rad() + rotations_[c.rotation].offset_rad),
+                 c.bound};
+        continue;
+      }
+      const int half = 1 << (level - 1);
+      std::vector<Candidate> children;
+      for (int y = c.y; y <= std::min(reach, c.y + half); y += half) {
+        for (int x = c.x; x <= std::min(reach, c.x + half); x += half) {
+          children.push_back({c.rotation, x, y, bound(c.rotation, x, y, level - 1)});
+        }
+      }
+      descend(children, level - 1, reach);
+    }
+  }
+
+  const ScoreGrid& grid_;
+  const SurfaceScan& scan_;
+  Transform2<Map, Base> prediction_;
+  SearchWindow window_;
+  std::vector<Rotation> rotations_;
+  SearchResult best_;
+};
+
+SearchResult ScoreGrid::search(const SurfaceScan& scan, const Transform2<Map, Base>& prediction,
+                               const SearchWindow& window) const {
+  return BranchAndBound(*this, scan, prediction, window).run();
+}
+
+}  // namespace madori::localization

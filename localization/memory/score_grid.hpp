@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/frames.hpp"
+#include "core/transform2.hpp"
+#include "localization/memory/surface_scan.hpp"
+
+namespace madori::localization {
+
+/// Window of a correlative search around a predicted pose, and how dear leaving the prediction is.
+struct SearchWindow {
+  double half_m = 0.4;
+  double half_rad = 0.3;
+  double sigma_m = 0.2;    ///< of the prediction
+  double sigma_rad = 0.1;  ///< of the prediction
+};
+
+/// The best pose on the grid and its score.
+struct SearchResult {
+  Transform2<Map, Base> map_from_base;
+  double score = 0.0;  ///< mean likelihood of the points, 0..1, less the penalty of leaving the prediction
+};
+
+/// Smeared occupancy of a piece of the map and its maxima over growing windows, for an exhaustive search by
+/// branch and bound (Olson 2009; Hess et al. 2016, Real-Time Loop Closure in 2D LIDAR SLAM).
+class ScoreGrid {
+ public:
+  static constexpr double kResolution_m = 0.05;
+  static constexpr int kLevels = 4;  ///< windows of 1, 2, 4, 8 cells
+
+  /// `points` are Map frame.
+  explicit ScoreGrid(const std::vector<Point2<Map>>& points);
+
+  [[nodiscard]] SearchResult search(const SurfaceScan& scan, const Transform2<Map, Base>& prediction,
+                                    const SearchWindow& window) const;
+
+ private:
+  using Level = std::vector<std::uint8_t>;
+  void smear(const std::vector<Point2<Map>>& points);
+  void pool(int level);
+  [[nodiscard]] std::uint8_t at(int level, int x, int y) const {
+    if (static_cast<unsigned>(x) >= static_cast<unsigned>(width_) ||
+        static_cast<unsigned>(y) >= static_cast<unsigned>(height_)) {
+      return 0;
+    }
+    return levels_[static_cast<std::size_t>(level)][static_cast<std::size_t>(y) * width_ + x];
+  }
+
+  int width_ = 0;
+  int height_ = 0;
+  Point2<Map> origin_;
+  std::array<Level, kLevels> levels_;
+
+  friend class BranchAndBound;
+};
+
+}  // namespace madori::localization

@@ -1,0 +1,114 @@
+#include "localization/memory/surface_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace madori::localization {
+namespace {
+
+struct Polar {
+  double bearing_rad;
+  double range_m;
+  Point2<Base> point;
+};
+
+std::vector<Polar> sorted_by_bearing(const Point2<Base>& sensor, const std::vector<Point2<Base>>& points,
+                                     double range_max_m) {
+  std::vector<Polar> polar;
+  polar.reserve(points.size());
+  for (const Point2<Base>& p : points) {
+    const double dx = p.x_m - sensor.x_m;
+    const double dy = p.y_m - sensor.y_m;
+    const double range = std::hypot(dx, dy);
+    if (std::isfinite(range) && range > 0.05 && range < range_max_m) {
+      polar.push_back({std::atan2(dy, dx), range, p});
+    }
+  }
+  std::sort(polar.begin(), polar.end(), [](const Polar& a, const Polar& b) {
+    return std::pair(a.bearing_rad, a.range_m) < std::pair(b.bearing_rad, b.range_m);
+  });
+  return polar;
+}
+
+/// Total least squares line through points first..last; false where they are no line.
+bool fit_normal(const std::vector<Polar>& scan, std::size_t first, std::size_t last, SurfacePoint& out) {
+  const double n = static_cast<double>(last - first + 1);
+  double mean_x = 0.0;
+  double mean_y = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    mean_x += scan[i].point.x_m / n;
+    mean_y += scan[i].point.y_m / n;
+  }
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    const double dx = scan[i].point.x_m - mean_x;
+    const double dy = scan[i].point.y_m - mean_y;
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+  }
+  const double mean = 0.5 * (xx + yy);
+  const double spread = std::hypot(0.5 * (xx - yy), xy);
+  constexpr double kFlat = 0.04;  // ratio of the principal variances: a fifth in length
+  if (mean + spread <= 0.0 || (mean - spread) > kFlat * (mean + spread)) {
+    return false;
+  }
+  const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  out.normal_x = -std::sin(direction);
+  out.normal_y = std::cos(direction);
+  return true;
+}
+
+/// The run of neighbours around i that lie on the same surface, at most kReach to each side.
+std::pair<std::size_t, std::size_t> neighbourhood(const std::vector<Polar>& scan, std::size_t i) {
+  constexpr std::size_t kReach = 4;
+  const double gap_m = std::max(0.15, 0.06 * scan[i].range_m);
+  const double reach_m = std::max(0.25, 0.1 * scan[i].range_m);
+  std::size_t first = i;
+  std::size_t last = i;
+  while (first > 0 && i - first < kReach && distance_m(scan[first].point, scan[first - 1].point) < gap_m &&
+         distance_m(scan[i].point, scan[first - 1].point) < reach_m) {
+    --first;
+  }
+  while (last + 1 < scan.size() && last - i < kReach &&
+         distance_m(scan[last].point, scan[last + 1].point) < gap_m &&
+         distance_m(scan[i].point, scan[last + 1].point) < reach_m) {
+    ++last;
+  }
+  return {first, last};
+}
+
+SurfacePoint surface_point(const std::vector<Polar>& scan, std::size_t i, const Point2<Base>& sensor) {
+  SurfacePoint p{scan[i].point.x_m, scan[i].point.y_m};
+  const auto [first, last] = neighbourhood(scan, i);
+  if (last - first >= 2 && fit_normal(scan, first, last, p)) {
+    const double towards = (sensor.x_m - p.x_m) * p.normal_x + (sensor.y_m - p.y_m) * p.normal_y;
+    if (towards < 0.0) {
+      p.normal_x = -p.normal_x;
+      p.normal_y = -p.normal_y;
+    }
+  }
+  return p;
+}
+
+}  // namespace
+
+SurfaceScan make_surface_scan(Stamp stamp, const Point2<Base>& sensor,
+                              const std::vector<Point2<Base>>& points, const SurfaceScanOptions& options) {
+  const std::vector<Polar> polar = sorted_by_bearing(sensor, points, options.range_max_m);
+  SurfaceScan scan{stamp, sensor, {}};
+  const Point2<Base>* kept = nullptr;
+  for (std::size_t i = 0; i < polar.size(); ++i) {
+    if (kept != nullptr && distance_m(*kept, polar[i].point) < options.spacing_m) {
+      continue;
+    }
+    kept = &polar[i].point;
+    scan.points.push_back(surface_point(polar, i, sensor));
+  }
+  return scan;
+}
+
+}  // namespace madori::localization

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "core/odometry.hpp"
+#include "localization/motion_model/odometry_model.hpp"
+
+namespace madori::localization {
+
+/// The last readings of dead reckoning, to ask for the motion between any two recent moments.
+class OdometryTrack {
+ public:
+  /// False, and the reading is left out, when it is not finite or older than its forerunner.
+  bool add(const OdometryReading& reading);
+
+  [[nodiscard]] bool empty() const { return readings_.empty(); }
+  [[nodiscard]] const OdometryReading& newest() const { return readings_.back(); }
+  /// Where dead reckoning was at `stamp`: interpolated, or carried on at the last speed for at most
+  /// kCarryOn; nothing when there is no reading near enough.
+  [[nodiscard]] std::optional<OdometryReading> at(Stamp stamp) const;
+  /// The corrected motion from one moment to a later one; clipped to what the track knows.
+  [[nodiscard]] OdometryStep between(Stamp from, Stamp to, const OdometryModel& model) const;
+
+ private:
+  static constexpr Duration kCarryOn = std::chrono::milliseconds(250);
+  static constexpr Duration kKept = std::chrono::seconds(30);
+  std::deque<OdometryReading> readings_;
+};
+
+}  // namespace madori::localization

@@ -1,0 +1,119 @@
+#include "localization/localizer/localizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/made_up_buildings.hpp"
+#include "tests/support/made_up_drive.hpp"
+
+namespace madori::localization {
+namespace {
+
+const std::vector<Point2<Map>> kRound{{2.0, 1.2},  {7.0, 1.2},  {11.0, 1.2}, {14.5, 1.0}, {14.4, 4.5},
+                                      {14.0, 8.0}, {10.2, 7.6}, {7.2, 7.6},  {7.0, 4.0},  {6.8, 1.3},
+                                      {11.0, 1.2}, {14.5, 1.0}, {14.4, 4.5}};
+
+struct Errors {
+  double rms_m = 0.0;
+  double last_m = 0.0;
+  double last_rad = 0.0;
+};
+
+/// Errors over the second half of the drive.
+Errors run(Localizer& localizer, const std::vector<test::DriveMoment>& moments) {
+  Errors errors;
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    PoseEstimate e = localizer.on_odometry(moments[i].odometry);
+    if (moments[i].has_scan) e = localizer.on_scan(moments[i].scan.stamp, scan_points(moments[i].scan, {}));
+    errors.last_m = distance_m(e.map_from_base.translation(), moments[i].truth.translation());
+    errors.last_rad = std::abs(wrap_angle(e.map_from_base.yaw_rad() - moments[i].truth.yaw_rad()));
+    if (2 * i > moments.size()) {
+      squares += errors.last_m * errors.last_m;
+      ++count;
+    }
+  }
+  errors.rms_m = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, count)));
+  return errors;
+}
+
+test::DriveSettings bad_wheels() {
+  test::DriveSettings settings;
+  settings.bias_rad_per_m = 0.05;
+  settings.bias_distance = 0.03;
+  settings.lidar.range_sigma_m = 0.015;
+  return settings;
+}
+
+TEST(Localizer, FindsItsPlaceOnAnExactDrawingFromARoughStart) {
+  std::mt19937 engine(11);
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  const Transform2<Map, Base> truth = moments.front().truth;
+  Localizer localizer(walls, {{truth.x_m() + 0.4, truth.y_m() - 0.3, truth.yaw_rad() + to_rad(10.0)}});
+  const Errors errors = run(localizer, moments);
+  EXPECT_LT(errors.rms_m, 0.05);
+  EXPECT_LT(errors.last_rad, to_rad(0.5));
+}
+
+TEST(Localizer, FollowsTheBuildingWhereTheDrawingIsWrong) {
+  std::mt19937 engine(12);
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  mapping::Walls drawing = walls;
+  for (std::size_t i = 10; i < 18; ++i) {  // the machines stand half a metre beside where they are drawn
+    drawing[i].segment.a.x_m += 0.5;
+    drawing[i].segment.b.x_m += 0.5;
+  }
+  Localizer localizer(drawing, {moments.front().truth});
+  EXPECT_LT(run(localizer, moments).rms_m, 0.12);
+}
+
+TEST(Localizer, MapsWithoutADrawing) {
+  std::mt19937 engine(13);
+  const auto moments = test::drive(test::laboratory_hall(), kRound, bad_wheels(), engine);
+  Localizer localizer({}, {moments.front().truth});
+  const Errors errors = run(localizer, moments);
+  EXPECT_LT(errors.rms_m, 0.10);
+  EXPECT_GT(localizer.memory().loops(), 0);
+}
+
+TEST(Localizer, TheSameReadingsGiveTheSamePosesBitForBit) {
+  std::mt19937 engine(14);
+  const mapping::Walls walls = test::laboratory_hall();
+  auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  moments.resize(150);
+  Localizer a(walls, {moments.front().truth}), b(walls, {moments.front().truth});
+  for (const auto& m : moments) {
+    (void)a.on_odometry(m.odometry);
+    (void)b.on_odometry(m.odometry);
+    if (!m.has_scan) continue;
+    const PoseEstimate pa = a.on_scan(m.scan.stamp, scan_points(m.scan, {}));
+    const PoseEstimate pb = b.on_scan(m.scan.stamp, scan_points(m.scan, {}));
+    ASSERT_EQ(pa.map_from_base.x_m(), pb.map_from_base.x_m());
+    ASSERT_EQ(pa.map_from_base.yaw_rad(), pb.map_from_base.yaw_rad());
+  }
+}
+
+TEST(Localizer, SurvivesEmptyScansAndLateReadings) {
+  std::mt19937 engine(15);
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  Localizer localizer(walls, {moments.front().truth});
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    (void)localizer.on_odometry(moments[i].odometry);
+    if (i > 0 && i % 7 == 0) (void)localizer.on_odometry(moments[i - 1].odometry);
+    if (i % 11 == 0) (void)localizer.on_scan(moments[i].odometry.stamp, ScanPoints{});
+    if (i % 17 == 0) (void)localizer.on_odometry({moments[i].odometry.stamp, {std::nan(""), 0.0, 0.0}});
+    if (moments[i].has_scan && i % 9 != 0) {
+      (void)localizer.on_scan(moments[i].scan.stamp, scan_points(moments[i].scan, {}));
+    }
+  }
+  const PoseEstimate last = localizer.on_odometry(moments.back().odometry);
+  EXPECT_LT(distance_m(last.map_from_base.translation(), moments.back().truth.translation()), 0.15);
+}
+
+}  // namespace
+}  // namespace madori::localization

@@ -1,0 +1,125 @@
+#include "localization/memory/memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "localization/memory/local_map.hpp"
+#include "localization/memory/pose_graph.hpp"
+#include "localization/scan_points.hpp"
+#include "tests/support/made_up_buildings.hpp"
+
+namespace madori::localization {
+namespace {
+
+SurfaceScan look(const Transform2<Map, Base>& pose, std::mt19937& engine, double sigma_m = 0.01) {
+  test::ScanSettings settings = test::full_turn(360, 30.0);
+  settings.range_sigma_m = sigma_m;
+  const LaserScan scan = test::simulate_scan(test::laboratory_hall(), pose, settings, engine);
+  std::vector<Point2<Base>> points;
+  const ScanPoints seen = scan_points(scan, {});
+  for (std::size_t i = 0; i < seen.size(); ++i) points.push_back(seen.point(i));
+  return make_surface_scan({}, {}, points);
+}
+
+TEST(SurfaceScan, NormalsStandOnTheWallsAndLookAtTheSensor) {
+  std::mt19937 engine(1);
+  const SurfaceScan scan = look({10.0, 8.0, 0.3}, engine, 0.0);
+  int directed = 0;
+  for (const SurfacePoint& p : scan.points) {
+    if (!p.has_normal()) continue;
+    ++directed;
+    EXPECT_LT(p.normal_x * p.x_m + p.normal_y * p.y_m, 0.0);
+    EXPECT_NEAR(std::hypot(p.normal_x, p.normal_y), 1.0, 1e-9);
+  }
+  EXPECT_GT(directed, static_cast<int>(scan.points.size()) * 8 / 10);
+}
+
+TEST(LocalMap, FindsALargeMotionAndRefinesItToCentimetres) {
+  std::mt19937 engine(2);
+  std::uniform_real_distribution<double> jump(-1.0, 1.0);
+  const Transform2<Map, Base> here(10.0, 8.0, 0.3);
+  const SurfaceScan before = look(here, engine);
+  const LocalMap map({{&before, here}}, here.translation(), 20.0);
+  for (int i = 0; i < 20; ++i) {
+    const Transform2<Map, Base> truth(10.0 + 0.5 * jump(engine), 8.0 + 0.5 * jump(engine),
+                                      0.3 + 0.4 * jump(engine));
+    const SurfaceScan now = look(truth, engine);
+    SearchWindow window{0.8, 0.5, 0.5, 0.5};
+    const MatchResult match = map.refine(now, map.search(now, here, window).map_from_base, {});
+    EXPECT_LT(distance_m(match.map_from_base.translation(), truth.translation()), 0.02);
+    EXPECT_LT(std::abs(wrap_angle(match.map_from_base.yaw_rad() - truth.yaw_rad())), to_rad(0.3));
+    EXPECT_GT(match.inlier_share, 0.8);
+  }
+}
+
+TEST(LocalMap, ABareCorridorGivesNoInformationAlong) {
+  mapping::Walls corridor;
+  test::add_wall(corridor, -50.0, -1.0, 50.0, -1.0);
+  test::add_wall(corridor, -50.0, 1.0, 50.0, 1.0);
+  std::mt19937 engine(3);
+  const LaserScan scan =
+      test::simulate_scan(corridor, Transform2<Map, Base>(), test::full_turn(360, 15.0), engine);
+  std::vector<Point2<Base>> points;
+  const ScanPoints seen = scan_points(scan, {});
+  for (std::size_t i = 0; i < seen.size(); ++i) points.push_back(seen.point(i));
+  const SurfaceScan surface = make_surface_scan({}, {}, points);
+  const LocalMap map({{&surface, Transform2<Map, Base>()}}, {}, 20.0);
+  const MatchResult match = map.refine(surface, {}, {});
+  EXPECT_LT(match.information(0, 0), 1e-3 * match.information(1, 1));
+}
+
+TEST(PoseGraph, ALoopClosureSpreadsTheDriftOfASquare) {
+  std::vector<Transform2<Map, Base>> truth, poses;
+  std::vector<RelativeFactor> factors;
+  const Transform2<Base, Base> side(1.0, 0.0, 0.0), corner(0.0, 0.0, kPi / 2.0), bias(0.0, 0.0, 0.002);
+  Transform2<Map, Base> at, drifted;
+  for (int i = 0; i < 40; ++i) {
+    truth.push_back(at);
+    poses.push_back(drifted);
+    const Transform2<Base, Base> motion = i % 10 == 9 ? side * corner : side;
+    at = at * motion;
+    drifted = drifted * (motion * bias);
+    if (i > 0) {
+      factors.push_back(
+          {i - 1, i, poses[i - 1].inverse() * poses[i], 1e4 * Eigen::Matrix3d::Identity(), false});
+    }
+  }
+  factors.push_back({0, 39, truth[0].inverse() * truth[39], 1e4 * Eigen::Matrix3d::Identity(), true});
+  const double before = distance_m(poses[20].translation(), truth[20].translation());
+  ASSERT_TRUE(optimise_graph(poses, factors, {}));
+  EXPECT_LT(distance_m(poses[39].translation(), truth[39].translation()), 0.05);
+  EXPECT_LT(distance_m(poses[20].translation(), truth[20].translation()), 0.5 * before);
+}
+
+TEST(PoseGraph, AWrongLoopClosureLetsGo) {
+  std::vector<Transform2<Map, Base>> poses;
+  std::vector<RelativeFactor> factors;
+  for (int i = 0; i < 30; ++i) {
+    poses.emplace_back(i, 0.0, 0.0);
+    if (i > 0) factors.push_back({i - 1, i, {1.0, 0.0, 0.0}, 1e4 * Eigen::Matrix3d::Identity(), false});
+  }
+  factors.push_back({0, 29, {10.0, 12.0, 1.5}, 1e4 * Eigen::Matrix3d::Identity(), true});
+  ASSERT_TRUE(optimise_graph(poses, factors, {}));
+  EXPECT_NEAR(poses[29].x_m(), 29.0, 0.5);
+  EXPECT_NEAR(poses[29].y_m(), 0.0, 0.5);
+}
+
+TEST(PoseGraph, AUnaryFactorPullsOnlyWhereItSees) {
+  std::vector<Transform2<Map, Base>> poses{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+  const std::vector<RelativeFactor> factors{
+      {0, 1, {1.0, 0.0, 0.0}, 1e4 * Eigen::Matrix3d::Identity(), false}};
+  UnaryFactor prior;
+  prior.hessian = 1e4 * Eigen::Matrix3d::Identity();
+  UnaryFactor wall;  // a wall across: only y, and it lies 0.2 m to the left
+  wall.node = 1;
+  wall.at = poses[1];
+  wall.hessian(1, 1) = 1e4;
+  wall.gradient[1] = -1e4 * 0.2;
+  ASSERT_TRUE(optimise_graph(poses, factors, {prior, wall}));
+  EXPECT_NEAR(poses[1].x_m(), 1.0, 0.02);
+  EXPECT_GT(poses[1].y_m(), 0.08);
+}
+
+}  // namespace
+}  // namespace madori::localization
