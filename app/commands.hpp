@@ -8,6 +8,7 @@ class App;
 namespace madori::app {
 
 void add_localize(CLI::App& app);
+void add_import(CLI::App& app);
 void add_route(CLI::App& app);
 void add_version(CLI::App& app);
 

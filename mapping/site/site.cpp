@@ -4,6 +4,7 @@
 
 #include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
+#include "mapping/site/site_transaction.hpp"
 #include "mapping/site/strict_yaml.hpp"
 
 namespace madori::mapping {
@@ -107,6 +108,7 @@ void emit_sensor(YAML::Emitter& out, const SensorRecord& s) {
 }  // namespace
 
 Site load_site(const std::filesystem::path& folder) {
+  recover_site(folder);
   const auto file = folder / "site.yaml";
   if (!std::filesystem::exists(file))
     throw Error(folder.string(), "is no site folder (no site.yaml)",

@@ -1,0 +1,183 @@
+#include "mapping/drawing/import_drawing.hpp"
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/result.hpp"
+#include "mapping/drawing/import_picture.hpp"
+#include "mapping/site/site_transaction.hpp"
+#include "mapping/wall_map/occupancy_map.hpp"
+#include "mapping/wall_map/point_map.hpp"
+#include "mapping/wall_map/wall.hpp"
+
+namespace madori::mapping {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Times the stages of the command itself beside those of the detector.
+class Stages {
+ public:
+  Stages(std::vector<StageReport>& reports, const Progress& progress)
+      : reports_(reports), progress_(progress) {}
+  void begin(const std::string& name, double share) {
+    if (progress_) progress_(name, share);
+    name_ = name;
+    start_ = std::chrono::steady_clock::now();
+  }
+  void end(std::size_t count) {
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start_;
+    reports_.push_back({name_, spent.count(), count});
+  }
+
+ private:
+  std::vector<StageReport>& reports_;
+  const Progress& progress_;
+  std::string name_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+void refuse_existing(const ImportOptions& options) {
+  if (options.force || !fs::exists(options.site)) return;
+  if (!fs::is_directory(options.site))
+    throw Error(options.site.string(), "is a file, not a folder", "name another --site");
+  if (fs::exists(options.site / "site.yaml"))
+    throw Error(options.site.string(), "is a site already",
+                "name another folder, or replace its drawing with --force");
+  for (const auto& entry : fs::directory_iterator(options.site))
+    if (!entry.path().filename().string().starts_with(".staging"))
+      throw Error(options.site.string(), "is a folder with other files in it",
+                  "name another folder, or use --force");
+}
+
+StageSink debug_sink(const ImportOptions& options, SiteTransaction& change) {
+  if (!options.debug_images) return {};
+  return [&change, number = 0](const std::string& stage, const GrayImage& picture) mutable {
+    const std::string name = "debug/" + std::to_string(10 + number++) + "-" + stage + ".png";
+    const cv::Mat view(picture.height_px, picture.width_px, CV_8UC1,
+                       const_cast<std::uint8_t*>(picture.pixels.data()));
+    std::vector<std::uint8_t> png;
+    cv::imencode(".png", view, png, {cv::IMWRITE_PNG_COMPRESSION, 1});
+    change.write(name, {reinterpret_cast<const char*>(png.data()), png.size()});
+  };
+}
+
+/// Image to Map: x = u * s, y = (height - v) * s (architecture.md, frames).
+Walls to_map(const std::vector<PixelSegment>& segments, int height_px, double m_per_px) {
+  Walls walls;
+  walls.reserve(segments.size());
+  for (const auto& s : segments) {
+    const Point2<Map> a{s.u1 * m_per_px, (height_px - s.v1) * m_per_px};
+    const Point2<Map> b{s.u2 * m_per_px, (height_px - s.v2) * m_per_px};
+    walls.push_back({static_cast<int>(walls.size()) + 1, {a, b}});
+  }
+  return walls;
+}
+
+[[noreturn]] void no_walls(const ImportOptions& options, const Plan& plan) {
+  const bool vectors = plan.vectors.has_value();
+  throw Error(options.drawing.string(), "no wall was found in it",
+              vectors
+                  ? "name the layers of the walls with --layers"
+                  : "look at the stages with --debug-images; fainter lines: --threshold 220; small drawings: "
+                    "--min-wall-length 10; drawings of furniture lines: --keep-furniture");
+}
+
+Site make_site(const ImportOptions& options, const Plan& plan, const std::string& drawing_name) {
+  Site site;
+  const bool replaces = options.force && fs::exists(options.site / "site.yaml");
+  if (replaces) site = load_site(options.site);
+  site.scale.reset();
+  site.georeference.reset();
+  if (!options.name.empty() || !replaces)
+    site.name = options.name.empty() ? options.drawing.stem().string() : options.name;
+  site.drawing = {drawing_name, plan.picture.width_px, plan.picture.height_px, options.plan.page,
+                  options.plan.dpi.value_or(plan.picture.dpi)};
+  if (options.m_per_px)
+    site.scale = ScaleRecord{*options.m_per_px, "option", 0.0, 0.0, options.date, {"--scale"}};
+  else if (plan.m_per_px)
+    site.scale = ScaleRecord{*plan.m_per_px, plan.scale_method, 0.0, 0.0, options.date, plan.notes};
+  return site;
+}
+
+std::string file_content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The files of an older import that this one does not write again.
+void remove_old_drawing(const ImportOptions& options, const std::string& drawing_name,
+                        SiteTransaction& change) {
+  if (!fs::exists(options.site / "site.yaml")) return;
+  const std::string old = load_site(options.site).drawing.file;
+  if (old != drawing_name) change.remove(old);
+}
+
+}  // namespace
+
+ImportReport import_drawing(const ImportOptions& options, const Progress& progress) {
+  refuse_existing(options);
+  ImportReport report;
+  Stages stages(report.stages, progress);
+  stages.begin("load", 0.0);
+  Plan plan = load_plan(options.drawing, options.plan);
+  stages.end(plan.picture.pixels.size());
+
+  SiteTransaction change(options.site);
+  DetectedWalls found;
+  if (plan.vectors) {
+    found.walls = std::move(plan.vectors->walls);
+    found.rejected = std::move(plan.vectors->rejected);
+  } else {
+    DetectionOptions detection = options.detection;
+    if (!detection.m_per_px) detection.m_per_px = options.m_per_px;
+    found = detect_walls(plan.picture, detection, debug_sink(options, change), progress);
+  }
+  if (found.walls.empty()) no_walls(options, plan);
+  report.stages.insert(report.stages.end(), found.stages.begin(), found.stages.end());
+
+  const std::string drawing_name = "drawing" + options.drawing.extension().string();
+  report.site = make_site(options, plan, drawing_name);
+  const bool scaled = report.site.scale.has_value();
+  const double unit = scaled ? report.site.scale->m_per_px : 1.0;
+  const Walls walls = to_map(found.walls, plan.picture.height_px, unit);
+
+  stages.begin("points", 0.85);
+  const PointMap points = make_point_map(walls, options.point_spacing_m.value_or(scaled ? 0.02 : 1.0),
+                                         options.voxel_m.value_or(scaled ? 0.05 : 2.0));
+  save_pcd(change.staged("walls.pcd"), points);
+  stages.end(points.points.size());
+
+  stages.begin("save", 0.9);
+  const OccupancyMap grid =
+      make_occupancy_map(walls, plan.picture.width_px * unit, plan.picture.height_px * unit,
+                         options.cell_m.value_or(scaled ? 0.05 : 2.0));
+  change.write("map.pgm", grid.pgm);
+  change.write("map.yaml", grid.yaml);
+  change.write("walls.csv", walls_csv(walls));
+  change.write("site.yaml", site_yaml(report.site));
+  change.write(drawing_name, file_content(options.drawing));
+  remove_old_drawing(options, drawing_name, change);
+  stages.end(walls.size());
+
+  stages.begin("picture", 0.95);
+  const auto png =
+      import_picture(plan.picture, found.walls, found.rejected, scaled ? std::optional(unit) : std::nullopt);
+  change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+  change.commit();
+  stages.end(png.size());
+
+  report.walls = walls.size();
+  for (const auto& wall : walls) report.wall_length += wall.segment.length_m();
+  report.rejected = found.rejected.size();
+  report.skew_deg = found.skew_deg;
+  report.points_sampled = points.sampled;
+  report.points = points.points.size();
+  report.notes = std::move(plan.notes);
+  return report;
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mapping/drawing/plan.hpp"
+#include "mapping/drawing/raster/detect_walls.hpp"
+#include "mapping/site/site.hpp"
+
+namespace madori::mapping {
+
+struct ImportOptions {
+  std::filesystem::path drawing;
+  std::filesystem::path site;
+  std::string name;                ///< of the site; empty: the drawing's file name
+  std::optional<double> m_per_px;  ///< stronger than the file's own units
+  PlanOptions plan;
+  DetectionOptions detection;
+  std::optional<double> point_spacing_m;  ///< of the wall points; default 0.02 m (1 px while unscaled)
+  std::optional<double> voxel_m;          ///< default 0.05 m (2 px while unscaled)
+  std::optional<double> cell_m;           ///< of map.pgm; default 0.05 m (2 px while unscaled)
+  bool force = false;                     ///< replaces the drawing of an existing site; routes and tiles stay
+  bool debug_images = false;              ///< one picture a stage in DIR/debug
+  std::string date;                       ///< ISO 8601 UTC, recorded with the scale
+};
+
+struct ImportReport {
+  Site site;
+  std::size_t walls = 0;
+  double wall_length = 0.0;  ///< metres, pixels while unscaled
+  std::size_t rejected = 0;
+  double skew_deg = 0.0;
+  std::size_t points_sampled = 0;  ///< before the voxel grid
+  std::size_t points = 0;          ///< after it
+  std::vector<StageReport> stages;
+  std::vector<std::string> notes;
+};
+
+/// `madori import`: a drawing becomes a site folder, in one atomic step (SiteTransaction). Throws Error on
+/// every bad input, with the site as it was.
+ImportReport import_drawing(const ImportOptions& options, const Progress& progress = {});
+
+}  // namespace madori::mapping

@@ -1,0 +1,131 @@
+#include "mapping/site/site_transaction.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "core/result.hpp"
+#include "mapping/site/atomic_file.hpp"
+
+namespace madori::mapping {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStaging = ".staging";
+constexpr const char* kLock = ".staging.lock";
+constexpr const char* kJournal = "JOURNAL";
+
+fs::path journal_of(const fs::path& site) {
+  return site / kStaging / kJournal;
+}
+
+void sync(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool good = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!good)
+    throw Error(path.string(), std::string("cannot be saved: ") + std::strerror(error),
+                "check the disk and its free space");
+}
+
+int take_lock(const fs::path& site, bool wait) {
+  const fs::path file = site / kLock;
+  const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (lock < 0)
+    throw Error(site.string(), std::string("cannot be written: ") + std::strerror(errno),
+                "check its permissions");
+  if (::flock(lock, wait ? LOCK_EX : LOCK_EX | LOCK_NB) != 0) {
+    ::close(lock);
+    throw Error(site.string(), "another command is changing this site", "wait until it has ended");
+  }
+  return lock;
+}
+
+/// Every step can be repeated: a rename that was done before the power failed is simply no longer there.
+void apply_journal(const fs::path& site) {
+  std::ifstream journal(journal_of(site));
+  std::string line;
+  while (std::getline(journal, line)) {
+    const std::string name = line.substr(std::min<std::size_t>(line.size(), 2));
+    if (line.starts_with("- ")) {
+      std::error_code missing;
+      fs::remove(site / name, missing);
+    } else if (line.starts_with("+ ") && fs::exists(site / kStaging / name)) {
+      fs::create_directories((site / name).parent_path());
+      fs::rename(site / kStaging / name, site / name);
+    }
+  }
+  sync(site);
+  fs::remove_all(site / kStaging);
+}
+
+}  // namespace
+
+SiteTransaction::SiteTransaction(fs::path site) : site_(std::move(site)) {
+  std::error_code error;
+  created_ = fs::create_directories(site_, error);
+  if (error)
+    throw Error(site_.string(), "cannot be made: " + error.message(),
+                "choose a folder that you may write to");
+  lock_ = take_lock(site_, false);
+  if (fs::exists(journal_of(site_))) apply_journal(site_);
+  fs::remove_all(site_ / kStaging, error);
+  fs::create_directories(site_ / kStaging, error);
+  if (error) {
+    ::close(lock_);
+    throw Error(site_.string(), "cannot be written: " + error.message(), "check its permissions");
+  }
+}
+
+SiteTransaction::~SiteTransaction() {
+  std::error_code ignored;
+  if (!committed_) {
+    fs::remove_all(site_ / kStaging, ignored);
+    if (created_) fs::remove(site_ / kLock, ignored);
+    if (created_) fs::remove(site_, ignored);  // only where it is still empty
+  }
+  ::close(lock_);
+}
+
+fs::path SiteTransaction::staged(const std::string& name) {
+  puts_.push_back(name);
+  const fs::path file = site_ / kStaging / name;
+  fs::create_directories(file.parent_path());
+  return file;
+}
+
+void SiteTransaction::write(const std::string& name, std::string_view content) {
+  write_file_atomically(staged(name), content);
+}
+
+void SiteTransaction::remove(const std::string& name) {
+  removals_.push_back(name);
+}
+
+void SiteTransaction::commit() {
+  std::string journal;
+  for (const auto& name : removals_) journal += "- " + name + "\n";
+  for (const auto& name : puts_) {
+    sync(site_ / kStaging / name);
+    journal += "+ " + name + "\n";
+  }
+  write_file_atomically(journal_of(site_), journal);
+  committed_ = true;
+  apply_journal(site_);
+}
+
+void recover_site(const fs::path& site) {
+  if (!fs::exists(journal_of(site))) return;
+  const int lock = take_lock(site, true);
+  if (fs::exists(journal_of(site))) apply_journal(site);
+  ::close(lock);
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace madori::mapping {
+
+/// Changes several files of a site folder in one atomic step. Files are staged below DIR/.staging and synced;
+/// commit() writes a journal, and from then on the change happens even when the power fails: whoever opens
+/// the site next finishes it (`recover_site`). Without a commit nothing of the site changes.
+class SiteTransaction {
+ public:
+  /// Creates the folder where it is missing. Throws Error when another command is changing the site.
+  explicit SiteTransaction(std::filesystem::path site);
+  /// Discards what was not committed; a folder that was created for it is removed again.
+  ~SiteTransaction();
+  SiteTransaction(const SiteTransaction&) = delete;
+  SiteTransaction& operator=(const SiteTransaction&) = delete;
+
+  /// Where to write the new version of `name` (relative, may have folders); counts as part of the change.
+  [[nodiscard]] std::filesystem::path staged(const std::string& name);
+  void write(const std::string& name, std::string_view content);
+  /// The file disappears with the commit; a missing one is fine.
+  void remove(const std::string& name);
+  /// All or nothing. Throws Error (disk full, no permission) with the site as it was.
+  void commit();
+
+ private:
+  std::filesystem::path site_;
+  std::vector<std::string> puts_;
+  std::vector<std::string> removals_;
+  int lock_ = -1;
+  bool created_ = false;
+  bool committed_ = false;
+};
+
+/// Finishes a change that was committed but cut short. Cheap when there is nothing to do.
+void recover_site(const std::filesystem::path& site);
+
+}  // namespace madori::mapping

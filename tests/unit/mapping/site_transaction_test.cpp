@@ -1,0 +1,100 @@
+#include "mapping/site/site_transaction.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "core/result.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace madori::mapping {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(SiteTransaction, ChangesNothingWithoutCommit) {
+  const test::TemporaryFolder folder;
+  folder.write("walls.csv", "old");
+  {
+    SiteTransaction change(folder.path());
+    change.write("walls.csv", "new");
+    change.remove("walls.csv");
+  }
+  EXPECT_EQ(content(folder.path() / "walls.csv"), "old");
+  EXPECT_FALSE(fs::exists(folder.path() / ".staging"));
+}
+
+TEST(SiteTransaction, RemovesTheFolderItMadeWhenItIsGivenUp) {
+  const test::TemporaryFolder folder;
+  { SiteTransaction change(folder.path() / "site"); }
+  EXPECT_FALSE(fs::exists(folder.path() / "site"));
+}
+
+TEST(SiteTransaction, CommitsPutsAndRemovals) {
+  const test::TemporaryFolder folder;
+  folder.write("drawing.png", "old");
+  SiteTransaction change(folder.path());
+  change.write("drawing.pdf", "new");
+  change.write("routes/tree.csv", "ID,EDA\n");
+  change.remove("drawing.png");
+  change.commit();
+  EXPECT_EQ(content(folder.path() / "drawing.pdf"), "new");
+  EXPECT_EQ(content(folder.path() / "routes/tree.csv"), "ID,EDA\n");
+  EXPECT_FALSE(fs::exists(folder.path() / "drawing.png"));
+}
+
+TEST(SiteTransaction, RefusesASecondWriter) {
+  const test::TemporaryFolder folder;
+  const SiteTransaction first(folder.path());
+  EXPECT_THROW(SiteTransaction second(folder.path()), Error);
+}
+
+/// Power fails after the journal was written and one of two files was moved.
+TEST(SiteTransaction, FinishesACommitThatWasCutShort) {
+  const test::TemporaryFolder folder;
+  folder.write("a", "new a");  // moved already
+  folder.write("b", "old b");
+  folder.write("c", "old c");
+  fs::create_directory(folder.path() / ".staging");
+  folder.write(".staging/b", "new b");
+  folder.write(".staging/JOURNAL", "- c\n+ a\n+ b\n");
+  recover_site(folder.path());
+  EXPECT_EQ(content(folder.path() / "a"), "new a");
+  EXPECT_EQ(content(folder.path() / "b"), "new b");
+  EXPECT_FALSE(fs::exists(folder.path() / "c"));
+  EXPECT_FALSE(fs::exists(folder.path() / ".staging"));
+}
+
+TEST(SiteTransaction, SurvivesKillAtAnyMoment) {
+  const test::TemporaryFolder folder;
+  folder.write("a", "0");
+  folder.write("b", "0");
+  for (int turn = 1; turn <= 40; ++turn) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      for (int value = turn * 1000;; ++value) {
+        SiteTransaction change(folder.path());
+        change.write("a", std::to_string(value));
+        change.write("b", std::to_string(value));
+        change.commit();
+      }
+    }
+    ::usleep(static_cast<unsigned>(500 * turn));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    recover_site(folder.path());
+    ASSERT_EQ(content(folder.path() / "a"), content(folder.path() / "b")) << "turn " << turn;
+  }
+}
+
+}  // namespace
+}  // namespace madori::mapping
