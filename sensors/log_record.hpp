@@ -25,6 +25,7 @@ struct ScanRecord {
 struct CloudRecord {
   std::string source;  ///< vlp16, or the topic
   PointCloud<Lidar> cloud;
+  Transform2<Base, Lidar> base_from_lidar;
 };
 
 using LogRecord = std::variant<OdometryReading, ScanRecord, CloudRecord>;

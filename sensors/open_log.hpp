@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "core/wheels.hpp"
+#include "sensors/log_record.hpp"
+#include "sensors/rosbag/reader.hpp"
+
+namespace madori::sensors {
+
+struct LogOptions {
+  std::filesystem::path wheels;             ///< `time_s,left_rad,right_rad`, beside a .pcap
+  WheelGeometry geometry;                   ///< what the wheels' angles mean
+  Transform2<Base, Lidar> base_from_lidar;  ///< mounting, for .pcap and .bag; CARMEN logs tell it themselves
+  bool deskew = true;                       ///< move a cloud's points to its stamp, where there is odometry
+  BagOptions bag;                           ///< topics; its base_from_lidar is taken from above
+};
+
+/// Opens a log by its extension: .log, .clf, .carmen (CARMEN), .bag (ROS 1), .pcap, .pcapng (VLP-16, with
+/// wheels). Bags and captures give their records in the order of time, CARMEN logs in the order of the file.
+/// Throws Error with the file, the cause and the mend.
+[[nodiscard]] std::unique_ptr<LogReader> open_log(const std::filesystem::path& file,
+                                                  const LogOptions& options = {});
+
+}  // namespace madori::sensors

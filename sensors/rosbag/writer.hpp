@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "core/laser_scan.hpp"
+#include "core/odometry.hpp"
+#include "core/path.hpp"
+#include "core/point_cloud.hpp"
+#include "core/pose_estimate.hpp"
+
+namespace madori::sensors::rosbag_bridge {
+class Output;
+}
+
+namespace madori::sensors {
+
+/// Writes a ROS 1 bag that Foxglove, PlotJuggler and rviz open. Every function throws Error (disk full, no
+/// permission).
+class BagWriter {
+ public:
+  explicit BagWriter(const std::filesystem::path& file);
+  ~BagWriter();
+  BagWriter(const BagWriter&) = delete;
+  BagWriter& operator=(const BagWriter&) = delete;
+
+  void write(const std::string& topic, const LaserScan& scan);           ///< sensor_msgs/LaserScan
+  void write(const std::string& topic, const PointCloud<Lidar>& cloud);  ///< sensor_msgs/PointCloud2
+  void write(const std::string& topic, const OdometryReading& reading);  ///< nav_msgs/Odometry
+  void write(const std::string& topic,
+             const PoseEstimate& estimate);  ///< geometry_msgs/PoseWithCovarianceStamped
+  void write(const std::string& topic, const Path& path, Stamp stamp);         ///< nav_msgs/Path
+  void write(const std::string& topic, const std::string& text, Stamp stamp);  ///< std_msgs/String
+  /// Writes the index. The destructor does so too, but cannot tell that it failed.
+  void close();
+
+ private:
+  template <class Action>
+  void guarded(Action action);
+
+  std::filesystem::path file_;
+  std::unique_ptr<rosbag_bridge::Output> output_;
+};
+
+}  // namespace madori::sensors

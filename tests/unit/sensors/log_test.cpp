@@ -1,0 +1,187 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/angle.hpp"
+#include "core/result.hpp"
+#include "sensors/deskew.hpp"
+#include "sensors/open_log.hpp"
+#include "sensors/rosbag/bridge.hpp"
+#include "sensors/rosbag/cloud_fields.hpp"
+#include "sensors/rosbag/writer.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace madori::sensors {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string error_of(const std::filesystem::path& file, const LogOptions& options = {}) {
+  try {
+    const auto log = open_log(file, options);
+    while (log->next()) {
+    }
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+LaserScan sample_scan(Stamp stamp) {
+  LaserScan scan{stamp, std::chrono::microseconds(27),      -1.5, 0.01,
+                 30.0,  {1.0F, LaserScan::kNoReturn, 2.5F}, {}};
+  scan.intensities = {1.0F, 2.0F, 3.0F};
+  return scan;
+}
+
+PointCloud<Lidar> sample_cloud(Stamp stamp) {
+  PointCloud<Lidar> cloud{stamp, {}};
+  for (int i = 0; i < 100; ++i)
+    cloud.points.push_back({1.0F * static_cast<float>(i), -2.0F, 0.5F, 0.001F * static_cast<float>(i),
+                            static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i % 16)});
+  return cloud;
+}
+
+TEST(Bag, WhatIsWrittenIsReadInTheOrderOfTime) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "run.bag";
+  const auto at = [](double seconds) { return stamp_from_seconds(1'700'000'000.0 + seconds); };
+  {
+    BagWriter writer(file);
+    writer.write("/odom", OdometryReading{at(0.02), {1.0, 2.0, 0.5}});
+    writer.write("/scan", sample_scan(at(0.01)));
+    writer.write("/points", sample_cloud(at(0.03)));
+    writer.write("/pose", PoseEstimate{});
+    writer.write("/path", Path{{{{1.0, 2.0}, 0.5}}}, at(0.04));
+    writer.write("/events", "started", at(0.05));
+    writer.close();
+  }
+  LogOptions options;
+  options.base_from_lidar = {0.3, 0.0, 0.1};
+  const auto log = open_log(file, options);
+  const auto scan = std::get<ScanRecord>(log->next().value());
+  EXPECT_EQ(scan.scan.stamp, at(0.01));
+  EXPECT_EQ(scan.scan.ranges_m, sample_scan({}).ranges_m);
+  EXPECT_EQ(scan.scan.intensities, sample_scan({}).intensities);
+  EXPECT_NEAR(scan.scan.angle_rad(2), -1.48, 1e-6);
+  EXPECT_DOUBLE_EQ(scan.base_from_lidar.x_m(), 0.3);
+  const auto odometry = std::get<OdometryReading>(log->next().value());
+  EXPECT_NEAR(odometry.odom_from_base.yaw_rad(), 0.5, 1e-12);
+  const auto cloud = std::get<CloudRecord>(log->next().value());
+  EXPECT_EQ(cloud.cloud.points, sample_cloud({}).points);
+  EXPECT_FALSE(log->next());
+}
+
+TEST(Bag, SeveralTopicsOfAKindMustBeChosenFrom) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "run.bag";
+  {
+    BagWriter writer(file);
+    writer.write("/left", sample_scan(stamp_from_seconds(1.0)));
+    writer.write("/right", sample_scan(stamp_from_seconds(2.0)));
+    writer.close();
+  }
+  EXPECT_THAT(error_of(file), HasSubstr("/left, /right"));
+  LogOptions options;
+  options.bag.scan_topic = "/right";
+  EXPECT_EQ(to_seconds(stamp_of(*open_log(file, options)->next())), 2.0);
+  options.bag.scan_topic = "/none";
+  EXPECT_THAT(error_of(file, options), HasSubstr("has no topic /none"));
+}
+
+TEST(Bag, RefusesWhatIsNone) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(error_of(folder.write("a.bag", "no bag at all")), HasSubstr("no readable ROS 1 bag"));
+  EXPECT_THAT(error_of(folder.write("b.bag", "")), HasSubstr("no readable ROS 1 bag"));
+}
+
+TEST(PointCloud2, RefusesRowsAndFieldsOutsideItsData) {
+  const rosbag_bridge::Cloud good = fields_from_cloud(sample_cloud({}));
+  ASSERT_TRUE(cloud_from_fields(good));
+  const auto broken = [&](auto change) {
+    rosbag_bridge::Cloud cloud = good;
+    change(cloud);
+    return !cloud_from_fields(cloud).ok();
+  };
+  EXPECT_TRUE(broken([](auto& c) { c.data.pop_back(); }));
+  EXPECT_TRUE(broken([](auto& c) { c.width += 1; }));
+  EXPECT_TRUE(broken([](auto& c) { c.height = 0xFFFFFFFFU; }));
+  EXPECT_TRUE(broken([](auto& c) { c.fields[0].offset = 0xFFFFFFFEU; }));
+  EXPECT_TRUE(broken([](auto& c) { c.fields[2].name = "w"; }));
+  EXPECT_TRUE(broken([](auto& c) { c.big_endian = true; }));
+}
+
+TEST(OpenLog, NamesTheMend) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(error_of("/nonexistent.log"), HasSubstr("is no file"));
+  EXPECT_THAT(error_of(folder.write("a.txt", "x")), HasSubstr(".pcap (VLP-16)"));
+  EXPECT_THAT(error_of(folder.write("a.pcap", "x")), HasSubstr("is no packet capture"));
+  LogOptions options;
+  options.wheels = "wheels.csv";
+  EXPECT_THAT(error_of(folder.write("a.log", ""), options), HasSubstr("carries its own odometry"));
+}
+
+TEST(OpenLog, RefusesAnotherSensorsCapture) {
+  const auto file = std::filesystem::path(MADORI_SHARED_DATA) / "vlp16/not_vlp16_hdl32.pcap";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  EXPECT_THAT(error_of(file), HasSubstr("HDL-32E"));
+}
+
+TEST(OpenLog, MergesACaptureWithItsWheels) {
+  const auto file = std::filesystem::path(MADORI_SHARED_DATA) / "vlp16/vlp-16-test-90deg-1-50-frames.pcap";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  const test::TemporaryFolder folder;
+  std::string csv = "time_s,left_rad,right_rad\n";
+  for (int i = 0; i < 400; ++i)
+    csv += std::to_string(1415069209.0 + 0.01 * i) + "," + std::to_string(0.1 * i) + "," +
+           std::to_string(0.1 * i) + "\n";
+  LogOptions options;
+  options.wheels = folder.write("wheels.csv", csv);
+  const auto log = open_log(file, options);
+  int clouds = 0, readings = 0;
+  Stamp last{};
+  while (const auto record = log->next()) {
+    EXPECT_GE(stamp_of(*record), last);
+    last = stamp_of(*record);
+    ++(std::holds_alternative<CloudRecord>(*record) ? clouds : readings);
+  }
+  EXPECT_EQ(clouds, 52);
+  EXPECT_EQ(readings, 400);
+  options.wheels = folder.write("late.csv", "time_s,left_rad,right_rad\n1500000000,0,0\n");
+  EXPECT_THAT(error_of(file, options), HasSubstr("on the clock of the capture"));
+  options.wheels = folder.write("bad.csv", "time_s,left_rad,right_rad\n1415069209,0,nan\n");
+  EXPECT_THAT(error_of(file, options), HasSubstr("bad.csv:2"));
+  options.wheels = folder.write("back.csv", "time_s,left_rad,right_rad\n1415069209,0,0\n1415069208,0,0\n");
+  EXPECT_THAT(error_of(file, options), HasSubstr("back.csv:3"));
+}
+
+TEST(Deskew, StraightensAWallThatWasSeenWhileTurningAndDriving) {
+  const Transform2<Base, Lidar> base_from_lidar(0.2, 0.1, 0.3);
+  OdometryTrack track;
+  const auto pose_at = [](double t) { return Transform2<Odom, Base>(1.0 * t, 0.2 * t, 1.5 * t); };
+  for (int i = -2; i < 15; ++i) track.add({stamp_from_seconds(100.0 + 0.01 * i), pose_at(0.01 * i)});
+  PointCloud<Lidar> cloud{stamp_from_seconds(100.0), {}}, still = cloud;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.0001 * i;
+    const Point2<Odom> wall{30.0, -20.0 + 0.04 * i};
+    const auto seen = (pose_at(t) * base_from_lidar).inverse() * wall;
+    const auto truth = (pose_at(0.0) * base_from_lidar).inverse() * wall;
+    cloud.points.push_back(
+        {static_cast<float>(seen.x_m), static_cast<float>(seen.y_m), 1.0F, static_cast<float>(t)});
+    still.points.push_back(
+        {static_cast<float>(truth.x_m), static_cast<float>(truth.y_m), 1.0F, static_cast<float>(t)});
+  }
+  ASSERT_TRUE(deskew(cloud, base_from_lidar, track));
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    ASSERT_NEAR(cloud.points[i].x_m, still.points[i].x_m, 1e-3) << i;
+    ASSERT_NEAR(cloud.points[i].y_m, still.points[i].y_m, 1e-3) << i;
+  }
+  PointCloud<Lidar> later = still;
+  later.stamp += std::chrono::seconds(1);
+  EXPECT_FALSE(deskew(later, base_from_lidar, track));
+  EXPECT_EQ(later.points, still.points);
+}
+
+}  // namespace
+}  // namespace madori::sensors
