@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 namespace madori::app {
 
-Result<Path> route_path(const planning::RouteGraph& graph, const planning::Route& route,
-                        const planning::WaypointOptions& options) {
+std::vector<planning::WayCorner> way_corners(const planning::RouteGraph& graph,
+                                             const planning::Route& route) {
   constexpr double kNoLimit = std::numeric_limits<double>::infinity();
   std::vector<planning::WayCorner> way;
   double previous_limit = kNoLimit;
@@ -17,7 +16,13 @@ Result<Path> route_path(const planning::RouteGraph& graph, const planning::Route
     way.push_back({node.position, std::min(limit, previous_limit)});
     previous_limit = limit;
   }
-  return planning::make_waypoints(way, options, graph.nodes()[route.nodes.back()].heading_rad);
+  return way;
+}
+
+Result<Path> route_path(const planning::RouteGraph& graph, const planning::Route& route,
+                        const planning::WaypointOptions& options) {
+  return planning::make_waypoints(way_corners(graph, route), options,
+                                  graph.nodes()[route.nodes.back()].heading_rad);
 }
 
 }  // namespace madori::app

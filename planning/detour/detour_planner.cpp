@@ -32,10 +32,11 @@ Transform2<Map, Base> pose_at(const PathPoint& point) {
 
 DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls, const CheckOptions& check,
                          const DetourOptions& options) {
-  DetourAnswer answer{request.id, std::nullopt, ""};
+  DetourAnswer answer{request.id, std::nullopt, 0, ""};
   auto side =
       side_detour(request.path, request.from, request.check, request.obstacles, walls, check, options.side);
   if (side) {
+    answer.rejoin = side.value().rejoin;
     answer.path = std::move(side).value().path;
     return answer;
   }
@@ -56,6 +57,7 @@ DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls, co
                         request.path.points.end());
     const PathCheck free = check_path(whole, 0, 1e3, request.obstacles, walls, check);
     if (free.blocked() && free.first_blocked < joined) continue;
+    answer.rejoin = joined;
     answer.path = std::move(whole);
     return answer;
   }

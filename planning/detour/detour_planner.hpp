@@ -26,7 +26,8 @@ struct DetourRequest {
 struct DetourAnswer {
   std::uint32_t id = 0;
   std::optional<Path> path;  ///< from the vehicle to the end of the route; nothing where no way was found
-  std::string reason;        ///< then
+  std::size_t rejoin = 0;    ///< first point of `path` that lies on the route again
+  std::string reason;        ///< why no way was found
 };
 
 struct DetourOptions {

@@ -23,9 +23,8 @@ struct Zone {
   VehicleOutline outline;
   double radius_m;
 
-  Zone(const CheckOptions& o, double more_m)
-      : outline(o.vehicle.grown(o.ends_margin_m + more_m, o.sides_margin_m + more_m)),
-        radius_m(o.vehicle.half_width_m + o.sides_margin_m + more_m) {}
+  Zone(const CheckOptions& o, double ends_m, double sides_m)
+      : outline(o.vehicle.grown(ends_m, sides_m)), radius_m(o.vehicle.half_width_m + sides_m) {}
   [[nodiscard]] double reach_m() const { return std::max(outline.reach_m(), radius_m); }
   [[nodiscard]] bool holds(const Point2<Base>& p) const {
     return outline.contains(p) || p.x_m * p.x_m + p.y_m * p.y_m <= radius_m * radius_m;
@@ -106,20 +105,23 @@ PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
   std::size_t end = from + 1;
   for (; end < path.points.size() && along_m.back() <= ahead_m; ++end)
     along_m.push_back(along_m.back() + distance_m(path.points[end - 1].position, path.points[end].position));
-  const Zone stop(options, 0.0);
-  const Zone care(options, options.care_margin_m);
+  const Zone stop(options, options.ends_margin_m, options.sides_margin_m);
+  const Zone turning(options, options.turn_margin_m, options.turn_margin_m);
+  const Zone care(options, options.ends_margin_m + options.care_margin_m,
+                  options.sides_margin_m + options.care_margin_m);
   const auto near = near_path(path, from, end, obstacles, care.reach_m());
   double checked_m = -options.step_m;
   for (std::size_t i = from; i < end; ++i) {
     const double here_m = along_m[i - from];
-    const bool turns = i > from && here_m == along_m[i - from - 1];
+    const bool turns =
+        i > 0 && distance_m(path.points[i - 1].position, path.points[i].position) < kSamePoint_m;
     if (here_m < checked_m + options.step_m && !turns && i + 1 != end) continue;
     const double previous_m = std::max(0.0, checked_m);
     checked_m = here_m;
     std::optional<Contact> contact;
     bool slow = false;
     any_heading(path, i, options.turn_step_rad, [&](const Transform2<Map, Base>& pose) {
-      contact = meets_point(pose, near, stop);
+      contact = meets_point(pose, near, turns ? turning : stop);
       if (!contact) contact = meets_wall(pose, walls, options);
       slow = slow || contact || meets_point(pose, near, care);
       return contact.has_value();
@@ -139,7 +141,8 @@ PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
 
 bool is_free(const Transform2<Map, Base>& pose, const std::vector<Point2<Map>>& obstacles,
              const WallGrid& walls, const CheckOptions& options) {
-  return !meets_point(pose, obstacles, Zone(options, 0.0)) && !meets_wall(pose, walls, options);
+  return !meets_point(pose, obstacles, Zone(options, options.ends_margin_m, options.sides_margin_m)) &&
+         !meets_wall(pose, walls, options);
 }
 
 }  // namespace madori::planning

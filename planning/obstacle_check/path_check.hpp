@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -15,6 +16,7 @@ struct CheckOptions {
   VehicleOutline vehicle;
   double ends_margin_m = 0.20;   ///< kept free before and behind the vehicle
   double sides_margin_m = 0.06;  ///< ... beside it
+  double turn_margin_m = 0.06;   ///< ... on all sides during a slow turn on the spot
   double care_margin_m = 0.15;   ///< something within this much more only slows the vehicle
   double wall_margin_m = 0.03;   ///< to drawn walls, which lie as exactly as the drawing
   double step_m = 0.15;          ///< waypoints nearer together than this are checked once
@@ -30,6 +32,13 @@ struct BrakingModel {
 
   [[nodiscard]] double horizon_m(double speed_mps) const {
     return speed_mps * (reaction_s + scan_period_s) + speed_mps * speed_mps / (2.0 * deceleration_mps2);
+  }
+  /// The greatest speed whose horizon is `free_m`; infinite where nothing is in the way, zero where none is
+  /// left.
+  [[nodiscard]] double speed_within(double free_m) const {
+    if (!(free_m > 0.0)) return 0.0;
+    const double lost = deceleration_mps2 * (reaction_s + scan_period_s);
+    return std::sqrt(lost * lost + 2.0 * deceleration_mps2 * free_m) - lost;
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -27,6 +28,17 @@ struct LyingBody {
   Segment2<Map> axis;
   double half_width_m = 0.1;
   double top_m = 0.2;
+
+  [[nodiscard]] std::array<Segment2<Map>, 4> edges() const {
+    const double length = axis.length_m();
+    const double nx = -(axis.b.y_m - axis.a.y_m) / length * half_width_m;
+    const double ny = (axis.b.x_m - axis.a.x_m) / length * half_width_m;
+    const Point2<Map> a{axis.a.x_m + nx, axis.a.y_m + ny};
+    const Point2<Map> b{axis.b.x_m + nx, axis.b.y_m + ny};
+    const Point2<Map> c{axis.b.x_m - nx, axis.b.y_m - ny};
+    const Point2<Map> d{axis.a.x_m - nx, axis.a.y_m - ny};
+    return {{{a, b}, {b, c}, {c, d}, {d, a}}};
+  }
 };
 
 /// A flat floor and a few bodies, seen by 16 beams of a lidar above the Base origin. For tests of planning

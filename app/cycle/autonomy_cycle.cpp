@@ -1,0 +1,46 @@
+#include <utility>
+
+#include "app/cycle/stages.hpp"
+
+namespace madori::app {
+
+CycleState::CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> source)
+    : odometry(config.odometry), localization(std::move(source)), obstacles(config.field) {
+  pose.health = {LocalizationState::Lost, "no scan yet"};
+}
+
+StepResult step(CycleState state, const CycleInput& input, const CycleConfig& config) {
+  CycleOutput output;
+  const double step_s = state.previous ? to_seconds(input.now - *state.previous) : 0.0;
+  state.previous = input.now;
+  state.protective_stop = input.protective_stop;
+  localize(state, input, config, output);     // wheel angles and revolutions -> map_from_base
+  navigate(state, input, config, output);     // order -> route -> path
+  check_way(state, input, config, output);    // path against scan and drawing: free, slow, blocked
+  change_mode(state, input, config, output);  // what happened -> what the vehicle is about
+  const VelocityCommand wanted = wanted_command(state, input, config);
+  const bool may_move = (drives(state.mode) || state.mode == Mode::Manual) && !state.protective_stop &&
+                        !is_silent(state.drive_heard, input.now, config.drive_silent_s);
+  const double free_m =
+      drives(state.mode) ? state.way.stop_along_m - state.way.along_m : planning::PathCheck::kFree;
+  const auto limited = control::limit(state.limits,
+                                      {.requested = wanted,
+                                       .may_move = may_move,
+                                       .speed_cap_mps = config.braking.speed_within(free_m),
+                                       .step_s = step_s},
+                                      config.limits);
+  state.limits = limited.state;
+  output.command = limited.command;
+  const auto drive = state.drive.state;
+  output.enable =
+      may_move && (drive == control::wire::DriveState::Idle || drive == control::wire::DriveState::Running);
+  const Standstill now = standstill_of(state, input, config);
+  if (now.cause != state.standstill.cause) {
+    state.standstill = now;
+    if (!now.cause.empty())
+      output.events.push_back(std::string(to_string(state.mode)) + ": " + now.cause + " - " + now.remedy);
+  }
+  return {std::move(state), std::move(output)};
+}
+
+}  // namespace madori::app

@@ -1,0 +1,83 @@
+#include <algorithm>
+
+#include "app/cycle/stages.hpp"
+
+namespace madori::app {
+namespace {
+
+constexpr double kDetourWithin_m = 4.0;  ///< what is further away may be gone when the vehicle gets there
+
+/// Confirmed columns around the vehicle, Map frame: their corners and centres.
+std::vector<Point2<Map>> obstacle_points(const CycleState& state) {
+  const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+  std::vector<Point2<Map>> points;
+  for (const planning::Column& c : state.obstacles.columns()) {
+    if (!c.confirmed) continue;
+    const std::array<double, 2> x{static_cast<double>(c.min_x_m), static_cast<double>(c.max_x_m)};
+    const std::array<double, 2> y{static_cast<double>(c.min_y_m), static_cast<double>(c.max_y_m)};
+    for (const double px : x)
+      for (const double py : y) points.push_back(map_from_odom * Point2<Odom>{px, py});
+  }
+  return points;
+}
+
+/// Whether the vehicle can turn on the spot to where its path goes next.
+bool turn_is_free(const CycleState& state, const std::vector<Point2<Map>>& obstacles,
+                  const CycleConfig& config) {
+  const Navigation& way = state.way;
+  if (way.pursuit.piece >= way.path.pieces().size()) return true;
+  const PathPoint& next = way.path.points()[way.path.pieces()[way.pursuit.piece].first];
+  const Point2<Map> here = state.pose.map_from_base.translation();
+  const Path turn{{{here, state.pose.map_from_base.yaw_rad()}, {here, next.heading_rad}}};
+  const auto check = planning::check_path(turn, 1, 0.0, obstacles, planning::WallGrid(), config.check);
+  return !check.blocked();
+}
+
+void note_blocked(Navigation& way, Stamp now) {
+  const bool blocked = way.check.blocked() || !way.turn_free;
+  if (blocked) {
+    way.free_since.reset();
+    if (!way.blocked_since) way.blocked_since = now;
+  } else {
+    way.blocked_since.reset();
+    if (!way.free_since) way.free_since = now;
+  }
+}
+
+void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                    std::vector<Point2<Map>> obstacles, CycleOutput& output) {
+  Navigation& way = state.way;
+  const bool due = way.check.blocked() && way.blocked_since && !way.detour_pending &&
+                   to_seconds(input.now - *way.blocked_since) >= config.detour_after_s &&
+                   to_seconds(input.now - way.asked_detour) >= config.detour_again_s;
+  const bool near = way.stop_along_m - way.along_m < kDetourWithin_m;
+  const bool going = drives(state.mode) || state.mode == Mode::Waiting;
+  if (!due || !near || !going || is_at_door(config, way.check.where)) return;
+  way.asked_detour = input.now;
+  way.detour_pending = true;
+  ++way.detour_id;
+  output.detour_wanted = planning::DetourRequest{
+      way.detour_id, way.plain, way.pursuit.index, state.pose.map_from_base, way.check, std::move(obstacles)};
+}
+
+}  // namespace
+
+void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
+  Navigation& way = state.way;
+  for (const auto& command : input.commands)
+    if (command.word == OperatorWord::ForgetObstacles) state.obstacles.clear();
+  if (way.path.empty() || way.arrived || !output.computed_lidar) return;
+  const auto obstacles = obstacle_points(state);
+  const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
+  way.check =
+      planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *config.walls, config.check);
+  const double from_m = way.path.along_m(from);
+  way.stop_along_m = from_m + way.check.free_m;
+  way.care_along_m = from_m + way.check.care_m;
+  const bool may_turn = !way.pursuit.begun || way.pursuit.turning;
+  way.turn_free = !may_turn || turn_is_free(state, obstacles, config);
+  note_blocked(way, input.now);
+  ask_for_detour(state, input, config, obstacles, output);
+}
+
+}  // namespace madori::app

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/cycle/modes.hpp"
+#include "app/cycle/pose_source.hpp"
+#include "app/orders/order.hpp"
+#include "control/diff_drive/odometry.hpp"
+#include "control/drive_link/wire.hpp"
+#include "control/limits/limits.hpp"
+#include "control/pure_pursuit/pure_pursuit.hpp"
+#include "planning/detour/detour_planner.hpp"
+#include "planning/obstacle_check/obstacle_field.hpp"
+#include "planning/route_graph/route_search.hpp"
+#include "planning/waypoints/waypoints.hpp"
+
+namespace madori::app {
+
+/// What does not change while the cycle runs. Times in seconds, lengths in metres.
+struct CycleConfig {
+  planning::RouteGraph routes;
+  std::shared_ptr<const planning::WallGrid> walls = std::make_shared<const planning::WallGrid>();
+  control::OdometryOptions odometry;
+  control::PursuitOptions pursuit;
+  control::LimitOptions limits;
+  planning::CheckOptions check;
+  planning::BrakingModel braking;
+  planning::FieldOptions field;
+  planning::WaypointOptions waypoints;
+  planning::SensorView lidar;  ///< where the 3D lidar sits, and what it sees
+  double lidar_yaw_rad = 0.0;  ///< Base from Lidar
+  planning::RouteMetric metric = planning::RouteMetric::Metres;
+  double look_ahead_m = 7.0;        ///< of the path, checked for obstacles
+  double care_speed_mps = 0.4;      ///< beside something near
+  double degraded_speed_mps = 0.4;  ///< while localization is degraded
+  double drive_silent_s = 0.3;      ///< without a status of the drive: fault
+  double lidar_silent_s = 0.35;     ///< without a revolution: stand
+  double detour_after_s = 1.5;      ///< something must stand so long before a way around is looked for
+  double detour_again_s = 4.0;      ///< between two searches
+  double reroute_after_s = 25.0;    ///< then the blocked leg is left out of a new route
+  double forget_block_s = 180.0;    ///< a leg that was found blocked counts as free again
+  double clear_for_s = 0.6;         ///< the way must have been free so long before the vehicle goes on
+  double door_zone_m = 3.0;         ///< around a door or lift node nothing is driven around, only waited for
+  double jog_timeout_s = 0.3;       ///< a held key that is silent for longer stops the vehicle
+};
+
+enum class OperatorWord { Pause, Resume, Confirm, ManualOn, ManualOff, Jog, GoOn, ForgetObstacles };
+
+struct OperatorCommand {
+  OperatorWord word = OperatorWord::Pause;
+  VelocityCommand jog;  ///< of Jog
+};
+
+/// Everything that reaches the cycle from outside since the step before. A recording holds these.
+struct CycleInput {
+  Stamp now{};
+  std::vector<control::wire::Status> drive;
+  std::vector<PointCloud<Lidar>> clouds;  ///< whole revolutions
+  bool protective_stop = false;           ///< a certified scanner's protective field is interrupted
+  std::vector<OperatorCommand> commands;
+  std::optional<Order> order;  ///< the running order as it is stored
+  std::optional<planning::DetourAnswer> detour;
+};
+
+/// The stop of an order that the vehicle is on its way to.
+struct Target {
+  std::int64_t order = 0;
+  int round = 0;
+  std::size_t stop = 0;
+
+  friend bool operator==(const Target&, const Target&) = default;
+};
+
+/// Why the vehicle stands, for people.
+struct Standstill {
+  std::string cause;  ///< empty while it drives
+  std::string remedy;
+  Stamp since{};
+};
+
+struct CycleOutput {
+  VelocityCommand command;
+  bool enable = false;          ///< of the drive
+  bool computed_lidar = false;  ///< a revolution was worked on in this step
+  std::optional<planning::DetourRequest> detour_wanted;
+  std::optional<Target> stop_done;
+  std::optional<std::pair<std::int64_t, std::string>> order_refused;
+  std::vector<std::string> events;  ///< one line each
+};
+
+/// The way to the current target.
+struct Navigation {
+  std::optional<Target> target;
+  OrderStop stop;
+  std::vector<std::size_t> nodes;  ///< of the route
+  control::TrackedPath path;
+  Path plain;  ///< the same path as planning wants it
+  control::PursuitState pursuit;
+  control::PursuitStatus status = control::PursuitStatus::Following;
+  double along_m = 0.0;
+  double cross_track_m = 0.0;
+  bool arrived = false;
+  bool reported = false;
+  Stamp dwell_until{};
+  std::string no_way;              ///< why there is no path
+  std::optional<double> rejoin_m;  ///< of a detour
+  // what stands in the way
+  planning::PathCheck check;
+  double stop_along_m = planning::PathCheck::kFree;
+  double care_along_m = planning::PathCheck::kFree;
+  bool turn_free = true;
+  std::optional<Stamp> blocked_since;
+  std::optional<Stamp> free_since;
+  Stamp asked_detour{};
+  std::uint32_t detour_id = 0;
+  bool detour_pending = false;
+  std::string detour_failed;
+  std::vector<std::pair<std::pair<std::size_t, std::size_t>, Stamp>> blocked_legs;
+};
+
+/// Everything the cycle remembers. It moves from step to step.
+struct CycleState {
+  CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> source);
+
+  Mode mode = Mode::Paused;  ///< nothing drives after a start until the operator lets it
+  Standstill standstill;
+  control::DiffDriveOdometry odometry;
+  std::deque<OdometryReading> track;  ///< of the last half second, for motion compensation
+  std::unique_ptr<PoseSource> localization;
+  PoseEstimate pose;
+  planning::ObstacleField obstacles;
+  control::wire::Status drive;
+  std::optional<Stamp> drive_heard;
+  std::optional<Stamp> lidar_heard;
+  std::optional<Stamp> previous;
+  bool protective_stop = false;
+  VelocityCommand jog;
+  Stamp jog_heard{};
+  Navigation way;
+  control::LimitState limits;
+};
+
+struct StepResult {
+  CycleState state;
+  CycleOutput output;
+};
+
+/// One step of the autonomy cycle, from what arrived to what the drive shall do. Pure: it reads no clock, no
+/// file and no socket, so that a recorded run replays bit for bit.
+[[nodiscard]] StepResult step(CycleState state, const CycleInput& input, const CycleConfig& config);
+
+}  // namespace madori::app

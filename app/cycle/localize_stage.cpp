@@ -1,0 +1,79 @@
+#include <cmath>
+
+#include "app/cycle/stages.hpp"
+
+namespace madori::app {
+namespace {
+
+constexpr double kTrack_s = 0.5;
+
+/// Where the wheels were at a moment, between the readings around it.
+Transform2<Odom, Base> odometry_at(const std::deque<OdometryReading>& track, Stamp moment) {
+  if (moment <= track.front().stamp) return track.front().odom_from_base;
+  for (std::size_t i = 1; i < track.size(); ++i) {
+    if (track[i].stamp < moment) continue;
+    const auto& before = track[i - 1];
+    const double share = to_seconds(moment - before.stamp) / to_seconds(track[i].stamp - before.stamp);
+    const auto step = before.odom_from_base.inverse() * track[i].odom_from_base;
+    return before.odom_from_base *
+           Transform2<Base, Base>(share * step.x_m(), share * step.y_m(), share * step.yaw_rad());
+  }
+  return track.back().odom_from_base;
+}
+
+/// A revolution in the Base frame of its last firing: each point is moved by what the vehicle did since its
+/// own.
+PointCloud<Base> in_base(const PointCloud<Lidar>& cloud, const std::deque<OdometryReading>& track,
+                         const CycleConfig& config) {
+  PointCloud<Base> result;
+  const float last_s = cloud.points.empty() ? 0.0F : cloud.points.back().time_offset_s;
+  result.stamp = cloud.stamp + duration_from_seconds(static_cast<double>(last_s));
+  result.points.reserve(cloud.points.size());
+  const Transform2<Base, Lidar> base_from_lidar(config.lidar.x_m, config.lidar.y_m, config.lidar_yaw_rad);
+  const auto end_from_odom =
+      track.empty() ? Transform2<Base, Odom>() : odometry_at(track, result.stamp).inverse();
+  // Points of one firing share their time; a motion is worked out once for each.
+  float moment_s = std::nanf("");
+  Transform2<Base, Lidar> moved = base_from_lidar;
+  for (const CloudPoint& p : cloud.points) {
+    if (!track.empty() && p.time_offset_s != moment_s && !(std::abs(p.time_offset_s - moment_s) < 5e-4F)) {
+      moment_s = p.time_offset_s;
+      const Stamp moment = cloud.stamp + duration_from_seconds(static_cast<double>(moment_s));
+      moved = end_from_odom * odometry_at(track, moment) * base_from_lidar;
+    }
+    const Point2<Base> at = moved * Point2<Lidar>{static_cast<double>(p.x_m), static_cast<double>(p.y_m)};
+    CloudPoint q = p;
+    q.x_m = static_cast<float>(at.x_m);
+    q.y_m = static_cast<float>(at.y_m);
+    q.z_m = p.z_m + static_cast<float>(config.lidar.z_m);
+    q.time_offset_s = 0.0F;
+    result.points.push_back(q);
+  }
+  return result;
+}
+
+}  // namespace
+
+void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
+  for (const auto& status : input.drive) {
+    state.drive = status;
+    state.drive_heard = input.now;
+    state.odometry.update(status, input.now);
+    const OdometryReading& reading = state.odometry.reading();
+    if (!state.track.empty() && reading.stamp <= state.track.back().stamp) continue;
+    state.track.push_back(reading);
+    while (to_seconds(reading.stamp - state.track.front().stamp) > kTrack_s) state.track.pop_front();
+    state.pose = state.localization->on_odometry(reading);
+  }
+  for (const auto& cloud : input.clouds) {
+    const PointCloud<Base> base = in_base(cloud, state.track, config);
+    state.lidar_heard = input.now;
+    output.computed_lidar = true;
+    state.pose = state.localization->on_cloud(base);
+    const auto odom_from_base =
+        state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);
+    state.obstacles.update(base, config.lidar, odom_from_base);
+  }
+}
+
+}  // namespace madori::app

@@ -1,0 +1,126 @@
+#include "app/cycle/stages.hpp"
+
+namespace madori::app {
+namespace {
+
+using control::wire::DriveState;
+
+constexpr double kStandsBefore_m =
+    0.12;  ///< nearer than this to the stopping point the vehicle counts as blocked
+constexpr double kWorthGoing_m = 0.5;  ///< less free way than this is not worth a start
+
+bool is_stopped_by_drive(const CycleState& state) {
+  return state.drive.emergency_stop || state.drive.bumper || state.drive.state == DriveState::EmergencyStop ||
+         state.drive.state == DriveState::BumperStop;
+}
+
+bool has_fault(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  return state.drive.state == DriveState::Fault || state.drive.faults != control::wire::kNoFault ||
+         (state.drive_heard && is_silent(state.drive_heard, input.now, config.drive_silent_s));
+}
+
+/// Whether the way ahead lets the vehicle go on from a standstill.
+bool is_clear(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  const Navigation& way = state.way;
+  const bool sees = !is_silent(state.lidar_heard, input.now, config.lidar_silent_s) && !state.protective_stop;
+  const bool has_way = !way.path.empty() && !way.arrived && way.turn_free;
+  const bool room = way.stop_along_m - way.along_m > kWorthGoing_m;
+  const bool lasting = !way.blocked_since || room;
+  const bool settled = !way.free_since || to_seconds(input.now - *way.free_since) >= config.clear_for_s;
+  return sees && has_way && room && lasting && settled;
+}
+
+bool is_blocked(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  const Navigation& way = state.way;
+  return way.path.empty() || way.arrived || !way.turn_free || state.protective_stop ||
+         is_silent(state.lidar_heard, input.now, config.lidar_silent_s) ||
+         way.stop_along_m - way.along_m < kStandsBefore_m;
+}
+
+std::optional<ModeEvent> event_of(OperatorWord word) {
+  switch (word) {
+    case OperatorWord::Pause:
+      return ModeEvent::Pause;
+    case OperatorWord::Resume:
+      return ModeEvent::Resume;
+    case OperatorWord::Confirm:
+      return ModeEvent::Confirmed;
+    case OperatorWord::ManualOn:
+      return ModeEvent::ManualOn;
+    case OperatorWord::ManualOff:
+      return ModeEvent::ManualOff;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Applies events one by one and keeps what they did for the log.
+class ModeChanges {
+ public:
+  ModeChanges(CycleState& state, CycleOutput& output) : state_(state), output_(output) {}
+
+  bool apply(ModeEvent event) {
+    const auto next = next_mode(state_.mode, event);
+    if (!next) return false;
+    output_.events.push_back(std::string(to_string(state_.mode)) + " -> " + to_string(*next) + ": " +
+                             to_string(event));
+    state_.mode = *next;
+    return true;
+  }
+
+ private:
+  CycleState& state_;
+  CycleOutput& output_;
+};
+
+/// What the way asks for while an order is worked on.
+std::optional<ModeEvent> way_event(const CycleState& state, const CycleInput& input,
+                                   const CycleConfig& config) {
+  const Navigation& way = state.way;
+  const bool on_detour = way.rejoin_m && way.along_m < *way.rejoin_m;
+  if (!way.target) return ModeEvent::OrderEnded;
+  if (state.mode == Mode::Waiting) {
+    if (!is_clear(state, input, config)) return std::nullopt;
+    return on_detour ? ModeEvent::DetourFound : ModeEvent::Cleared;
+  }
+  if (is_blocked(state, input, config)) return ModeEvent::Blocked;
+  if (state.mode == Mode::Driving && on_detour) return ModeEvent::DetourFound;
+  if (state.mode == Mode::Detouring && !on_detour) return ModeEvent::BackOnRoute;
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s) {
+  return !heard || to_seconds(now - *heard) > limit_s;
+}
+
+bool may_drive(LocalizationState state) {
+  return state == LocalizationState::Localized || state == LocalizationState::Degraded;
+}
+
+void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
+  ModeChanges mode(state, output);
+  const bool stopped = is_stopped_by_drive(state);
+  const bool fault = has_fault(state, input, config);
+  if (stopped) mode.apply(ModeEvent::EmergencyOn);
+  if (fault) mode.apply(ModeEvent::FaultOn);
+  for (const OperatorCommand& command : input.commands) {
+    const auto event = event_of(command.word);
+    if (event == ModeEvent::Confirmed && (stopped || fault)) continue;  // the cause is still there
+    if (event) mode.apply(*event);
+    if (command.word == OperatorWord::Jog) {
+      state.jog = command.jog;
+      state.jog_heard = input.now;
+    }
+  }
+  if (is_held(state.mode)) return;
+  const bool sure = may_drive(state.pose.health.state) && state.lidar_heard.has_value();
+  mode.apply(sure ? ModeEvent::Localized : ModeEvent::Lost);
+  if (state.mode == Mode::Idle && sure && state.way.target && !state.way.path.empty())
+    mode.apply(ModeEvent::OrderGiven);
+  else if (drives(state.mode) || state.mode == Mode::Waiting)
+    if (const auto event = way_event(state, input, config)) mode.apply(*event);
+}
+
+}  // namespace madori::app

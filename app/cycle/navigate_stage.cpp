@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "app/cycle/stages.hpp"
+#include "app/route_tools.hpp"
+#include "core/segment_distance.hpp"
+
+namespace madori::app {
+namespace {
+
+constexpr double kAtNode_m = 0.15;      ///< nearer than this the vehicle counts as standing on the node
+constexpr double kOnLeg_m = 0.5;        ///< nearer than this the vehicle counts as standing on the leg
+constexpr std::size_t kCandidates = 6;  ///< nodes that are tried as the first of a route
+
+bool crosses_wall(const planning::WallGrid& walls, const Segment2<Map>& way) {
+  const Point2<Map> middle{(way.a.x_m + way.b.x_m) / 2.0, (way.a.y_m + way.b.y_m) / 2.0};
+  return walls.any_near(middle, way.length_m() / 2.0 + 0.01,
+                        [&](const Segment2<Map>& wall) { return distance_m(wall, way) == 0.0; });
+}
+
+/// The ends of the legs that the vehicle stands on, as far as they may be driven to. Of a blocked leg that is
+/// the end that the vehicle came from.
+std::set<std::size_t> ends_of_own_legs(const CycleConfig& config, const Point2<Map>& here,
+                                       const planning::BlockedLegs& blocked) {
+  const auto& nodes = config.routes.nodes();
+  std::set<std::size_t> ends;
+  for (const auto& leg : config.routes.legs()) {
+    if (distance_m(nodes[leg.from].position, here) < kAtNode_m) ends.insert(leg.from);
+    const Segment2<Map> way{nodes[leg.from].position, nodes[leg.to].position};
+    if (distance_m(way, here) < kOnLeg_m && !blocked.contains({leg.from, leg.to})) ends.insert(leg.to);
+  }
+  return ends;
+}
+
+/// Nodes that the vehicle could begin its route at: the ends of its own leg; off the routes the nearest nodes
+/// that no drawn wall hides.
+std::vector<std::size_t> first_nodes(const CycleConfig& config, const Point2<Map>& here,
+                                     const planning::BlockedLegs& blocked) {
+  const auto own = ends_of_own_legs(config, here, blocked);
+  if (!own.empty()) return {own.begin(), own.end()};
+  const auto& nodes = config.routes.nodes();
+  std::vector<std::size_t> order(nodes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return distance_m(nodes[a].position, here) < distance_m(nodes[b].position, here);
+  });
+  std::vector<std::size_t> seen;
+  for (const std::size_t node : order) {
+    if (crosses_wall(*config.walls, {here, nodes[node].position})) continue;
+    seen.push_back(node);
+    if (seen.size() == kCandidates) break;
+  }
+  return seen;
+}
+
+planning::BlockedLegs both_ways(planning::BlockedLegs blocked) {
+  for (const auto& [from, to] : planning::BlockedLegs(blocked)) blocked.insert({to, from});
+  return blocked;
+}
+
+/// The route to `goal` with the least way in all, the way to its first node counted.
+std::optional<planning::Route> best_route(const CycleConfig& config, const Point2<Map>& here,
+                                          std::size_t goal, const planning::BlockedLegs& blocked) {
+  std::optional<planning::Route> best;
+  double best_m = std::numeric_limits<double>::infinity();
+  for (const std::size_t first : first_nodes(config, here, blocked)) {
+    auto route = planning::find_route(config.routes, first, goal, config.metric, both_ways(blocked));
+    if (!route) continue;
+    const double whole_m = route.value().length_m + distance_m(config.routes.nodes()[first].position, here);
+    if (whole_m >= best_m) continue;
+    best_m = whole_m;
+    best = std::move(route).value();
+  }
+  return best;
+}
+
+/// The path from the vehicle over a route; a single point where it stands at the goal already.
+Path path_over(const CycleConfig& config, const planning::Route& route, const Transform2<Map, Base>& pose) {
+  const Point2<Map> here = pose.translation();
+  auto way = way_corners(config.routes, route);
+  if (way.size() == 1 || distance_m(way.front().position, here) > kAtNode_m)
+    way.insert(way.begin(), {here, way.front().speed_limit_mps});
+  else
+    way.front().position = here;
+  const auto& goal = config.routes.nodes()[route.nodes.back()];
+  const bool there =
+      way.size() == 2 && distance_m(here, goal.position) < config.pursuit.goal_tolerance_m * 3.0;
+  auto path =
+      there ? Result<Path>::failure("") : planning::make_waypoints(way, config.waypoints, goal.heading_rad);
+  if (path) return std::move(path).value();
+  return {{{here, goal.heading_rad.value_or(pose.yaw_rad()), 0.0}}};
+}
+
+void take_path(Navigation& way, Path path, const CycleConfig& config) {
+  way.plain = path;
+  way.path = control::TrackedPath(std::move(path), config.pursuit.speed);
+  way.pursuit = {};
+  way.status = control::PursuitStatus::Following;
+  way.along_m = 0.0;
+  way.stop_along_m = planning::PathCheck::kFree;
+  way.care_along_m = planning::PathCheck::kFree;
+  way.check = {};
+  way.rejoin_m.reset();
+  way.detour_pending = false;
+  way.turn_free = true;
+  way.no_way.clear();
+}
+
+void plan(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
+  Navigation& way = state.way;
+  way.arrived = way.reported = false;
+  way.path = {};
+  way.plain = {};
+  const auto goal = config.routes.index_of(way.stop.node);
+  if (!goal) {
+    way.no_way = "node " + std::to_string(way.stop.node) + " is not in the routes";
+    output.order_refused = {way.target->order, way.no_way};
+    return;
+  }
+  const auto blocked = blocked_now(way, input.now, config.forget_block_s);
+  const auto route = best_route(config, state.pose.map_from_base.translation(), *goal, blocked);
+  if (!route) {
+    way.no_way = "no way leads to node " + std::to_string(way.stop.node) +
+                 (blocked.empty() ? "" : " while a leg is blocked");
+    if (blocked.empty()) output.order_refused = {way.target->order, way.no_way};
+    return;
+  }
+  way.nodes = route->nodes;
+  way.detour_failed.clear();
+  way.blocked_since.reset();
+  take_path(way, path_over(config, *route, state.pose.map_from_base), config);
+}
+
+/// The leg of the route that is nearest to what blocks it.
+std::optional<std::pair<std::size_t, std::size_t>> blocked_leg(const CycleConfig& config,
+                                                               const Navigation& way) {
+  std::optional<std::pair<std::size_t, std::size_t>> leg;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
+    const auto& nodes = config.routes.nodes();
+    const Segment2<Map> piece{nodes[way.nodes[i]].position, nodes[way.nodes[i + 1]].position};
+    const double away_m = distance_m(piece, way.check.where);
+    if (away_m >= nearest_m) continue;
+    nearest_m = away_m;
+    leg = {way.nodes[i], way.nodes[i + 1]};
+  }
+  return leg;
+}
+
+/// After long waiting: another route without the leg that is blocked, where there is one.
+void try_another_route(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                       CycleOutput& output) {
+  Navigation& way = state.way;
+  way.blocked_since = input.now;  // the next try is as far away
+  const auto leg = blocked_leg(config, way);
+  const auto goal = config.routes.index_of(way.stop.node);
+  if (!leg || !goal) return;
+  auto blocked = blocked_now(way, input.now, config.forget_block_s);
+  blocked.insert(*leg);
+  if (!best_route(config, state.pose.map_from_base.translation(), *goal, blocked)) return;
+  way.blocked_legs.emplace_back(*leg, input.now);
+  output.events.push_back("the leg from node " + std::to_string(config.routes.nodes()[leg->first].id) +
+                          " to node " + std::to_string(config.routes.nodes()[leg->second].id) +
+                          " is blocked: taking another route");
+  plan(state, input, config, output);
+}
+
+}  // namespace
+
+planning::BlockedLegs blocked_now(const Navigation& way, Stamp now, double forget_s) {
+  planning::BlockedLegs blocked;
+  for (const auto& [leg, since] : way.blocked_legs)
+    if (to_seconds(now - since) < forget_s) blocked.insert(leg);
+  return blocked;
+}
+
+bool is_at_door(const CycleConfig& config, const Point2<Map>& place) {
+  return std::any_of(config.routes.nodes().begin(), config.routes.nodes().end(), [&](const auto& node) {
+    return (node.action == planning::NodeAction::Door || node.action == planning::NodeAction::Lift) &&
+           distance_m(node.position, place) < config.door_zone_m;
+  });
+}
+
+void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
+  Navigation& way = state.way;
+  const bool has_target =
+      input.order && input.order->state == OrderState::Running && !input.order->stops.empty();
+  if (!has_target) {
+    if (way.target) way = Navigation();
+    return;
+  }
+  const Target target{input.order->id, input.order->round, input.order->next_stop};
+  const bool is_new = way.target != target;
+  if (is_new) {
+    auto legs = std::move(way.blocked_legs);
+    way = Navigation();
+    way.blocked_legs = std::move(legs);
+    way.target = target;
+    way.stop = input.order->stops[target.stop];
+  }
+  const bool sure = may_drive(state.pose.health.state) && state.lidar_heard;
+  const bool off_path = way.status == control::PursuitStatus::OffPath;
+  const bool needs_path = way.path.empty() && way.no_way.empty();
+  if (sure && !way.arrived && (needs_path || off_path)) plan(state, input, config, output);
+  if (input.detour && input.detour->id == way.detour_id && way.detour_pending) {
+    way.detour_pending = false;
+    way.detour_failed = input.detour->path ? "" : input.detour->reason;
+    if (input.detour->path) {
+      const std::size_t rejoin = std::min(input.detour->rejoin, input.detour->path->points.size() - 1);
+      take_path(way, *input.detour->path, config);
+      way.rejoin_m = way.path.along_m(rejoin);
+    }
+  }
+  const bool stuck = state.mode == Mode::Waiting && way.blocked_since && !way.arrived &&
+                     to_seconds(input.now - *way.blocked_since) > config.reroute_after_s;
+  if (sure && stuck && !is_at_door(config, way.check.where)) try_another_route(state, input, config, output);
+  const bool told = std::any_of(input.commands.begin(), input.commands.end(),
+                                [](const auto& c) { return c.word == OperatorWord::GoOn; });
+  if (way.arrived && !way.reported && (input.now >= way.dwell_until || told)) {
+    way.reported = true;
+    output.stop_done = way.target;
+  }
+}
+
+}  // namespace madori::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "app/cycle/cycle.hpp"
+
+/// The stages of step(), in their order. Each changes its own part of the state alone.
+namespace madori::app {
+
+/// Drive statuses become odometry, odometry becomes a pose; revolutions correct it.
+void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// The order's next stop becomes a route and a path; an answered detour replaces it.
+void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// The path ahead against what the scan and the drawing show; asks for a way around.
+void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// Events of all kinds move the mode.
+void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// What the vehicle would do, were there no limits.
+[[nodiscard]] VelocityCommand wanted_command(CycleState& state, const CycleInput& input,
+                                             const CycleConfig& config);
+/// Cause and remedy of a standstill; empty while the vehicle may move.
+[[nodiscard]] Standstill standstill_of(const CycleState& state, const CycleInput& input,
+                                       const CycleConfig& config);
+
+/// Whether nobody has heard of a device for too long.
+[[nodiscard]] bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s);
+[[nodiscard]] bool may_drive(LocalizationState state);
+/// Whether the place lies at a door or a lift, where the vehicle waits instead of driving around.
+[[nodiscard]] bool is_at_door(const CycleConfig& config, const Point2<Map>& place);
+/// The legs that count as blocked now, in the direction in which the vehicle met what blocks them.
+[[nodiscard]] planning::BlockedLegs blocked_now(const Navigation& way, Stamp now, double forget_s);
+
+}  // namespace madori::app

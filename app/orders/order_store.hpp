@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/orders/order.hpp"
+#include "core/stamp.hpp"
+
+struct sqlite3;
+
+namespace madori::app {
+
+struct EventRecord {
+  Stamp stamp{};
+  std::string kind;  ///< mode, order, operator, device
+  std::string text;
+};
+
+/// Orders and events of a site, madori.db (SQLite, write-ahead log, synchronous = FULL): every call that
+/// returns has reached the disk, and a call that was cut off by a crash or power loss has either happened
+/// wholly or not at all. Throws Error where the database cannot be used.
+class OrderStore {
+ public:
+  explicit OrderStore(const std::filesystem::path& file);
+  ~OrderStore();
+  OrderStore(const OrderStore&) = delete;
+  OrderStore& operator=(const OrderStore&) = delete;
+
+  /// Queues an order and returns its ID.
+  std::int64_t add(const std::vector<OrderStop>& stops, int repeat, Stamp now);
+  [[nodiscard]] std::optional<Order> find(std::int64_t id) const;
+  /// All orders, or those that are queued or running, oldest first.
+  [[nodiscard]] std::vector<Order> list(bool open_only) const;
+  /// The running order, else the oldest queued one, which becomes running.
+  std::optional<Order> begin_next(Stamp now);
+  /// Counts stop `next_stop` of round `round` as done, once; counting it again changes nothing. The order
+  /// that it completes becomes Done.
+  Order stop_done(std::int64_t id, int round, std::size_t next_stop, Stamp now);
+  /// Ends an open order as Cancelled or Refused.
+  void close(std::int64_t id, OrderState state, const std::string& note, Stamp now);
+  /// Stops counted so far, over all orders.
+  [[nodiscard]] std::int64_t stops_done() const;
+
+  void add_event(const EventRecord& event);
+  [[nodiscard]] std::vector<EventRecord> events(std::size_t newest) const;
+  /// What SQLite's own check says of the file: "ok" where it is intact.
+  [[nodiscard]] std::string integrity() const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::unique_ptr<sqlite3, Close> database_;
+  std::string file_;
+};
+
+}  // namespace madori::app

@@ -1,0 +1,181 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "app/cycle/cycle.hpp"
+#include "control/diff_drive/kinematics.hpp"
+#include "control/drive_link/controller.hpp"
+#include "core/segment_distance.hpp"
+#include "tests/support/rolling_vehicle.hpp"
+#include "tests/support/toy_lidar.hpp"
+
+namespace madori::test {
+
+/// Hands the cycle the true pose: for tests of planning, control and the cycle alone.
+class TruePose : public app::PoseSource {
+ public:
+  explicit TruePose(const RollingVehicle& vehicle) : vehicle_(vehicle) {}
+  PoseEstimate on_odometry(const OdometryReading& reading) override { return now(reading.stamp); }
+  PoseEstimate on_cloud(const PointCloud<Base>& cloud) override { return now(cloud.stamp); }
+  LocalizationState state = LocalizationState::Localized;
+
+ private:
+  [[nodiscard]] PoseEstimate now(Stamp stamp) const {
+    PoseEstimate pose{stamp, vehicle_.pose(), Eigen::Matrix3d::Identity() * 1e-6, {state, ""}};
+    if (state != LocalizationState::Localized) pose.health.reason = "told so by the test";
+    return pose;
+  }
+  const RollingVehicle& vehicle_;
+};
+
+/// The reference vehicle in a toy world, lock-step at 50 Hz, with the real drive protocol and controller.
+class ToyVehicle {
+ public:
+  static constexpr double kStep_s = 0.02;
+
+  ToyVehicle(app::CycleConfig cycle_config, Transform2<Map, Base> start, std::uint32_t seed = 1)
+      : config(std::move(cycle_config)), rolling(start), random_(seed), state_(make_state()) {
+    lidar.height_m = config.lidar.z_m;
+  }
+
+  /// One step of 20 ms. Orders are worked off as the order store would.
+  void step() {
+    time_s_ += kStep_s;
+    const auto micros = static_cast<std::uint32_t>(std::llround(time_s_ * 1e6));
+    turn_wheels();
+    controller_.tick({emergency_stop, bumper, 0, angle(left_rad_), angle(right_rad_), 25'000}, micros);
+    app::CycleInput input;
+    input.now = stamp_from_seconds(1'000.0 + time_s_);
+    if (!drive_silent) input.drive.push_back(controller_.next_status());
+    if (++ticks_ % 5 == 0 && !lidar_silent) input.clouds.push_back(cloud(input.now));
+    input.commands = std::exchange(commands, {});
+    if (order && order->state == app::OrderState::Running) input.order = order;
+    input.detour = std::exchange(detour_, std::nullopt);
+    if (record) inputs.push_back(input);
+    auto [after, out] = app::step(std::move(state_), input, config);
+    state_ = std::move(after);
+    output = std::move(out);
+    answer(micros);
+  }
+
+  /// Steps until `done` or a time is over; whether it was done.
+  bool run_until(const std::function<bool()>& done, double limit_s) {
+    for (double t = 0.0; t < limit_s; t += kStep_s) {
+      step();
+      if (each_step) each_step();
+      if (done()) return true;
+    }
+    return false;
+  }
+  void say(app::OperatorWord word) { commands.push_back({word, {}}); }
+  void drive_to(std::vector<app::OrderStop> stops, int repeat = 1) {
+    order = app::Order{++orders_, std::move(stops), repeat, app::OrderState::Running, 0, 0, ""};
+  }
+  [[nodiscard]] bool delivered() const { return order && order->state == app::OrderState::Done; }
+  [[nodiscard]] const app::CycleState& state() const { return state_; }
+  [[nodiscard]] double time_s() const { return time_s_; }
+
+  /// Distance from the vehicle's outline to the nearest body; zero in contact.
+  [[nodiscard]] double clearance_m() const {
+    const auto& v = config.check.vehicle;
+    const std::array<Point2<Base>, 4> corners{{{v.front_m, v.half_width_m},
+                                               {-v.rear_m, v.half_width_m},
+                                               {-v.rear_m, -v.half_width_m},
+                                               {v.front_m, -v.half_width_m}}};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Segment2<Map> side = rolling.pose() * Segment2<Base>{corners[i], corners[(i + 1) % 4]};
+      for (const Post& post : lidar.posts)
+        if (post.bottom_m < v.height_m)
+          nearest = std::min(nearest, distance_m(side, post.at) - post.radius_m);
+      for (const LyingBody& body : lidar.bodies)
+        for (const auto& edge : body.edges()) nearest = std::min(nearest, distance_m(side, edge));
+    }
+    return std::max(0.0, nearest);
+  }
+
+  app::CycleConfig config;
+  RollingVehicle rolling;
+  ToyLidar lidar;
+  bool emergency_stop = false, bumper = false, drive_silent = false, lidar_silent = false;
+  std::vector<app::OperatorCommand> commands;
+  std::optional<app::Order> order;
+  app::CycleOutput output;
+  bool record = false;
+  std::vector<app::CycleInput> inputs;
+  std::vector<VelocityCommand> driven;  ///< the command of every step
+  std::vector<std::string> events;
+  std::function<void()> each_step;
+  TruePose* pose = nullptr;
+
+ private:
+  app::CycleState make_state() {
+    auto source = std::make_unique<TruePose>(rolling);
+    pose = source.get();
+    return {config, std::move(source)};
+  }
+  void turn_wheels() {
+    const auto& wheels = config.odometry.wheels;
+    const VelocityCommand wanted = control::vehicle_velocity(
+        wheels, {controller_.left_uradps() * 1e-6, controller_.right_uradps() * 1e-6});
+    rolling.move(wanted, kStep_s);
+    const auto turned = control::wheel_speeds(wheels, rolling.speed());
+    left_rad_ += turned.left_radps * kStep_s;
+    right_rad_ += turned.right_radps * kStep_s;
+  }
+  static std::uint16_t angle(double rad) {
+    const double turns = rad / (2.0 * kPi);
+    const auto counts = std::llround((turns - std::floor(turns)) * control::wire::kCountsPerTurn);
+    return static_cast<std::uint16_t>(counts % control::wire::kCountsPerTurn);
+  }
+  PointCloud<Lidar> cloud(Stamp now) {
+    const PointCloud<Base> base = lidar.scan(rolling.pose(), now, random_);
+    PointCloud<Lidar> result{now, base.points};
+    for (CloudPoint& p : result.points) p.z_m -= static_cast<float>(config.lidar.z_m);
+    return result;
+  }
+  void answer(std::uint32_t micros) {
+    const auto wheels = control::wheel_speeds(config.odometry.wheels, output.command);
+    std::array<std::uint8_t, control::wire::kMaxFrame> frame{};
+    const std::size_t size = encode(
+        control::wire::Command{++sequence_, output.enable, static_cast<std::int32_t>(wheels.left_radps * 1e6),
+                               static_cast<std::int32_t>(wheels.right_radps * 1e6)},
+        frame.data());
+    for (std::size_t i = 0; i < size; ++i) controller_.receive(frame[i], micros);
+    driven.push_back(output.command);
+    events.insert(events.end(), output.events.begin(), output.events.end());
+    if (output.detour_wanted) {
+      planning::DetourOptions options;
+      options.free_space.max_checks = 50'000;
+      detour_ = planning::plan_detour(*output.detour_wanted, *config.walls, config.check, options);
+    }
+    if (output.stop_done && ++order->next_stop == order->stops.size()) {
+      order->next_stop = 0;
+      if (++order->round == order->repeat) order->state = app::OrderState::Done;
+    }
+  }
+
+  std::mt19937 random_;
+  control::wire::Controller controller_;
+  double time_s_ = 0.0, left_rad_ = 0.0, right_rad_ = 0.0;
+  int ticks_ = 0;
+  std::int64_t orders_ = 0;
+  std::uint16_t sequence_ = 0;
+  std::optional<planning::DetourAnswer> detour_;
+  app::CycleState state_;
+};
+
+/// The reference vehicle and a VLP-16 at 0.9 m, on routes given as CSV.
+inline app::CycleConfig toy_config(planning::RouteGraph routes) {
+  app::CycleConfig config;
+  config.routes = std::move(routes);
+  config.lidar = {0.0, 0.0, 0.9, to_rad(-15.0), to_rad(15.0)};
+  return config;
+}
+
+}  // namespace madori::test

@@ -1,0 +1,208 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planning/route_graph/route_csv.hpp"
+#include "tests/support/toy_vehicle.hpp"
+
+namespace madori::app {
+namespace {
+
+using test::ToyVehicle;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+/// A long corridor 0 - 1 - 2, and a loop 1 - 3 - 2 beside it.
+planning::RouteGraph routes() {
+  return planning::parse_routes("ID,EDA\n0,1\n1,0 2 3\n2,1 3\n3,1 2\n",
+                                "ID,x,y,heading_deg\n0,0,0,\n1,10,0,\n2,22,0,90\n3,16,6,\n")
+      .graph;
+}
+
+std::unique_ptr<ToyVehicle> vehicle() {
+  return std::make_unique<ToyVehicle>(test::toy_config(routes()), Transform2<Map, Base>(0.0, 0.0, 0.0));
+}
+
+TEST(AutonomyCycle, NothingMovesUntilTheOperatorLetsIt) {
+  auto v = vehicle();
+  v->drive_to({{2}});
+  EXPECT_FALSE(v->run_until([&] { return v->rolling.speed().linear_mps != 0.0; }, 5.0));
+  EXPECT_EQ(v->state().mode, Mode::Paused);
+  EXPECT_EQ(v->state().standstill.remedy, "press Resume");
+  v->say(OperatorWord::Resume);
+  EXPECT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.5; }, 5.0));
+}
+
+TEST(AutonomyCycle, AnOrderIsDeliveredAndTheGoalIsMetInPlaceAndHeading) {
+  auto v = vehicle();
+  v->drive_to({{1, StopAction::Load, 1.0}, {2, StopAction::Unload, 0.0}});
+  v->say(OperatorWord::Resume);
+  bool loading = false;
+  v->each_step = [&] { loading = loading || v->state().standstill.cause == "loading"; };
+  ASSERT_TRUE(v->run_until([&] { return v->delivered(); }, 90.0));
+  EXPECT_TRUE(loading);
+  EXPECT_LT(distance_m(v->rolling.pose().translation(), Point2<Map>{22.0, 0.0}), 0.02);
+  EXPECT_LT(std::abs(wrap_angle(v->rolling.pose().yaw_rad() - kPi / 2.0)), to_rad(1.0));
+  v->run_until([&] { return false; }, 1.0);
+  EXPECT_EQ(v->state().mode, Mode::Idle);
+}
+
+TEST(AutonomyCycle, TheEmergencyStopHoldsUntilConfirmedAndResumed) {
+  auto v = vehicle();
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+  v->emergency_stop = true;
+  v->step();
+  EXPECT_EQ(v->state().mode, Mode::EmergencyStop);
+  EXPECT_EQ(v->output.command, VelocityCommand{});
+  EXPECT_FALSE(v->output.enable);
+  v->say(OperatorWord::Confirm);
+  v->run_until([&] { return false; }, 1.0);
+  EXPECT_EQ(v->state().mode, Mode::EmergencyStop) << "it is still pressed";
+  v->emergency_stop = false;
+  EXPECT_FALSE(v->run_until([&] { return v->output.enable; }, 3.0)) << "nobody confirmed";
+  v->say(OperatorWord::Confirm);
+  EXPECT_FALSE(v->run_until([&] { return v->output.enable; }, 3.0)) << "nobody let it go on";
+  EXPECT_EQ(v->state().mode, Mode::Paused);
+  v->say(OperatorWord::Resume);
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
+TEST(AutonomyCycle, BumperAndSilentDriveAndPauseStopAtOnce) {
+  for (const int what : {0, 1, 2}) {
+    auto v = vehicle();
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+    if (what == 0) v->bumper = true;
+    if (what == 1) v->drive_silent = true;
+    if (what == 2) v->say(OperatorWord::Pause);
+    v->run_until([&] { return false; }, 0.5);
+    EXPECT_EQ(v->state().mode, what == 0 ? Mode::EmergencyStop : what == 1 ? Mode::Fault : Mode::Paused);
+    EXPECT_EQ(v->output.command, VelocityCommand{});
+    EXPECT_FALSE(v->output.enable);
+  }
+}
+
+TEST(AutonomyCycle, ASilentLidarStopsTheVehicleAndItGoesOnByItself) {
+  auto v = vehicle();
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+  v->lidar_silent = true;
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.01; }, 1.5));
+  EXPECT_EQ(v->state().mode, Mode::Waiting);
+  EXPECT_EQ(v->state().standstill.cause, "the lidar is silent");
+  v->lidar_silent = false;
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
+TEST(AutonomyCycle, LostMeansStandingAndLocalizedMeansGoingOn) {
+  auto v = vehicle();
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+  v->pose->state = LocalizationState::Lost;
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.01; }, 1.5));
+  EXPECT_EQ(v->state().mode, Mode::Localizing);
+  EXPECT_THAT(v->state().standstill.cause, HasSubstr("told so by the test"));
+  v->pose->state = LocalizationState::Localized;
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
+TEST(AutonomyCycle, APersonInTheWayIsWaitedFor) {
+  auto v = vehicle();
+  v->config.detour_after_s = 1000.0;
+  v->lidar.posts.push_back({{6.0, 0.0}, 0.2, 1.7});
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  double nearest = 10.0;
+  v->each_step = [&] { nearest = std::min(nearest, v->clearance_m()); };
+  v->run_until([&] { return false; }, 12.0);
+  EXPECT_EQ(v->state().mode, Mode::Waiting);
+  EXPECT_EQ(v->state().standstill.cause, "something stands in the way");
+  EXPECT_GT(nearest, 0.1);
+  EXPECT_LT(nearest, 0.8);
+  v->lidar.posts.clear();
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
+TEST(AutonomyCycle, APalletIsDrivenAround) {
+  auto v = vehicle();
+  v->lidar.bodies.push_back({{{6.0, -0.4}, {6.0, 0.4}}, 0.4, 0.3});
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  double nearest = 10.0;
+  v->each_step = [&] { nearest = std::min(nearest, v->clearance_m()); };
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 90.0)) << v->state().standstill.cause;
+  EXPECT_GT(nearest, 0.03);
+  EXPECT_THAT(v->events, Contains(HasSubstr("-> detouring")));
+  EXPECT_THAT(v->events, Contains(HasSubstr("back on route")));
+}
+
+TEST(AutonomyCycle, ABlockedLegIsLeftOutOfANewRoute) {
+  auto v = vehicle();
+  v->config.detour_after_s = 1000.0;
+  v->config.reroute_after_s = 3.0;
+  for (double y = -2.0; y < 2.0; y += 0.2) v->lidar.posts.push_back({{14.0, y}, 0.15, 1.0});
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 120.0)) << ::testing::PrintToString(v->events);
+  EXPECT_THAT(v->events, Contains(HasSubstr("taking another route")));
+}
+
+TEST(AutonomyCycle, AnUnknownNodeIsRefusedAndSaidSo) {
+  auto v = vehicle();
+  v->drive_to({{99}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->output.order_refused.has_value(); }, 2.0));
+  EXPECT_EQ(v->output.order_refused->second, "node 99 is not in the routes");
+}
+
+TEST(AutonomyCycle, ManualModeFollowsTheHeldKeyAndStopsWithoutIt) {
+  auto v = vehicle();
+  v->say(OperatorWord::ManualOn);
+  v->commands.push_back({OperatorWord::Jog, {0.3, 0.0}});
+  v->run_until([&] { return false; }, 0.2);
+  EXPECT_GT(v->output.command.linear_mps, 0.0);
+  v->run_until([&] { return false; }, 0.2);
+  EXPECT_EQ(v->output.command, VelocityCommand{}) << "the key is silent for longer than 0.3 s";
+  v->say(OperatorWord::ManualOff);
+  v->step();
+  EXPECT_EQ(v->state().mode, Mode::Paused);
+}
+
+TEST(AutonomyCycle, RecordedInputsGiveTheSameCommandsBitForBit) {
+  auto v = vehicle();
+  v->record = true;
+  v->lidar.bodies.push_back({{{6.0, -0.4}, {6.0, 0.4}}, 0.4, 0.3});
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  std::vector<Transform2<Map, Base>> poses;
+  v->each_step = [&] { poses.push_back(v->rolling.pose()); };
+  ASSERT_TRUE(v->run_until([&] { return v->delivered(); }, 90.0));
+
+  class Recorded : public PoseSource {
+   public:
+    PoseEstimate on_odometry(const OdometryReading& reading) override { return at(reading.stamp); }
+    PoseEstimate on_cloud(const PointCloud<Base>& cloud) override { return at(cloud.stamp); }
+    Transform2<Map, Base> pose;
+
+   private:
+    [[nodiscard]] PoseEstimate at(Stamp stamp) const {
+      return {stamp, pose, Eigen::Matrix3d::Identity() * 1e-6, {LocalizationState::Localized, ""}};
+    }
+  };
+  auto source = std::make_unique<Recorded>();
+  Recorded& recorded = *source;
+  CycleState state(v->config, std::move(source));
+  for (std::size_t i = 0; i < v->inputs.size(); ++i) {
+    recorded.pose = poses[i];
+    auto [after, output] = step(std::move(state), v->inputs[i], v->config);
+    state = std::move(after);
+    ASSERT_EQ(output.command, v->driven[i]) << "step " << i;
+  }
+}
+
+}  // namespace
+}  // namespace madori::app

@@ -1,0 +1,132 @@
+#include "app/orders/order_store.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <random>
+
+#include "core/result.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace madori::app {
+namespace {
+
+const Stamp kNow = stamp_from_seconds(1'700'000'000.0);
+
+TEST(OrderStore, AnOrderGoesThroughItsStopsAndRounds) {
+  const test::TemporaryFolder folder;
+  OrderStore store(folder.path() / "madori.db");
+  const std::vector<OrderStop> stops{{3, StopAction::Load, 5.0}, {4, StopAction::Unload, 0.0}};
+  const auto id = store.add(stops, 2, kNow);
+  EXPECT_EQ(store.find(id)->state, OrderState::Queued);
+  auto order = store.begin_next(kNow);
+  ASSERT_TRUE(order);
+  EXPECT_EQ(order->stops, stops);
+  EXPECT_EQ(order->state, OrderState::Running);
+  for (int i = 0; i < 4; ++i) *order = store.stop_done(id, order->round, order->next_stop, kNow);
+  EXPECT_EQ(order->state, OrderState::Done);
+  EXPECT_EQ(store.stops_done(), 4);
+  EXPECT_FALSE(store.begin_next(kNow));
+}
+
+TEST(OrderStore, CountingAStopTwiceChangesNothing) {
+  const test::TemporaryFolder folder;
+  OrderStore store(folder.path() / "madori.db");
+  const auto id = store.add({{3}, {4}}, 1, kNow);
+  (void)store.begin_next(kNow);
+  EXPECT_EQ(store.stop_done(id, 0, 0, kNow).next_stop, 1U);
+  EXPECT_EQ(store.stop_done(id, 0, 0, kNow).next_stop, 1U);
+  EXPECT_EQ(store.stops_done(), 1);
+}
+
+TEST(OrderStore, TheRunningOrderComesBeforeQueuedOnesAndCancelledOnesNever) {
+  const test::TemporaryFolder folder;
+  OrderStore store(folder.path() / "madori.db");
+  const auto first = store.add({{1}}, 1, kNow);
+  const auto second = store.add({{2}}, 1, kNow);
+  const auto third = store.add({{3}}, 1, kNow);
+  EXPECT_EQ(store.begin_next(kNow)->id, first);
+  EXPECT_EQ(store.begin_next(kNow)->id, first);
+  store.close(first, OrderState::Cancelled, "not wanted", kNow);
+  store.close(second, OrderState::Refused, "no way", kNow);
+  EXPECT_EQ(store.begin_next(kNow)->id, third);
+  EXPECT_EQ(store.find(first)->note, "not wanted");
+  EXPECT_EQ(store.list(true).size(), 1U);
+  EXPECT_EQ(store.list(false).size(), 3U);
+  store.close(first, OrderState::Refused, "again", kNow);
+  EXPECT_EQ(store.find(first)->state, OrderState::Cancelled);
+}
+
+TEST(OrderStore, RefusesWhatIsNoOrderAndWhatIsNoDatabase) {
+  const test::TemporaryFolder folder;
+  OrderStore store(folder.path() / "madori.db");
+  EXPECT_THROW((void)store.add({}, 1, kNow), Error);
+  EXPECT_THROW((void)store.add({{1}}, 0, kNow), Error);
+  EXPECT_THROW((void)store.stop_done(99, 0, 0, kNow), Error);
+  folder.write("broken.db",
+               "this is no database, and long enough to be looked at as one ...............................");
+  EXPECT_THROW(OrderStore(folder.path() / "broken.db"), Error);
+}
+
+TEST(OrderStore, EventsComeNewestFirst) {
+  const test::TemporaryFolder folder;
+  OrderStore store(folder.path() / "madori.db");
+  store.add_event({kNow, "mode", "one"});
+  store.add_event({kNow, "mode", "two"});
+  const auto events = store.events(10);
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].text, "two");
+  EXPECT_EQ(events[0].stamp, kNow);
+}
+
+/// Works off orders until it is killed; tells every finished stop through a pipe once the store has it.
+[[noreturn]] void work(const std::filesystem::path& file, int report) {
+  OrderStore store(file);
+  while (true) {
+    const auto order = store.begin_next(kNow);
+    if (!order) {
+      store.add({{1}, {2}, {3}}, 2, kNow);
+      continue;
+    }
+    store.stop_done(order->id, order->round, order->next_stop, kNow);
+    const char one = 1;
+    if (::write(report, &one, 1) != 1) ::_exit(1);
+  }
+}
+
+TEST(OrderStore, KilledAtRandomMomentsItLosesNothingAndCountsNothingTwice) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "madori.db";
+  std::mt19937 random(42);
+  std::int64_t reported = 0;
+  constexpr int kKills = 12;  // tests/end_to_end/kill_orders.py does 200 with the whole program
+  for (int i = 0; i < kKills; ++i) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    const pid_t child = ::fork();
+    if (child == 0) work(file, ends[1]);
+    ::close(ends[1]);
+    ::usleep(static_cast<useconds_t>(50'000 + random() % 400'000));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    char byte = 0;
+    while (::read(ends[0], &byte, 1) == 1) ++reported;
+    ::close(ends[0]);
+    const OrderStore store(file);
+    ASSERT_EQ(store.integrity(), "ok");
+    const auto done = store.stops_done();
+    EXPECT_GE(done, reported);
+    EXPECT_LE(done, reported + i + 1) << "at most the stop in hand when it was killed";
+    std::int64_t counted = 0;
+    for (const Order& order : store.list(false))
+      counted += order.round * static_cast<std::int64_t>(order.stops.size()) +
+                 static_cast<std::int64_t>(order.next_stop);
+    EXPECT_EQ(counted, done);
+  }
+  EXPECT_GT(reported, 0);
+}
+
+}  // namespace
+}  // namespace madori::app
