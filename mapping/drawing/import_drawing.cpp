@@ -1,5 +1,6 @@
 #include "mapping/drawing/import_drawing.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -77,6 +78,15 @@ Walls to_map(const std::vector<PixelSegment>& segments, int height_px, double m_
   return walls;
 }
 
+/// One colour from edge to edge, as an empty page or a failed scan has it.
+void refuse_blank(const ImportOptions& options, const GrayImage& picture) {
+  const auto [darkest, brightest] = std::ranges::minmax(picture.pixels);
+  if (brightest - darkest > 8) return;
+  throw Error(options.drawing.string(),
+              std::string("is all ") + (darkest > 128 ? "white" : "black") + ", no wall was found",
+              "scan or export it again, or choose another --page");
+}
+
 [[noreturn]] void no_walls(const ImportOptions& options, const Plan& plan) {
   const bool vectors = plan.vectors.has_value();
   throw Error(options.drawing.string(), "no wall was found in it",
@@ -132,6 +142,7 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
     found.walls = std::move(plan.vectors->walls);
     found.rejected = std::move(plan.vectors->rejected);
   } else {
+    refuse_blank(options, plan.picture);
     DetectionOptions detection = options.detection;
     if (!detection.m_per_px) detection.m_per_px = options.m_per_px;
     found = detect_walls(plan.picture, detection, debug_sink(options, change), progress);

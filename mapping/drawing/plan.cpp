@@ -5,6 +5,7 @@
 
 #include "core/result.hpp"
 #include "mapping/drawing/raster/load_image.hpp"
+#include "mapping/drawing/vector/load_dxf.hpp"
 #include "mapping/drawing/vector/load_pdf.hpp"
 #include "mapping/drawing/vector/load_svg.hpp"
 
@@ -20,6 +21,7 @@ Plan load_plan(const std::filesystem::path& file, const PlanOptions& options) {
   if (extension == ".dwg")
     throw Error(file.string(), "is a DWG drawing, which only CAD programs can open",
                 "save it as DXF there and import that");
+  if (extension == ".dxf") return load_dxf(file, options);
   Plan plan;
   if (extension == ".pdf")
     plan.picture = load_pdf(file, options.page, options.dpi);

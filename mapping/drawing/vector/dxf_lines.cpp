@@ -1,0 +1,150 @@
+#include "mapping/drawing/vector/dxf_lines.hpp"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <regex>
+
+#include "core/result.hpp"
+
+namespace madori::mapping {
+namespace {
+
+using Dataset = std::unique_ptr<GDALDataset>;
+
+constexpr std::size_t kMostLines = 5'000'000;
+
+Dataset open(const std::filesystem::path& file) {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    GDALAllRegister();
+    CPLSetConfigOption("DXF_INLINE_BLOCKS", "TRUE");
+    CPLSetConfigOption("DXF_MERGE_BLOCK_GEOMETRIES", "FALSE");
+    CPLSetConfigOption("OGR_ARC_STEPSIZE", "4");
+  });
+  const char* const drivers[] = {"DXF", nullptr};
+  CPLPushErrorHandler(CPLQuietErrorHandler);
+  Dataset dataset(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers));
+  CPLPopErrorHandler();
+  if (!dataset || dataset->GetLayerCount() == 0)
+    throw Error(file.string(), "is no readable DXF", "save it again as ASCII DXF (R2000 or newer)");
+  return dataset;
+}
+
+std::string field(const OGRFeature& feature, const char* name) {
+  const int index = feature.GetFieldIndex(name);
+  return index < 0 || feature.IsFieldSetAndNotNull(index) == 0 ? std::string()
+                                                               : feature.GetFieldAsString(index);
+}
+
+/// 12'-6", 9' and 36" are imperial figures.
+bool is_imperial(const std::string& text) {
+  static const std::regex pattern(R"(\d+\s*'(\s*-?\s*\d|\s*$)|\d+\s*")");
+  return std::regex_search(text, pattern);
+}
+
+/// One entity's share of all lines.
+class Collector {
+ public:
+  Collector(DxfContent& content, const DxfLine& like) : content_(content), like_(like) {}
+
+  void add(const OGRGeometry& geometry) {
+    switch (wkbFlatten(geometry.getGeometryType())) {
+      case wkbLineString:
+        add_points(*geometry.toLineString());
+        break;
+      case wkbPolygon:
+        for (const auto* ring : *geometry.toPolygon()) add_points(*ring);
+        break;
+      case wkbMultiLineString:
+      case wkbMultiPolygon:
+      case wkbGeometryCollection:
+        for (const auto* part : *geometry.toGeometryCollection()) add(*part);
+        break;
+      default:
+        break;  // points and surfaces hold no lines
+    }
+  }
+
+ private:
+  void add_points(const OGRSimpleCurve& curve) {
+    for (int i = 0; i + 1 < curve.getNumPoints(); ++i) {
+      DxfLine line = like_;
+      line.x1 = curve.getX(i), line.y1 = curve.getY(i);
+      line.x2 = curve.getX(i + 1), line.y2 = curve.getY(i + 1);
+      const bool finite = std::isfinite(line.x1) && std::isfinite(line.y1) && std::isfinite(line.x2) &&
+                          std::isfinite(line.y2);
+      if (finite && line.length() > 0.0 && content_.lines.size() < kMostLines) content_.lines.push_back(line);
+    }
+  }
+
+  DxfContent& content_;
+  DxfLine like_;
+};
+
+/// The radius where the curve is about a quarter of a circle, else 0.
+double quarter_radius(const OGRGeometry& geometry) {
+  if (wkbFlatten(geometry.getGeometryType()) != wkbLineString) return 0.0;
+  const auto& curve = *geometry.toLineString();
+  const int last = curve.getNumPoints() - 1;
+  if (last < 2) return 0.0;
+  const double chord = std::hypot(curve.getX(last) - curve.getX(0), curve.getY(last) - curve.getY(0));
+  const double share = curve.get_Length() / chord;  // pi / (2 sqrt 2) = 1.11 for a quarter
+  return share > 1.07 && share < 1.16 ? chord / std::sqrt(2.0) : 0.0;
+}
+
+void add_feature(const OGRFeature& feature, std::map<std::string, std::size_t>& layers, DxfContent& content) {
+  if (is_imperial(field(feature, "Text"))) content.units.imperial_texts = true;
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  if (geometry == nullptr) return;
+  const std::string layer = field(feature, "Layer");
+  const auto [entry, fresh] = layers.try_emplace(layer, content.layers.size());
+  if (fresh) content.layers.push_back(layer);
+  const std::string classes = field(feature, "SubClasses");
+  const char* style = feature.GetStyleString();
+  DxfLine like;
+  like.layer = entry->second;
+  like.dashed = style != nullptr && std::string(style).find("p:\"") != std::string::npos;
+  like.hatch = classes.find("Hatch") != std::string::npos;
+  if (classes.find("AcDbArc") != std::string::npos) {
+    const double radius = quarter_radius(*geometry);
+    like.door_arc = radius > 0.0;
+    if (like.door_arc) content.units.door_radii.push_back(radius);
+  }
+  Collector(content, like).add(*geometry);
+}
+
+std::string header_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(1U << 18U, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+}  // namespace
+
+double DxfLine::length() const {
+  return std::hypot(x2 - x1, y2 - y1);
+}
+
+DxfContent read_dxf_lines(const std::filesystem::path& file) {
+  DxfContent content;
+  read_header_units(header_of(file), content.units);
+  const Dataset dataset = open(file);
+  CPLPushErrorHandler(CPLQuietErrorHandler);
+  std::map<std::string, std::size_t> layers;
+  for (auto&& feature : dataset->GetLayer(0)) add_feature(*feature, layers, content);
+  CPLPopErrorHandler();
+  return content;
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mapping/drawing/vector/dxf_units.hpp"
+
+namespace madori::mapping {
+
+/// A straight piece of a DXF entity (arcs and bulges in short chords), drawing units, y up.
+struct DxfLine {
+  double x1 = 0, y1 = 0, x2 = 0, y2 = 0;
+  std::size_t layer = 0;  ///< index into DxfContent::layers
+  bool dashed = false;
+  bool hatch = false;
+  bool door_arc = false;  ///< of a quarter circle
+
+  [[nodiscard]] double length() const;
+};
+
+struct DxfContent {
+  std::vector<std::string> layers;
+  std::vector<DxfLine> lines;
+  DxfUnitEvidence units;
+};
+
+/// All lines of a DXF, block inserts resolved, by GDAL/OGR. Coordinates that are not finite are left out.
+/// Throws Error when it is no readable DXF.
+[[nodiscard]] DxfContent read_dxf_lines(const std::filesystem::path& file);
+
+}  // namespace madori::mapping

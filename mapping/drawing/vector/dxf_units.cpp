@@ -1,0 +1,100 @@
+#include "mapping/drawing/vector/dxf_units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+namespace madori::mapping {
+namespace {
+
+struct Unit {
+  int insunits;
+  double metres;
+  const char* name;
+  bool metric;
+};
+constexpr std::array<Unit, 6> kUnits{{{4, 0.001, "millimetres", true},
+                                      {5, 0.01, "centimetres", true},
+                                      {14, 0.1, "decimetres", true},
+                                      {6, 1.0, "metres", true},
+                                      {1, 0.0254, "inches", false},
+                                      {2, 0.3048, "feet", false}}};
+
+constexpr double kShortestBuilding_m = 3.0;
+constexpr double kLongestBuilding_m = 2000.0;
+
+/// How well a unit explains the drawing; negative where it cannot.
+int score(const Unit& unit, const DxfUnitEvidence& evidence) {
+  const double length_m = evidence.extent * unit.metres;
+  if (!(length_m >= kShortestBuilding_m && length_m <= kLongestBuilding_m)) return -1;
+  int points = length_m >= 8.0 && length_m <= 300.0 ? 1 : 0;
+  if (evidence.insunits == unit.insunits) points += 4;
+  if (evidence.measurement && (*evidence.measurement == 1) == unit.metric) points += 1;
+  if (evidence.imperial_texts) points += unit.metric ? -4 : 4;
+  std::vector<double> radii = evidence.door_radii;
+  if (!radii.empty()) {
+    std::ranges::nth_element(radii, radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2));
+    const double door_m = radii[radii.size() / 2] * unit.metres;
+    points += door_m >= 0.55 && door_m <= 1.5 ? 3 : -3;
+  }
+  return points;
+}
+
+std::string note_of(const Unit& unit, const DxfUnitEvidence& evidence) {
+  std::ostringstream note;
+  note << "one drawing unit is one of " << unit.name << ": ";
+  if (evidence.insunits == unit.insunits)
+    note << "$INSUNITS says so";
+  else if (evidence.insunits && *evidence.insunits != 0)
+    note << "$INSUNITS says otherwise, but no building comes out of it";
+  else
+    note << "the file does not say, this is the most plausible";
+  note << "; the drawing is " << std::round(evidence.extent * unit.metres * 10.0) / 10.0
+       << " m long. Check one length.";
+  return note.str();
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
+  return text;
+}
+
+}  // namespace
+
+std::optional<DxfUnit> choose_unit(const DxfUnitEvidence& evidence) {
+  const Unit* best = nullptr;
+  int most = -1;
+  for (const Unit& unit : kUnits) {
+    const int points = score(unit, evidence);
+    if (points <= most) continue;
+    most = points;
+    best = &unit;
+  }
+  if (best == nullptr) return std::nullopt;
+  return DxfUnit{best->metres, note_of(*best, evidence)};
+}
+
+void read_header_units(const std::string& text, DxfUnitEvidence& evidence) {
+  std::istringstream lines(text);
+  std::string line;
+  std::optional<int>* wanted = nullptr;
+  int until_value = 0;
+  while (std::getline(lines, line)) {
+    const std::string_view word = trimmed(line);
+    if (word == "ENDSEC") return;
+    if (word == "$INSUNITS" || word == "$MEASUREMENT") {
+      wanted = word == "$INSUNITS" ? &evidence.insunits : &evidence.measurement;
+      until_value = 2;  // the group code 70, then the value
+    } else if (wanted != nullptr && --until_value == 0) {
+      int value = 0;
+      if (std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc()) *wanted = value;
+      wanted = nullptr;
+    }
+  }
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,122 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "core/result.hpp"
+#include "mapping/drawing/vector/dxf_layers.hpp"
+#include "mapping/drawing/vector/dxf_units.hpp"
+#include "mapping/drawing/vector/load_dxf.hpp"
+#include "mapping/wall_map/wall.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace madori::mapping {
+namespace {
+
+using ::testing::HasSubstr;
+const std::filesystem::path kFactory = std::filesystem::path(MADORI_SOURCE_DIR) / "data/sample_factory";
+
+TEST(DxfLayers, NamesOfSeveralLanguagesAreUnderstood) {
+  for (const char* name :
+       {"A-WALL", "xref-house$0$A-WALL", "Wand (neu)", "Außenwände", "MUROS", "02_壁", "COLUMNS", "Stützen"})
+    EXPECT_TRUE(layer_meaning(name).kind == LayerKind::Wall || layer_meaning(name).kind == LayerKind::Column)
+        << name;
+  for (const char* name :
+       {"WALLS_HATCH", "Wandschraffur", "A-DIMS-1", "Bemaßung", "Shelves", "Doors/Windows", "A-WALL-OPENING"})
+    EXPECT_EQ(layer_meaning(name).kind, LayerKind::NoWall) << name;
+  EXPECT_EQ(layer_meaning("0").kind, LayerKind::Unknown);
+}
+
+TEST(DxfUnits, InsunitsCountsWhereABuildingComesOut) {
+  DxfUnitEvidence evidence;
+  evidence.insunits = 4;
+  evidence.extent = 80'000;
+  ASSERT_TRUE(choose_unit(evidence));
+  EXPECT_DOUBLE_EQ(choose_unit(evidence)->metres, 0.001);
+  EXPECT_THAT(choose_unit(evidence)->note, HasSubstr("$INSUNITS says so"));
+}
+
+TEST(DxfUnits, AWrongInsunitsIsOverruledAndSaid) {
+  DxfUnitEvidence evidence;  // says millimetres, but feet-and-inches figures and 36-unit doors stand in it
+  evidence.insunits = 4;
+  evidence.measurement = 1;
+  evidence.extent = 964;
+  evidence.door_radii = {36, 32, 36};
+  evidence.imperial_texts = true;
+  ASSERT_TRUE(choose_unit(evidence));
+  EXPECT_DOUBLE_EQ(choose_unit(evidence)->metres, 0.0254);
+  EXPECT_THAT(choose_unit(evidence)->note, HasSubstr("says otherwise"));
+}
+
+TEST(DxfUnits, DoorsDecideWhereTheHeaderIsSilent) {
+  DxfUnitEvidence evidence;
+  evidence.extent = 2000;
+  evidence.door_radii = {90};
+  EXPECT_DOUBLE_EQ(choose_unit(evidence)->metres, 0.01);
+}
+
+TEST(DxfUnits, AnAbsurdSizeHasNoUnit) {
+  DxfUnitEvidence evidence;
+  evidence.extent = 1e12;
+  EXPECT_FALSE(choose_unit(evidence));
+  evidence.extent = std::nan("");
+  EXPECT_FALSE(choose_unit(evidence));
+}
+
+TEST(DxfUnits, ReadsTheHeaderOnly) {
+  DxfUnitEvidence evidence;
+  read_header_units(
+      "  0\r\nSECTION\r\n  2\r\nHEADER\r\n  9\r\n$INSUNITS\r\n 70\r\n     6\r\n  9\r\n$MEASUREMENT\r\n "
+      "70\r\n1\r\n  0\r\nENDSEC\r\n"
+      "  9\r\n$INSUNITS\r\n 70\r\n 1\r\n",
+      evidence);
+  EXPECT_EQ(evidence.insunits, 6);
+  EXPECT_EQ(evidence.measurement, 1);
+}
+
+TEST(LoadDxf, TheSampleFactoryComesOutExactly) {
+  const Plan plan = load_dxf(kFactory / "factory.dxf", {});
+  ASSERT_TRUE(plan.vectors && plan.m_per_px);
+  const Walls truth = load_walls(kFactory / "true_walls.csv");
+  double truth_m = 0.0, found_m = 0.0;
+  for (const auto& wall : truth) truth_m += wall.segment.length_m();
+  for (const auto& wall : plan.vectors->walls) found_m += wall.length_px() * *plan.m_per_px;
+  EXPECT_EQ(plan.vectors->walls.size(), truth.size());
+  EXPECT_NEAR(found_m, truth_m, 0.01 * truth_m);
+}
+
+TEST(LoadDxf, NamedLayersAreTakenAndUnknownOnesListed) {
+  PlanOptions options;
+  options.layers = {"COLUMNS"};
+  EXPECT_EQ(load_dxf(kFactory / "factory.dxf", options).vectors->walls.size(), 15U * 4U);
+  options.layers = {"WALL"};
+  try {
+    (void)load_dxf(kFactory / "factory.dxf", options);
+    FAIL() << "an unknown layer was accepted";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("WALLS_HATCH"));
+  }
+}
+
+TEST(LoadDxf, RubbishIsRefused) {
+  const test::TemporaryFolder folder;
+  EXPECT_THROW((void)load_dxf(folder.write("a.dxf", "no drawing at all"), {}), Error);
+  EXPECT_THROW((void)load_dxf(folder.write("b.dxf", ""), {}), Error);
+}
+
+/// Three plans from elsewhere: inches although the header says millimetres, an EXTMIN of 1e10, German layers.
+TEST(LoadDxf, PlansFromElsewhereHaveTheirTrueSize) {
+  const std::filesystem::path folder = std::filesystem::path(MADORI_SHARED_DATA) / "drawings/dxf";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared drawings at " << folder;
+  const auto width_m = [&](const char* name) {
+    const Plan plan = load_dxf(folder / name, {});
+    return plan.picture.width_px * plan.m_per_px.value_or(0.0);
+  };
+  EXPECT_NEAR(width_m("floorplan.dxf"), 25.4, 0.1);
+  EXPECT_NEAR(width_m("hal9k_floorplan.dxf"), 24.8, 0.1);
+  EXPECT_NEAR(width_m("raumzeitlabor_olymp_floorplan.dxf"), 8.1, 0.1);
+}
+
+}  // namespace
+}  // namespace madori::mapping

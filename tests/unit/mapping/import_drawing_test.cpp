@@ -1,0 +1,183 @@
+#include "mapping/drawing/import_drawing.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/result.hpp"
+#include "mapping/wall_map/wall.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace madori::mapping {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// A room of 8 m x 5 m with a door, 0.02 m/px.
+fs::path draw_room(const test::TemporaryFolder& folder, const std::string& name = "room.png") {
+  cv::Mat picture(350, 500, CV_8UC1, cv::Scalar(255));
+  cv::rectangle(picture, {50, 50}, {450, 300}, 0, 5);
+  cv::rectangle(picture, {200, 290}, {250, 310}, 255, cv::FILLED);
+  cv::imwrite((folder.path() / name).string(), picture);
+  return folder.path() / name;
+}
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::string refusal(const ImportOptions& options) {
+  try {
+    import_drawing(options);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+class ImportDrawing : public testing::Test {
+ protected:
+  [[nodiscard]] ImportOptions options(const fs::path& drawing) const {
+    ImportOptions o;
+    o.drawing = drawing;
+    o.site = folder_.path() / "site";
+    return o;
+  }
+  /// The drawing is refused with the text, and no trace of a site is left.
+  void expect_refused(const fs::path& drawing, const std::string& text) const {
+    EXPECT_THAT(refusal(options(drawing)), HasSubstr(text));
+    EXPECT_THAT(refusal(options(drawing)), HasSubstr(drawing.filename().string()));
+    EXPECT_FALSE(fs::exists(folder_.path() / "site"));
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(ImportDrawing, MakesAWholeSite) {
+  ImportOptions o = options(draw_room(folder_));
+  o.m_per_px = 0.02;
+  const ImportReport report = import_drawing(o);
+  for (const char* name :
+       {"site.yaml", "drawing.png", "walls.csv", "walls.pcd", "map.pgm", "map.yaml", "import.png"})
+    EXPECT_TRUE(fs::exists(o.site / name)) << name;
+  EXPECT_EQ(content(o.site / "drawing.png"), content(o.drawing));
+  EXPECT_GT(report.points_sampled, report.points);
+  const Site site = load_scaled_site(o.site);
+  EXPECT_EQ(site.drawing.width_px, 500);
+  for (const auto& wall : load_walls(o.site / "walls.csv")) {
+    EXPECT_GT(wall.segment.a.x_m, 0.8);  // 50 px of margin
+    EXPECT_LT(wall.segment.a.y_m, 6.2);
+  }
+}
+
+TEST_F(ImportDrawing, WithoutScaleNothingMayDriveOnIt) {
+  const ImportOptions o = options(draw_room(folder_));
+  import_drawing(o);
+  EXPECT_FALSE(load_site(o.site).scale);
+  EXPECT_THROW((void)load_scaled_site(o.site), Error);
+}
+
+TEST_F(ImportDrawing, BadInputIsRefusedWithoutATrace) {
+  expect_refused(folder_.path() / "nowhere.png", "does not exist");
+  expect_refused(folder_.write("text.png", "this is no image"), "text.png");
+  expect_refused(folder_.write("plan.dwg", "AC1027"), "save it as DXF");
+  expect_refused(folder_.write("plan.pdf", "%PDF-1.4 and nothing else"), "no readable PDF");
+  expect_refused(folder_.write("plan.svg", "<svg"), "no readable SVG");
+  const std::string whole = content(draw_room(folder_));
+  expect_refused(folder_.write("truncated.png", whole.substr(0, whole.size() / 2)), "truncated.png");
+  cv::imwrite((folder_.path() / "white.png").string(), cv::Mat(300, 300, CV_8UC1, cv::Scalar(255)));
+  expect_refused(folder_.path() / "white.png", "no wall was found");
+  cv::imwrite((folder_.path() / "black.png").string(), cv::Mat(300, 300, CV_8UC1, cv::Scalar(0)));
+  expect_refused(folder_.path() / "black.png", "no wall was found");
+}
+
+TEST_F(ImportDrawing, AFolderIsNoDrawing) {
+  fs::create_directory(folder_.path() / "plans");
+  EXPECT_THAT(refusal(options(folder_.path() / "plans")), HasSubstr("is a folder"));
+}
+
+TEST_F(ImportDrawing, AProtectedPdfIsRefused) {
+  expect_refused(fs::path(MADORI_SOURCE_DIR) / "tests/unit/mapping/locked.pdf", "password");
+}
+
+TEST_F(ImportDrawing, PagesOutOfRangeAreRefused) {
+  ImportOptions o = options(fs::path(MADORI_SOURCE_DIR) / "data/sample_factory/factory.pdf");
+  o.plan.page = 2;
+  EXPECT_THAT(refusal(o), HasSubstr("has no page 2"));
+  o.plan.page = 1;
+  o.plan.dpi = 5000;
+  EXPECT_THAT(refusal(o), HasSubstr("choose a lower --dpi"));
+}
+
+TEST_F(ImportDrawing, AnExistingSiteIsOnlyReplacedOnRequest) {
+  ImportOptions o = options(draw_room(folder_));
+  o.m_per_px = 0.02;
+  import_drawing(o);
+  fs::create_directory(o.site / "routes");
+  std::ofstream(o.site / "routes/tree.csv") << "ID,EDA\n";
+  const std::string before = content(o.site / "walls.csv");
+  EXPECT_THAT(refusal(o), HasSubstr("--force"));
+  o.drawing = folder_.write("bad.png", "no image");
+  o.force = true;
+  EXPECT_NE(refusal(o), "");
+  EXPECT_EQ(content(o.site / "walls.csv"), before);
+  o.drawing = draw_room(folder_, "again.png");
+  o.m_per_px = 0.04;
+  import_drawing(o);
+  EXPECT_NE(content(o.site / "walls.csv"), before);
+  EXPECT_EQ(content(o.site / "routes/tree.csv"), "ID,EDA\n");
+}
+
+/// Exit 0 where the import failed with an Error although every file may only have `limit` bytes.
+int import_with_file_limit(const ImportOptions& options, rlim_t limit) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit bytes{limit, limit};
+    ::setrlimit(RLIMIT_FSIZE, &bytes);
+    ::_exit(refusal(options).empty() ? 1 : 0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST_F(ImportDrawing, AFullDiskLosesNothing) {
+  ImportOptions o = options(draw_room(folder_));
+  o.m_per_px = 0.02;
+  EXPECT_EQ(import_with_file_limit(o, 500), 0);
+  EXPECT_FALSE(fs::exists(o.site / "site.yaml"));
+  import_drawing(o);
+  const std::string before = content(o.site / "walls.csv");
+  o.force = true;
+  o.m_per_px = 0.05;
+  EXPECT_EQ(import_with_file_limit(o, 500), 0);
+  EXPECT_EQ(content(o.site / "walls.csv"), before);
+}
+
+TEST_F(ImportDrawing, AFolderThatCannotBeWrittenIsSaid) {
+  if (::geteuid() == 0) {
+    ImportOptions o = options(draw_room(folder_));
+    o.site = "/proc/madori-site";  // not even root may make a folder there
+    EXPECT_THAT(refusal(o), HasSubstr("cannot be made"));
+    return;
+  }
+  const test::TemporaryFolder locked;
+  fs::permissions(locked.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  ImportOptions o = options(draw_room(folder_));
+  o.site = locked.path() / "site";
+  EXPECT_THAT(refusal(o), HasSubstr("cannot be made"));
+}
+
+}  // namespace
+}  // namespace madori::mapping
