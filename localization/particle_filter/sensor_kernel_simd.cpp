@@ -80,7 +80,7 @@ HWY_INLINE std::uint32_t sum_block(const std::uint8_t* HWY_RESTRICT table,
 }
 
 void sum_all(const SensorKernelBeams& beams, const SensorKernelPlace* places, std::size_t particles,
-               std::uint32_t* HWY_RESTRICT sums) {
+             std::uint32_t* HWY_RESTRICT sums) {
   HWY_ALIGN std::int32_t offsets[2][kBlock];  // a block is computed while the one before is looked up
   const std::size_t blocks = (beams.count + kBlock - 1) / kBlock;
   for (std::size_t p = 0; p < particles; ++p) {

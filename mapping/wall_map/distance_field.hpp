@@ -31,6 +31,9 @@ class DistanceField {
     const std::int64_t cell = frame_.find(p);
     return cell < 0 ? max_distance_m_ : counts_[static_cast<std::size_t>(cell)] * m_per_count();
   }
+  /// Free way from `from` along the unit vector (dx, dy) to the first wall, good to about a cell; `limit_m`
+  /// when there is none before. Steps by the table's own distances.
+  [[nodiscard]] double free_way_m(const Point2<Map>& from, double dx, double dy, double limit_m) const;
 
  private:
   GridFrame frame_;
