@@ -1,0 +1,100 @@
+#include "mapping/drawing/raster/binarize.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <opencv2/imgproc.hpp>
+
+#include "mapping/drawing/raster/cv_view.hpp"
+#include "mapping/drawing/raster/paper.hpp"
+
+namespace madori::mapping {
+namespace {
+
+constexpr int kReach = 2;    // pixels between the two sides of an edge: spans the blur of a scan
+constexpr int kRowStep = 3;  // every third row is sample enough
+constexpr double kLeastContrast = 16;
+constexpr double kNearBest = 0.96;  // thresholds that cross almost as many edges form the plateau
+using Levels = std::array<double, 257>;
+
+/// Calls visit(brighter, darker, u, v) for sampled pixel pairs across and down.
+template <class Visit>
+void for_pairs(const GrayImage& image, Visit visit) {
+  const auto width = static_cast<std::size_t>(image.width_px);
+  for (int v = 0; v + kReach < image.height_px; v += kRowStep) {
+    const std::uint8_t* row = &image.pixels[static_cast<std::size_t>(v) * width];
+    const std::uint8_t* below = row + kReach * width;
+    for (int u = 0; u + kReach < image.width_px; ++u) {
+      visit(row[u], row[u + kReach], u, v);
+      visit(row[u], below[u], u, v);
+    }
+  }
+}
+
+/// The difference of neighbours on empty paper.
+double noise_of(const GrayImage& image) {
+  std::array<std::size_t, 256> counts{};
+  std::size_t total = 0;
+  for_pairs(image, [&](int a, int b, int, int) {
+    ++counts[static_cast<std::size_t>(std::abs(a - b))];
+    ++total;
+  });
+  std::size_t seen = 0, difference = 0;
+  while (difference < 255 && (seen += counts[difference]) < total * 3 / 4) ++difference;
+  return static_cast<double>(difference);
+}
+
+/// How many edges each threshold crosses, on a paper of 255.
+Levels crossings(const GrayImage& image, const Paper& paper, double least_contrast) {
+  Levels steps{};
+  for_pairs(image, [&](int a, int b, int u, int v) {
+    if (std::abs(a - b) < least_contrast) return;
+    const double gain = 255.0 / paper.at(u, v);
+    const auto level = [gain](int value) {
+      return static_cast<std::size_t>(std::clamp(std::lround(value * gain), 0L, 255L));
+    };
+    steps[level(std::min(a, b)) + 1] += std::abs(a - b);
+    steps[level(std::max(a, b)) + 1] -= std::abs(a - b);
+  });
+  double sum = 0;
+  for (double& step : steps) step = sum += step;
+  return steps;
+}
+
+double best_threshold(const GrayImage& image, const Paper& paper) {
+  const double noise = noise_of(image);
+  const Levels count = crossings(image, paper, std::max(kLeastContrast, 4 * noise));
+  const double most = *std::max_element(count.begin(), count.end());
+  if (most <= 0) return 128;
+  const auto enough = [&](double value) { return value >= kNearBest * most; };
+  const auto low = std::find_if(count.begin(), count.end(), enough) - count.begin();
+  const auto high = count.rend() - std::find_if(count.rbegin(), count.rend(), enough) - 1;
+  return std::min(0.5 * static_cast<double>(low + high), 250 - 2 * noise);
+}
+
+}  // namespace
+
+Binarized binarize(const GrayImage& image, std::optional<double> threshold) {
+  const Paper paper(image);
+  Binarized result{blank_like(image), threshold ? *threshold : best_threshold(image, paper)};
+  cv::Mat ink = cv_view(result.ink);
+  if (paper.is_even()) {
+    const double level = threshold ? *threshold : result.threshold * paper.level() / 255;
+    cv::threshold(cv_view(image), ink, std::floor(level), 255, cv::THRESH_BINARY_INV);
+    return result;
+  }
+  std::vector<float> levels(static_cast<std::size_t>(image.width_px));
+  const auto share = static_cast<float>(result.threshold / 255);
+  for (int v = 0; v < image.height_px; ++v) {
+    paper.row(v, levels);
+    const auto start = static_cast<std::size_t>(v) * levels.size();
+    for (std::size_t u = 0; u < levels.size(); ++u)
+      result.ink.pixels[start + u] =
+          static_cast<float>(image.pixels[start + u]) <= levels[u] * share ? 255 : 0;
+  }
+  return result;
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,23 @@
+#pragma once
+// Private to the raster stages: OpenCV sees the pixels of a GrayImage in place.
+
+#include <opencv2/core.hpp>
+
+#include "mapping/drawing/gray_image.hpp"
+
+namespace madori::mapping {
+
+inline cv::Mat cv_view(GrayImage& image) {
+  return {image.height_px, image.width_px, CV_8UC1, image.pixels.data()};
+}
+
+/// OpenCV has no constant picture header; the callers only read.
+inline cv::Mat cv_view(const GrayImage& image) {
+  return {image.height_px, image.width_px, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())};
+}
+
+inline GrayImage blank_like(const GrayImage& image) {
+  return {image.width_px, image.height_px, std::vector<std::uint8_t>(image.pixels.size()), image.dpi};
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "mapping/drawing/gray_image.hpp"
+#include "mapping/drawing/raster/drawn_line.hpp"
+
+namespace madori::mapping {
+
+/// Which of the lines can only be seen from outside a closed building: on one side there is the paper around
+/// the drawing, on the other a wall. All false where the outside reaches most places (a plan of separate
+/// walls). `wall_px` is the largest thickness of a wall; openings up to it do not let the outside in.
+[[nodiscard]] std::vector<bool> faces_outside(const DrawnLines& lines, const GrayImage& ink);
+
+}  // namespace madori::mapping

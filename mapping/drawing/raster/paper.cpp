@@ -1,0 +1,74 @@
+#include "mapping/drawing/raster/paper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+
+namespace madori::mapping {
+namespace {
+
+constexpr int kBlock = 32;
+constexpr double kPaperShare = 0.90;    // the bright end of a block: robust against a few glints
+constexpr double kDarkestPaper = 0.55;  // of the common level; darker areas are fills, not shadows
+constexpr double kEvenWithin = 10;      // grey levels
+
+float bright_end(const GrayImage& image, int u0, int v0) {
+  std::uint8_t samples[(kBlock / 2) * (kBlock / 2)];
+  std::size_t n = 0;
+  for (int v = v0; v < std::min(v0 + kBlock, image.height_px); v += 2)
+    for (int u = u0; u < std::min(u0 + kBlock, image.width_px); u += 2) samples[n++] = image.at(u, v);
+  const auto rank = static_cast<std::ptrdiff_t>(kPaperShare * static_cast<double>(n - 1));
+  std::nth_element(samples, samples + rank, samples + n);
+  return samples[rank];
+}
+
+}  // namespace
+
+void Paper::fill_from(const GrayImage& image) {
+  columns_ = (image.width_px + kBlock - 1) / kBlock;
+  rows_ = (image.height_px + kBlock - 1) / kBlock;
+  blocks_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column)
+      blocks_.push_back(bright_end(image, column * kBlock, row * kBlock));
+}
+
+Paper::Paper(const GrayImage& image) {
+  fill_from(image);
+  std::vector<float> sorted = blocks_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 3 / 4);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  level_ = std::max(1.0F, *middle);
+  cv::Mat grid(rows_, columns_, CV_32FC1, blocks_.data());
+  const auto box = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
+  cv::morphologyEx(grid, grid, cv::MORPH_CLOSE, box);
+  for (float& block : blocks_) block = std::max(block, static_cast<float>(kDarkestPaper * level_));
+  cv::blur(grid, grid, {3, 3});
+  const auto [low, high] = std::minmax_element(blocks_.begin(), blocks_.end());
+  even_ = *high - *low < kEvenWithin;
+}
+
+double Paper::at(int u, int v) const {
+  const double x = std::clamp((u + 0.5) / kBlock - 0.5, 0.0, columns_ - 1.0);
+  const double y = std::clamp((v + 0.5) / kBlock - 0.5, 0.0, rows_ - 1.0);
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, columns_ - 1), y1 = std::min(y0 + 1, rows_ - 1);
+  const auto block = [&](int column, int row) {
+    return static_cast<double>(blocks_[static_cast<std::size_t>(row * columns_ + column)]);
+  };
+  const double above = std::lerp(block(x0, y0), block(x1, y0), x - x0);
+  const double below = std::lerp(block(x0, y1), block(x1, y1), x - x0);
+  return std::lerp(above, below, y - y0);
+}
+
+void Paper::row(int v, std::vector<float>& out) const {
+  for (std::size_t u = 0; u < out.size(); u += 4) {  // the map is smooth: four pixels share a value
+    const auto value = static_cast<float>(at(static_cast<int>(u), v));
+    std::fill(out.begin() + static_cast<std::ptrdiff_t>(u),
+              out.begin() + static_cast<std::ptrdiff_t>(std::min(u + 4, out.size())), value);
+  }
+}
+
+}  // namespace madori::mapping

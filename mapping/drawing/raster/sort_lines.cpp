@@ -1,0 +1,125 @@
+#include "mapping/drawing/raster/sort_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mapping/drawing/raster/line_fit.hpp"
+#include "mapping/drawing/raster/line_index.hpp"
+
+namespace madori::mapping {
+namespace {
+
+// All lengths in wall thicknesses.
+constexpr double kFilledFromClean = 3;  // in widths of the wall itself
+constexpr double kFilledFromCluttered = 5;
+constexpr double kPairedFromClean = 2;
+constexpr double kPairedFromCluttered = 10;
+constexpr double kPairedBesideFilled = 25;  // where most walls are filled, empty pairs are mostly furniture
+constexpr double kMostlyFilled = 0.35;
+constexpr double kPairedShare = 0.5;
+constexpr double kLongFrom = 45;
+constexpr double kHeldFromClean = 6;
+constexpr double kHeldFromCluttered = 25;
+constexpr double kStubFrom = 1.5;
+constexpr double kEndReach = 1.5;
+constexpr double kCleanBelow = 0.15, kClutteredAbove = 0.35;  // share of lines that nothing explains
+
+bool passes(const PixelSegment& s, double u, double v, double reach) {
+  const FittedLine line = line_through(s);
+  return std::abs(line.across(u, v)) <= reach && std::abs(line.along(u, v)) <= 0.5 * s.length_px() + reach;
+}
+
+class Sorter {
+ public:
+  Sorter(const DrawnLines& lines, const std::vector<Evidence>& evidence, const WallStyle& style)
+      : lines_(lines),
+        evidence_(evidence),
+        style_(style),
+        t_(style.thickness_px),
+        index_(lines, 64),
+        wall_(lines.size(), false) {
+    const double blend = std::clamp((clutter() - kCleanBelow) / (kClutteredAbove - kCleanBelow), 0.0, 1.0);
+    filled_style_ = blend > 0.5 && style.filled_share > kMostlyFilled;
+    paired_from_ =
+        std::lerp(kPairedFromClean, filled_style_ ? kPairedBesideFilled : kPairedFromCluttered, blend);
+    filled_from_ = std::lerp(kFilledFromClean, kFilledFromCluttered, blend);
+    held_from_ = std::lerp(kHeldFromClean, kHeldFromCluttered, blend);
+  }
+
+  std::vector<bool> run() {
+    for (std::size_t i = 0; i < lines_.size(); ++i) wall_[i] = !lines_[i].rejected && stands_alone(i);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t i = 0; i < lines_.size(); ++i) {
+        if (wall_[i] || lines_[i].rejected || !hangs_on_walls(i)) continue;
+        wall_[i] = changed = true;
+      }
+    }
+    return wall_;
+  }
+
+  /// The share of all line length that is neither paired nor long: furniture, symbols, notes.
+  [[nodiscard]] double clutter() const {
+    double all = 0, explained = 0;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const double length = lines_[i].length_px();
+      all += length;
+      if (evidence_[i].paired_px >= kPairedShare * length || length >= kLongFrom * t_) explained += length;
+    }
+    return all > 0 ? 1 - explained / all : 0;
+  }
+
+ private:
+  [[nodiscard]] bool stands_alone(std::size_t i) const {
+    const double length = lines_[i].length_px();
+    const Evidence& e = evidence_[i];
+    if (e.filled_px >= filled_from_ * e.width_px && e.filled_px >= kPairedShare * length) return true;
+    if (e.paired_px >= paired_from_ * t_ && e.paired_px >= kPairedShare * length) return true;
+    return !filled_style_ && length >= kLongFrom * t_;
+  }
+  [[nodiscard]] bool hangs_on_walls(std::size_t i) const {
+    const PixelSegment& s = lines_[i].segment;
+    const double length = s.length_px();
+    const Evidence& e = evidence_[i];
+    const bool filled = e.filled_px >= kPairedShare * length && length >= 0.4 * filled_from_ * e.width_px;
+    const bool paired = e.paired_px >= kPairedShare * length && length >= 0.5 * paired_from_ * t_;
+    const bool cap = length <= std::max(style_.widest_empty_px, style_.widest_filled_px);
+    const bool held = length >= (filled_style_ ? kLongFrom : held_from_) * t_;
+    if (!filled && !paired && !cap && !held) return false;
+    const double reach = cap ? 0.3 * t_ + 2 : kEndReach * t_;
+    const int ends = (meets_wall(i, s.u1, s.v1, reach) ? 1 : 0) + (meets_wall(i, s.u2, s.v2, reach) ? 1 : 0);
+    if (filled || paired) return ends >= (filled || !filled_style_ ? 1 : 2);
+    return ends == 2 || (ends == 1 && length >= (filled_style_ ? kLongFrom : 1.5 * held_from_) * t_);
+  }
+  [[nodiscard]] bool meets_wall(std::size_t self, double u, double v, double reach) const {
+    bool met = false;
+    index_.near(u, v, reach, [&](std::size_t j) {
+      met = met || (j != self && wall_[j] && passes(lines_[j].segment, u, v, reach));
+    });
+    return met;
+  }
+
+  const DrawnLines& lines_;
+  const std::vector<Evidence>& evidence_;
+  const WallStyle& style_;
+  double t_;
+  double paired_from_ = kPairedFromCluttered;
+  double filled_from_ = kFilledFromCluttered;
+  bool filled_style_ = false;
+  double held_from_ = kHeldFromCluttered;
+  LineIndex index_;
+  std::vector<bool> wall_;
+};
+
+}  // namespace
+
+void sort_lines(DrawnLines& lines, const std::vector<Evidence>& evidence, const WallStyle& style,
+                const DetectionOptions& options) {
+  Sorter sorter(lines, evidence, style);
+  const auto wall = sorter.run();
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (!wall[i] && !lines[i].rejected && !options.keep_furniture)
+      lines[i].rejected = RejectReason::Furniture;
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,68 @@
+#include "mapping/drawing/raster/strokes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "mapping/drawing/raster/cv_view.hpp"
+
+namespace madori::mapping {
+namespace {
+
+constexpr int kLongestRun = 64;
+constexpr int kColumnStep = 7;  // a sample of the columns is enough, and a column walk is slow on memory
+using Histogram = std::array<double, kLongestRun + 2>;
+
+void count_down(const GrayImage& ink, int u, Histogram& runs) {
+  int length = 0;
+  for (int v = 0; v < ink.height_px; ++v) {
+    if (ink.at(u, v) != 0) {
+      ++length;
+      continue;
+    }
+    if (length > 0 && length <= kLongestRun) runs[static_cast<std::size_t>(length)] += kColumnStep;
+    length = 0;
+  }
+}
+
+/// Erodes (or dilates) by a disc of the radius: `box` steps of the 3 x 3 box, the rest of the diamond.
+void grow_or_shrink(cv::Mat& picture, int radius, bool grow) {
+  const int box = static_cast<int>(std::lround(radius * 0.41));
+  const auto square = cv::getStructuringElement(cv::MORPH_RECT, {2 * box + 1, 2 * box + 1});
+  const auto diamond = cv::getStructuringElement(cv::MORPH_CROSS, {3, 3});
+  const int operation = grow ? cv::MORPH_DILATE : cv::MORPH_ERODE;
+  if (box > 0) cv::morphologyEx(picture, picture, operation, square);
+  if (radius > box) cv::morphologyEx(picture, picture, operation, diamond, {-1, -1}, radius - box);
+}
+
+}  // namespace
+
+double pen_width_px(const GrayImage& ink, const Components& marks) {
+  Histogram runs{};
+  for (const Run& run : marks.runs())
+    if (run.length() <= kLongestRun) runs[static_cast<std::size_t>(run.length())] += 1;
+  for (int u = 0; u < ink.width_px; u += kColumnStep) count_down(ink, u, runs);
+  const auto peak = std::max_element(runs.begin() + 1, runs.end() - 1);
+  const double around = peak[-1] + peak[0] + peak[1];
+  if (around <= 0) return 1;
+  const auto at = static_cast<double>(peak - runs.begin());
+  return at + (peak[1] - peak[-1]) / around;
+}
+
+Strokes split_strokes(const GrayImage& ink, double pen_px, std::optional<double> solid_from_px) {
+  Strokes strokes{blank_like(ink), blank_like(ink), solid_from_px.value_or(std::max(7.0, 2.5 * pen_px))};
+  cv::Mat solid = cv_view(strokes.solid), thin = cv_view(strokes.thin);
+  const cv::Mat all = cv_view(ink);
+  const int radius = std::max(1, static_cast<int>(std::lround((strokes.solid_from_px - 1) / 2)));
+  all.copyTo(solid);
+  grow_or_shrink(solid, radius, false);
+  if (cv::countNonZero(solid) > 0) {
+    grow_or_shrink(solid, radius + 2, true);  // two more: the ragged rim belongs to the fill
+    cv::bitwise_and(solid, all, solid);
+  }
+  cv::subtract(all, solid, thin);
+  return strokes;
+}
+
+}  // namespace madori::mapping

@@ -1,0 +1,100 @@
+#include "mapping/drawing/raster/wall_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace madori::mapping {
+namespace {
+
+constexpr double kLongForWidth = 3;   // a strip is at least this much longer than wide
+constexpr double kFilledFrom = 0.75;  // ink share
+constexpr double kSidePeak =
+    0.15;  // a second wall thickness has at least this share of the first one's length
+constexpr double kFilledOnly = 0.8;  // a drawing that fills its walls draws furniture with empty lines
+constexpr double kNarrowest = 2.5;
+using Lengths = std::vector<double>;  // of strips, by rounded width
+
+Lengths widths_of(const DrawnLines& lines, const std::vector<Strip>& strips, bool filled) {
+  Lengths lengths(8, 0);
+  for (const Strip& strip : strips) {
+    if (strip.length_px() < kLongForWidth * strip.width_px || strip.width_px < kNarrowest) continue;
+    if (lines[strip.line].length_px() < 4 * strip.width_px || (strip.ink_share >= kFilledFrom) != filled)
+      continue;
+    const auto bin = static_cast<std::size_t>(std::lround(strip.width_px));
+    if (bin >= lengths.size()) lengths.resize(bin + 1, 0);
+    lengths[bin] += strip.length_px();
+  }
+  Lengths smooth(lengths.size(), 0);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {  // the reach of the smoothing grows with the width
+    const std::size_t reach = 1 + i / 10;
+    for (std::size_t j = i - std::min(i, reach); j <= std::min(i + reach, lengths.size() - 1); ++j)
+      smooth[i] += lengths[j];
+  }
+  return smooth;
+}
+
+double largest_peak(const Lengths& lengths) {
+  return static_cast<double>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
+}
+
+double total(const Lengths& lengths, double up_to) {
+  double sum = 0;
+  for (std::size_t i = 0; i < lengths.size() && static_cast<double>(i) <= up_to; ++i)
+    sum += lengths[i] / static_cast<double>(3 + 2 * (i / 10));
+  return sum;
+}
+
+double last_above(const Lengths& lengths, double least) {
+  double last = 0;
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    if (lengths[i] >= least) last = static_cast<double>(i);
+  return last;
+}
+
+}  // namespace
+
+WallStyle measure_style(const DrawnLines& lines, const std::vector<Strip>& strips, double pen_px) {
+  const Lengths empty = widths_of(lines, strips, false), filled = widths_of(lines, strips, true);
+  Lengths both(std::max(empty.size(), filled.size()), 0);
+  for (std::size_t i = 0; i < empty.size(); ++i) both[i] += empty[i];
+  for (std::size_t i = 0; i < filled.size(); ++i) both[i] += 2 * filled[i];
+  WallStyle style;
+  const double most = *std::max_element(both.begin(), both.end());
+  style.thickness_px = most > 0 ? largest_peak(both) : 4 * pen_px;
+  style.narrowest_px = std::max(kNarrowest, 0.25 * style.thickness_px);
+  style.bold_px = std::max(4.0, 2.2 * pen_px);
+  double bold = 0;
+  for (const DrawnLine& line : lines)
+    if (!line.solid_face && line.stroke_px >= style.bold_px && line.length_px() > 6 * line.stroke_px)
+      bold += 2 * line.length_px();
+  const double fill = total(filled, 4 * style.thickness_px) + bold;
+  style.filled_share = fill / std::max(1.0, fill + total(empty, 2 * style.thickness_px));
+  const double last_filled = last_above(filled, kSidePeak * most),
+               last_empty = last_above(empty, kSidePeak * most);
+  style.widest_filled_px = 1.3 * std::max(style.thickness_px, last_filled) + 1;
+  if (style.filled_share > kFilledOnly) return style;
+  style.widest_empty_px = style.filled_share > 0.5 ? 1.6 * style.thickness_px + 1
+                                                   : 1.3 * std::max(style.thickness_px, last_empty) + 1;
+  return style;
+}
+
+std::vector<Evidence> weigh_lines(const DrawnLines& lines, const std::vector<Strip>& strips,
+                                  const WallStyle& style) {
+  std::vector<Evidence> evidence(lines.size());
+  for (const Strip& strip : strips) {
+    const bool filled = strip.ink_share >= kFilledFrom;
+    if (strip.width_px > (filled ? style.widest_filled_px : style.widest_empty_px)) continue;
+    if (strip.width_px < style.narrowest_px || strip.length_px() < 2 * strip.width_px) continue;
+    Evidence& e = evidence[strip.line];
+    e.width_px =
+        (e.width_px * e.paired_px + strip.width_px * strip.length_px()) / (e.paired_px + strip.length_px());
+    e.paired_px += strip.length_px();
+    if (filled) e.filled_px += strip.length_px();
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (!lines[i].solid_face && lines[i].stroke_px >= style.bold_px)
+      evidence[i] = {lines[i].length_px(), lines[i].length_px(), lines[i].stroke_px};
+  return evidence;
+}
+
+}  // namespace madori::mapping
