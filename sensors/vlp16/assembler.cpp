@@ -66,36 +66,59 @@ PushVerdict Assembler::push(std::span<const std::uint8_t> packet, Stamp received
 }
 
 PushVerdict Assembler::check_order(Stamp received) {
-  constexpr std::int64_t kHour = kMicrosecondsPerHour;
-  std::int64_t step_us = static_cast<std::int64_t>(packet_.time_us) - packet_us_ % kHour;
-  if (step_us < -kHour / 2) step_us += kHour;
-  if (step_us > kHour / 2) step_us -= kHour;
-  if (started_ && step_us == 0) return ++counters_.duplicates, PushVerdict::Duplicate;
-  if (started_ && step_us < 0 && step_us > -kLateUs) return ++counters_.late, PushVerdict::Late;
-  if (!started_) packet_us_ = packet_.time_us;
-  if (started_ && (step_us < 0 || step_us > kSilenceUs)) {
-    finish_frame();
-    clock_.reset();
-    ++counters_.silences;
-    packet_us_ = step_us < 0 ? packet_.time_us : packet_us_ + step_us;
-  } else if (started_) {
-    name_foreign_sensor(step_us);
-    if (!foreign_sensor_.empty()) return ++counters_.refused, PushVerdict::ForeignSensor;
-    const double steps = static_cast<double>(step_us) / packet_us(packet_.mode);
-    counters_.lost += static_cast<std::uint64_t>(std::max(0LL, std::llround(steps) - 1));
-    packet_us_ += step_us;
+  if (!started_) {
+    packet_us_ = packet_.time_us;
+  } else {
+    const std::int64_t step_us = since(packet_us_);
+    if (step_us == 0) return ++counters_.duplicates, PushVerdict::Duplicate;
+    if (step_us < 0 && step_us > -kLateUs) return ++counters_.late, PushVerdict::Late;
+    if (step_us < 0 || step_us > kSilenceUs) {
+      restart(step_us);
+    } else {
+      if (is_too_fast()) return ++counters_.refused, PushVerdict::ForeignSensor;
+      const double steps = static_cast<double>(step_us) / packet_us(packet_.mode);
+      counters_.lost += static_cast<std::uint64_t>(std::max(0LL, std::llround(steps) - 1));
+      packet_us_ += step_us;
+    }
+    if (packet_.mode != mode_) finish_frame();
   }
   started_ = true;
+  seen_us_ = packet_us_;
+  mode_ = packet_.mode;
   clock_.observe(packet_us_ + std::llround(packet_us(packet_.mode)), received);
   return PushVerdict::Taken;
 }
 
+/// From an unwrapped time to this packet, the shorter way round the hour.
+std::int64_t Assembler::since(std::int64_t time_us) const {
+  constexpr std::int64_t kHour = kMicrosecondsPerHour;
+  const std::int64_t step_us = static_cast<std::int64_t>(packet_.time_us) - time_us % kHour;
+  if (step_us < -kHour / 2) return step_us + kHour;
+  return step_us > kHour / 2 ? step_us - kHour : step_us;
+}
+
+/// The sensor was silent, or its clock was set: what was gathered ends here.
+void Assembler::restart(std::int64_t step_us) {
+  finish_frame();
+  clock_.reset();
+  ++counters_.silences;
+  packet_us_ = step_us < 0 ? packet_.time_us : packet_us_ + step_us;
+  impossible_steps_ = 0;
+}
+
 /// A VLP-16 needs 1327 us (663 us dual) for a packet and cannot send earlier; its brothers of more lasers do,
-/// in packets that look the same.
-void Assembler::name_foreign_sensor(std::int64_t step_us) {
-  const double single_us = static_cast<double>(step_us) * (packet_.mode == ReturnMode::Dual ? 2.0 : 1.0);
-  impossible_steps_ = single_us < 1200.0 ? impossible_steps_ + 1 : 0;
-  if (impossible_steps_ < 2) return;
+/// in packets that look the same. One early packet is thrown away, a second one gives them their name.
+bool Assembler::is_too_fast() {
+  const double scale = packet_.mode == ReturnMode::Dual ? 2.0 : 1.0;
+  const std::int64_t step_us = since(seen_us_);
+  if (step_us <= 0) return true;
+  seen_us_ += step_us;
+  const double single_us = scale * static_cast<double>(step_us);
+  if (single_us >= 1200.0 && scale * static_cast<double>(since(packet_us_)) >= 1200.0) {
+    impossible_steps_ = 0;
+    return false;
+  }
+  if (++impossible_steps_ < 3) return true;
   if (std::abs(single_us - 553.0) < 8.0)
     foreign_sensor_ = "HDL-32E";
   else if (std::abs(single_us - 663.5) < 8.0)
@@ -104,6 +127,7 @@ void Assembler::name_foreign_sensor(std::int64_t step_us) {
     foreign_sensor_ = "sensor that sends faster than a VLP-16";
   frame_.cloud.points.clear();
   frame_.blocks = 0;
+  return true;
 }
 
 /// The azimuth that passes in each block: to the next one, in dual mode to the next pair; the packet's last
@@ -132,7 +156,7 @@ void Assembler::add_block(std::size_t block) {
   const bool dual = packet_.mode == ReturnMode::Dual;
   const bool is_last = dual && block % 2 == 0;
   if (frame_.blocks++ == 0)
-    frame_.first_firing_us = packet_us_ + std::llround(time_offset_us(packet_.mode, block, 0));
+    frame_.first_firing_us = packet_us_ + static_cast<std::int64_t>(time_offset_us(packet_.mode, block, 0));
   if (is_last && options_.dual_return == DualReturn::Strongest) return;
   if (dual && !is_last && options_.dual_return == DualReturn::Last) return;
   const Block* twin =

@@ -54,7 +54,9 @@ class Assembler {
 
  private:
   PushVerdict check_order(Stamp received);
-  void name_foreign_sensor(std::int64_t step_us);
+  [[nodiscard]] std::int64_t since(std::int64_t time_us) const;
+  void restart(std::int64_t step_us);
+  [[nodiscard]] bool is_too_fast();
   bool find_gaps();
   void add_block(std::size_t block);
   void cut_before(std::uint16_t azimuth_cdeg);
@@ -69,7 +71,9 @@ class Assembler {
   Frame frame_;
   PacketFault last_fault_ = PacketFault::None;
   std::string foreign_sensor_;
-  std::int64_t packet_us_ = 0;  ///< unwrapped time of the last packet
+  std::int64_t packet_us_ = 0;  ///< unwrapped time of the last packet that was taken
+  std::int64_t seen_us_ = 0;    ///< and of the last one at all
+  ReturnMode mode_ = ReturnMode::Strongest;
   bool started_ = false;
   int impossible_steps_ = 0;
   int last_azimuth_cdeg_ = -1;
