@@ -1,0 +1,129 @@
+#include "sensors/lms1xx/client.hpp"
+
+namespace madori::sensors::lms1xx {
+namespace {
+
+/// An access level, a start of measurement or an event that the device refuses answers with this.
+bool is_refused(const Head& head, std::optional<std::uint32_t> answer) {
+  if (head.kind == "sFA") return true;
+  if (head.name == "LMCstartmeas") return answer.value_or(0) != 0;  // an error code
+  return (head.kind == "sAN" || head.kind == "sEA") && answer.value_or(0) != 1;
+}
+
+/// Second status byte of a scan telegram.
+std::string problem_of(const ScanData& data) {
+  if ((data.status[1] & 1U) != 0) return "the scanner reports a device error";
+  if ((data.status[1] & 4U) != 0) return "the scanner's front screen is too dirty to measure: clean it";
+  if ((data.status[1] & 2U) != 0) return "the scanner's front screen is dirty: clean it soon";
+  return "";
+}
+
+}  // namespace
+
+Client::Client(const ClientOptions& options, Sink sink)
+    : options_(options),
+      sink_(std::move(sink)),
+      dialogue_(start_dialogue(options.with_rssi)),
+      splitter_(options.dialect) {
+  io::LinkEvents events;
+  events.opened = [this] { opened(); };
+  events.bytes = [this](std::span<const std::uint8_t> bytes, Stamp received) { receive(bytes, received); };
+  events.closed = [this](const std::string& reason) {
+    const std::lock_guard lock(mutex_);
+    state_ = ClientState::Disconnected;
+    problem_ = options_.host + ": " + reason;
+  };
+  link_ = io::StreamLink::tcp(options.host, options.port, std::move(events),
+                              {.reopen_after = options.reconnect_after, .silence = options.silence});
+  link_->start();
+}
+
+void Client::opened() {
+  {
+    const std::lock_guard lock(mutex_);
+    state_ = ClientState::Starting;
+    ++counters_.connections;
+    any_scan_ = false;
+  }
+  splitter_.clear();
+  clock_.reset();
+  step_ = 0;
+  send_next();
+}
+
+void Client::send_next() {
+  link_->write(encode(options_.dialect, dialogue_[step_]));
+}
+
+void Client::receive(std::span<const std::uint8_t> bytes, Stamp received) {
+  splitter_.push(bytes);
+  while (const auto payload = splitter_.next()) {
+    const auto head = head_of(*payload);
+    if (!head) continue;
+    if (head->name == "LMDscandata" && head->kind == "sSN")
+      take_scan(*payload, received);
+    else
+      take_reply(*head);
+  }
+  const std::lock_guard lock(mutex_);
+  counters_.damaged = splitter_.damaged();
+}
+
+void Client::take_reply(const Head& head) {
+  if (step_ >= dialogue_.size() || (head.kind != "sFA" && head.name != dialogue_[step_].name)) return;
+  if (is_refused(head, first_argument(options_.dialect, head))) {
+    link_->drop("the scanner refuses " + dialogue_[step_].name);
+    return;
+  }
+  if (++step_ < dialogue_.size()) return send_next();
+  const std::lock_guard lock(mutex_);
+  state_ = ClientState::Measuring;
+  problem_.clear();
+}
+
+void Client::take_scan(std::span<const std::uint8_t> payload, Stamp received) {
+  const auto data = decode_scan(options_.dialect, payload);
+  auto scan = data ? to_laser_scan(data.value()) : Result<LaserScan>::failure(data.reason());
+  if (!scan) {
+    const std::lock_guard lock(mutex_);
+    ++counters_.refused;
+    problem_ = scan.reason();
+    return;
+  }
+  LaserScan result = std::move(scan).value();
+  const ScanData& d = data.value();
+  const auto step_us =
+      static_cast<std::int32_t>(d.transmit_time_us - static_cast<std::uint32_t>(transmit_us_));
+  if (any_scan_ && step_us < 0) clock_.reset();
+  transmit_us_ = any_scan_ && step_us >= 0 ? transmit_us_ + step_us : d.transmit_time_us;
+  clock_.observe(transmit_us_, received);
+  result.stamp =
+      clock_.stamp_of(transmit_us_ - static_cast<std::int32_t>(d.transmit_time_us - d.scan_time_us));
+  {
+    const std::lock_guard lock(mutex_);
+    const auto missed = static_cast<std::uint16_t>(d.telegram_counter - last_telegram_ - 1U);
+    if (any_scan_ && missed < 0x8000U) counters_.lost += missed;
+    last_telegram_ = d.telegram_counter;
+    any_scan_ = true;
+    ++counters_.scans;
+    if (state_ == ClientState::Measuring) problem_ = problem_of(d);
+  }
+  sink_(result, d);
+}
+
+ClientState Client::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+ClientCounters Client::counters() const {
+  const std::lock_guard lock(mutex_);
+  return counters_;
+}
+
+std::string Client::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
+}
+
+}  // namespace madori::sensors::lms1xx

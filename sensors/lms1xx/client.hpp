@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/laser_scan.hpp"
+#include "io/stream_link.hpp"
+#include "sensors/device_clock.hpp"
+#include "sensors/lms1xx/cola.hpp"
+#include "sensors/lms1xx/scan_data.hpp"
+
+namespace madori::sensors::lms1xx {
+
+struct ClientOptions {
+  std::string host = "192.168.0.1";
+  std::uint16_t port = kPortB;
+  Dialect dialect = Dialect::B;
+  bool with_rssi = true;
+  Duration silence = std::chrono::seconds(1);  ///< no bytes for so long: connected anew
+  Duration reconnect_after = std::chrono::milliseconds(500);
+};
+
+enum class ClientState { Disconnected, Starting, Measuring };
+
+struct ClientCounters {
+  std::uint64_t connections = 0, scans = 0, lost = 0, damaged = 0, refused = 0;
+};
+
+/// An LMS1xx (or LMS5xx) on the network: start-up dialogue, scans, and all of it again after a loss.
+class Client {
+ public:
+  using Sink = std::function<void(const LaserScan& scan, const ScanData& data)>;
+  /// `sink` is called from the client's thread.
+  Client(const ClientOptions& options, Sink sink);
+
+  [[nodiscard]] ClientState state() const;
+  [[nodiscard]] ClientCounters counters() const;
+  /// What is wrong, in words: no connection, a refused command, the device's own error; empty when nothing
+  /// is.
+  [[nodiscard]] std::string problem() const;
+
+ private:
+  void opened();
+  void receive(std::span<const std::uint8_t> bytes, Stamp received);
+  void take_reply(const Head& head);
+  void take_scan(std::span<const std::uint8_t> payload, Stamp received);
+  void send_next();
+
+  ClientOptions options_;
+  Sink sink_;
+  std::vector<Message> dialogue_;
+  std::size_t step_ = 0;  ///< the command whose answer is awaited
+  Splitter splitter_;
+  DeviceClock clock_;
+  std::int64_t transmit_us_ = 0;  ///< unwrapped
+  mutable std::mutex mutex_;
+  ClientState state_ = ClientState::Disconnected;
+  ClientCounters counters_;
+  std::string problem_ = "not connected yet";
+  std::uint16_t last_telegram_ = 0;
+  bool any_scan_ = false;
+  std::unique_ptr<io::StreamLink> link_;  ///< last: its thread uses all of the above
+};
+
+}  // namespace madori::sensors::lms1xx

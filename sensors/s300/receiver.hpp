@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/laser_scan.hpp"
+#include "io/stream_link.hpp"
+#include "sensors/device_clock.hpp"
+#include "sensors/s300/telegram.hpp"
+
+namespace madori::sensors::s300 {
+
+struct ReceiverOptions {
+  std::string device;  ///< /dev/ttyUSB1, or a pseudo-terminal
+  unsigned baud = 500'000;
+  Duration stale_after = std::chrono::milliseconds(200);  ///< five scans
+};
+
+/// An S300 on a serial port. Anything but fresh telegrams that say "free" stops the vehicle.
+class Receiver {
+ public:
+  using Sink = std::function<void(const LaserScan& scan, const Fields& fields)>;
+  /// `sink` is called from the receiver's thread for every scan of distances.
+  explicit Receiver(const ReceiverOptions& options, Sink sink = {});
+
+  /// The last fields; lock-out, standby, silence and a closed port count as an occupied protective field.
+  [[nodiscard]] bool must_stop() const;
+  /// Why the vehicle must stop, in an operator's words; empty when it need not.
+  [[nodiscard]] std::string stop_reason() const;
+  [[nodiscard]] StreamCounters counters() const;
+
+ private:
+  void take(const Telegram& telegram);
+
+  ReceiverOptions options_;
+  Sink sink_;
+  mutable std::mutex mutex_;
+  Stream stream_;
+  DeviceClock clock_;
+  Stamp received_{};
+  Fields fields_;
+  StreamCounters counters_;
+  std::chrono::steady_clock::time_point heard_{};
+  bool any_ = false;
+  std::unique_ptr<io::StreamLink> link_;  ///< last: its thread uses all of the above
+};
+
+}  // namespace madori::sensors::s300

@@ -1,0 +1,99 @@
+#include "control/drive_link/drive_link.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "control/drive_link/controller.hpp"
+#include "tests/support/eventually.hpp"
+#include "tests/support/pseudo_terminal.hpp"
+
+namespace madori::control {
+namespace {
+
+using test::eventually;
+
+/// A controller on the other end of the cable; every step is 10 ms of its own time.
+class Device {
+ public:
+  void step() {
+    for (const std::uint8_t byte : cable.read()) controller.receive(byte, now_us_);
+    controller.tick({.battery_mv = 24'000}, now_us_ += 10'000);
+    std::uint8_t frame[wire::kMaxFrame];
+    const std::size_t size = controller.status_frame(frame);
+    cable.write({frame, size});
+  }
+
+  test::PseudoTerminal cable;
+  wire::Controller controller;
+
+ private:
+  std::uint32_t now_us_ = 0;
+};
+
+TEST(DriveLink, DrivesAControllerOverASerialLine) {
+  Device device;
+  DriveLink link({.device = device.cable.name(), .stale_after = std::chrono::seconds(60)});
+  EXPECT_TRUE(link.latest().stale);
+  ASSERT_TRUE(eventually([&] { return link.is_open(); }));
+  ASSERT_TRUE(eventually([&] {
+    device.step();
+    link.send({}, false);
+    return !link.latest().stale && link.latest().status.state == wire::DriveState::Idle;
+  }));
+  ASSERT_TRUE(eventually([&] {
+    device.step();
+    link.send({1.5, -0.25}, true);
+    return link.latest().status.state == wire::DriveState::Running;
+  }));
+  EXPECT_EQ(device.controller.left_uradps(), 1'500'000);
+  EXPECT_EQ(device.controller.right_uradps(), -250'000);
+  EXPECT_EQ(link.latest().status.battery_mv, 24'000);
+  ASSERT_TRUE(eventually([&] {  // the control loop hangs: nobody sends
+    device.step();
+    return link.latest().status.state == wire::DriveState::WatchdogStop;
+  }));
+  EXPECT_EQ(link.counters().damaged, 0U);
+}
+
+TEST(DriveLink, SendsNothingThatIsNoNumber) {
+  Device device;
+  DriveLink link({.device = device.cable.name()});
+  ASSERT_TRUE(eventually([&] { return link.is_open(); }));
+  EXPECT_FALSE(link.send({std::nan(""), 0.0}, true));
+  EXPECT_FALSE(link.send({0.0, 101.0}, true));
+  EXPECT_EQ(link.counters().refused_commands, 2U);
+  EXPECT_EQ(link.counters().commands, 0U);
+}
+
+TEST(DriveLink, SilenceIsStale) {
+  Device device;
+  DriveLink link({.device = device.cable.name(), .stale_after = std::chrono::milliseconds(20)});
+  ASSERT_TRUE(eventually([&] {
+    device.step();
+    return link.counters().status_frames > 0;
+  }));
+  EXPECT_TRUE(eventually([&] { return link.latest().stale; }));
+}
+
+TEST(DriveLink, OpensAgainWhenTheCableComesBack) {
+  DriveLink missing({.device = "/dev/no-such-drive"});
+  EXPECT_TRUE(eventually([&] { return missing.problem().find("/dev/no-such-drive: No such file") == 0; }));
+  EXPECT_FALSE(missing.send({}, false));
+
+  const std::string name = [] {
+    test::PseudoTerminal probe;
+    return probe.name();
+  }();
+  DriveLink link({.device = name});  // nothing is there yet
+  EXPECT_TRUE(eventually([&] { return !link.problem().empty(); }));
+  Device device;
+  if (device.cable.name() != name) GTEST_SKIP() << "the system gave another pseudo-terminal";
+  EXPECT_TRUE(eventually([&] {
+    device.step();
+    return link.counters().status_frames > 0;
+  }));
+}
+
+}  // namespace
+}  // namespace madori::control

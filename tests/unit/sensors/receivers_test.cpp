@@ -1,0 +1,186 @@
+// The sensors behind real sockets and a pseudo-terminal.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/udp.hpp>
+#include <boost/asio/write.hpp>
+#include <thread>
+
+#include "core/result.hpp"
+#include "sensors/lms1xx/client.hpp"
+#include "sensors/lms1xx/encode.hpp"
+#include "sensors/s300/encode.hpp"
+#include "sensors/s300/receiver.hpp"
+#include "sensors/vlp16/encode.hpp"
+#include "sensors/vlp16/receiver.hpp"
+#include "tests/support/eventually.hpp"
+#include "tests/support/pseudo_terminal.hpp"
+
+namespace madori::sensors {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using asio::ip::udp;
+using test::eventually;
+
+TEST(Vlp16Receiver, CutsRevolutionsFromUdp) {
+  std::atomic<int> frames = 0, tapped = 0;
+  std::atomic<std::size_t> points = 0;
+  const vlp16::ReceiverOptions options{.address = "127.0.0.1", .data_port = 0, .position_port = 0};
+  vlp16::Receiver receiver(
+      options,
+      [&](vlp16::Frame& frame) {
+        points = frame.cloud.points.size();
+        ++frames;
+      },
+      [&](auto, auto) { ++tapped; });
+  asio::io_context context;
+  udp::socket socket(context, udp::v4());
+  const auto to = [](std::uint16_t port) { return udp::endpoint(asio::ip::make_address("127.0.0.1"), port); };
+  vlp16::DataPacket packet;
+  for (int i = 0; i < 76; ++i) {
+    for (std::size_t b = 0; b < vlp16::kBlocks; ++b) {
+      packet.blocks[b].azimuth_cdeg =
+          static_cast<std::uint16_t>((i * 12 + static_cast<int>(b)) * 40 % 36'000);
+      packet.blocks[b].returns.fill({500, 1});
+    }
+    packet.time_us = static_cast<std::uint32_t>(1327 * i);
+    socket.send_to(asio::buffer(vlp16::encode(packet)), to(receiver.data_port()));
+    ASSERT_TRUE(eventually([&] { return tapped == i + 1; }));  // UDP may lose what nobody waits for
+  }
+  EXPECT_TRUE(eventually([&] { return frames == 1; }));
+  EXPECT_EQ(points, 28'800U);
+  EXPECT_TRUE(eventually([&] { return receiver.counters().packets == 76U; }));
+  EXPECT_EQ(receiver.foreign_sensor(), "");
+  socket.send_to(asio::buffer(vlp16::encode(vlp16::PositionPacket{5, 2, "$GPRMC,1"})),
+                 to(receiver.position_port()));
+  EXPECT_TRUE(eventually([&] { return receiver.position() && receiver.position()->gprmc == "$GPRMC,1"; }));
+  EXPECT_THROW(vlp16::Receiver({.address = "no address"}, [](vlp16::Frame&) {}), Error);
+}
+
+/// An LMS1xx that answers each command, sends three scans, and hangs up.
+class FakeScanner {
+ public:
+  explicit FakeScanner(lms1xx::Dialect dialect, bool refuses = false)
+      : dialect_(dialect),
+        refuses_(refuses),
+        acceptor_(context_, tcp::endpoint(asio::ip::make_address("127.0.0.1"), 0)) {
+    thread_ = std::thread([this] {
+      while (!stop_) serve();
+    });
+  }
+  ~FakeScanner() {
+    stop_ = true;
+    asio::io_context context;
+    boost::system::error_code ignored;
+    tcp::socket(context).connect(acceptor_.local_endpoint(), ignored);  // wakes accept()
+    thread_.join();
+  }
+  FakeScanner(const FakeScanner&) = delete;
+  FakeScanner& operator=(const FakeScanner&) = delete;
+  [[nodiscard]] std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+
+ private:
+  void serve() {
+    tcp::socket socket = acceptor_.accept();
+    lms1xx::Splitter splitter(dialect_);
+    std::array<std::uint8_t, 512> buffer{};
+    boost::system::error_code problem;
+    while (!stop_) {
+      const std::size_t count = socket.read_some(asio::buffer(buffer), problem);
+      if (problem) return;
+      splitter.push(std::span(buffer).first(count));
+      while (const auto payload = splitter.next())
+        if (!answer(socket, *payload)) return;
+    }
+  }
+  bool answer(tcp::socket& socket, std::span<const std::uint8_t> payload) {
+    const auto head = lms1xx::head_of(payload);
+    boost::system::error_code problem;
+    const bool login = head->name == "SetAccessMode";
+    std::vector<lms1xx::Argument> result{{head->name == "LMCstartmeas" || (login && refuses_) ? 0U : 1U, 1}};
+    if (head->kind == "sWN") result.clear();
+    const std::string kind = head->kind == "sMN" ? "sAN" : head->kind == "sWN" ? "sWA" : "sEA";
+    asio::write(socket,
+                asio::buffer(encode(dialect_, lms1xx::Message{kind, std::string(head->name), result})),
+                problem);
+    if (head->kind != "sEN") return !problem;
+    for (std::uint16_t i = 0; i < 6; i = static_cast<std::uint16_t>(i + 2)) {
+      lms1xx::ScanData data;
+      data.telegram_counter = i;  // every other one is lost
+      data.scan_time_us = i * 20'000U;
+      data.transmit_time_us = data.scan_time_us + 15'000U;
+      data.channels16.push_back({{'D', 'I', 'S', 'T', '1'}, 1.0F, 0.0F, -450'000, 5'000, {1000, 2000, 3}});
+      asio::write(socket, asio::buffer(lms1xx::encode(dialect_, data)), problem);
+    }
+    return false;
+  }
+
+  lms1xx::Dialect dialect_;
+  bool refuses_;
+  asio::io_context context_;
+  tcp::acceptor acceptor_;
+  std::atomic<bool> stop_ = false;
+  std::thread thread_;
+};
+
+TEST(Lms1xxClient, StartsReadsAndComesBackAfterALoss) {
+  for (const auto dialect : {lms1xx::Dialect::A, lms1xx::Dialect::B}) {
+    FakeScanner scanner(dialect);
+    std::atomic<int> scans = 0, wrong = 0;
+    lms1xx::Client client(
+        {.host = "127.0.0.1",
+         .port = scanner.port(),
+         .dialect = dialect,
+         .reconnect_after = std::chrono::milliseconds(5)},
+        [&](const LaserScan& scan, const lms1xx::ScanData&) {
+          const bool right = scan.ranges_m == std::vector<float>{1.0F, 2.0F, LaserScan::kNoReturn};
+          ++(right ? scans : wrong);
+        });
+    EXPECT_TRUE(eventually([&] { return scans >= 9; }));
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GE(client.counters().connections, 3U);
+    EXPECT_GE(client.counters().lost, 4U);
+    EXPECT_EQ(client.counters().damaged + client.counters().refused, 0U);
+  }
+}
+
+TEST(Lms1xxClient, SaysWhatTheScannerRefuses) {
+  FakeScanner scanner(lms1xx::Dialect::B, true);
+  lms1xx::Client client({.host = "127.0.0.1", .port = scanner.port()}, [](const auto&, const auto&) {});
+  EXPECT_TRUE(
+      eventually([&] { return client.problem().find("refuses SetAccessMode") != std::string::npos; }));
+}
+
+TEST(S300Receiver, StopsTheVehicleOnTheFieldAndOnSilence) {
+  test::PseudoTerminal cable;
+  std::atomic<int> scans = 0;
+  s300::Receiver receiver({.device = cable.name(), .stale_after = std::chrono::milliseconds(150)},
+                          [&](const LaserScan&, const s300::Fields&) { ++scans; });
+  EXPECT_TRUE(receiver.must_stop());
+  s300::Telegram telegram;
+  const auto send_until = [&](auto condition) {
+    return eventually([&] {
+      ++telegram.scan_number;
+      cable.write(s300::encode(telegram));
+      return condition();
+    });
+  };
+  telegram.values.assign(541, 500);
+  EXPECT_TRUE(send_until([&] { return !receiver.must_stop(); })) << receiver.stop_reason();
+  telegram.values[7] |= s300::kProtectiveField;
+  EXPECT_TRUE(
+      send_until([&] { return receiver.stop_reason() == "something stands in the protective field"; }));
+  telegram.values.assign(541, s300::kStandbyValue);
+  EXPECT_TRUE(send_until([&] { return receiver.stop_reason().find("standby") != std::string::npos; }));
+  telegram.values.assign(541, 500);
+  EXPECT_TRUE(send_until([&] { return !receiver.must_stop(); }));
+  EXPECT_TRUE(eventually([&] { return receiver.stop_reason().find("silent") != std::string::npos; }));
+  EXPECT_GE(scans, 4);
+}
+
+}  // namespace
+}  // namespace madori::sensors
