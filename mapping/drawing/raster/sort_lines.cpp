@@ -18,6 +18,9 @@ constexpr double kPairedBesideFilled = 25;  // where most walls are filled, empt
 constexpr double kMostlyFilled = 0.35;
 constexpr double kPairedShare = 0.5;
 constexpr double kLongFrom = 45;
+constexpr double kLongFromSingle = 4;
+constexpr double kHeldFromSingle = 1.5;
+constexpr double kSingleBelow = 0.2;  // share of paired length
 constexpr double kHeldFromClean = 6;
 constexpr double kHeldFromCluttered = 25;
 constexpr double kStubFrom = 1.5;
@@ -44,6 +47,10 @@ class Sorter {
         std::lerp(kPairedFromClean, filled_style_ ? kPairedBesideFilled : kPairedFromCluttered, blend);
     filled_from_ = std::lerp(kFilledFromClean, kFilledFromCluttered, blend);
     held_from_ = std::lerp(kHeldFromClean, kHeldFromCluttered, blend);
+    if (paired_share() < kSingleBelow) {  // the walls of this drawing are single lines
+      long_from_ = kLongFromSingle;
+      held_from_ = kHeldFromSingle;
+    }
   }
 
   std::vector<bool> run() {
@@ -70,12 +77,22 @@ class Sorter {
   }
 
  private:
+  [[nodiscard]] double paired_share() const {
+    double all = 0, paired = 0;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const double length = lines_[i].length_px();
+      if (lines_[i].rejected || length < t_) continue;
+      all += length;
+      if (evidence_[i].paired_px >= kPairedShare * length) paired += length;
+    }
+    return all > 0 ? paired / all : 0;
+  }
   [[nodiscard]] bool stands_alone(std::size_t i) const {
     const double length = lines_[i].length_px();
     const Evidence& e = evidence_[i];
     if (e.filled_px >= filled_from_ * e.width_px && e.filled_px >= kPairedShare * length) return true;
     if (e.paired_px >= paired_from_ * t_ && e.paired_px >= kPairedShare * length) return true;
-    return !filled_style_ && length >= kLongFrom * t_;
+    return !filled_style_ && length >= long_from_ * t_;
   }
   [[nodiscard]] bool hangs_on_walls(std::size_t i) const {
     const PixelSegment& s = lines_[i].segment;
@@ -106,6 +123,7 @@ class Sorter {
   double paired_from_ = kPairedFromCluttered;
   double filled_from_ = kFilledFromCluttered;
   bool filled_style_ = false;
+  double long_from_ = kLongFrom;
   double held_from_ = kHeldFromCluttered;
   LineIndex index_;
   std::vector<bool> wall_;
