@@ -5,7 +5,10 @@
 namespace madori::app {
 
 CycleState::CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> source)
-    : odometry(config.odometry), localization(std::move(source)), obstacles(config.field) {
+    : odometry(config.odometry),
+      localization(std::move(source)),
+      obstacles(config.field),
+      movers(config.movers) {
   pose.health = {LocalizationState::Lost, "no scan yet"};
 }
 

@@ -21,6 +21,18 @@ std::vector<Point2<Map>> obstacle_points(const CycleState& state) {
   return points;
 }
 
+/// What crosses the way, Map frame.
+std::vector<planning::Mover<Map>> movers_on_map(const CycleState& state) {
+  const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+  const Transform2<Map, Odom> turn(0.0, 0.0, map_from_odom.yaw_rad());
+  std::vector<planning::Mover<Map>> movers;
+  for (const auto& m : state.movers.movers()) {
+    const Point2<Map> velocity = turn * Point2<Odom>{m.vx_mps, m.vy_mps};
+    movers.push_back({map_from_odom * m.at, velocity.x_m, velocity.y_m, m.radius_m});
+  }
+  return movers;
+}
+
 /// Whether the vehicle can turn on the spot to where its path goes next.
 bool turn_is_free(const CycleState& state, const std::vector<Point2<Map>>& obstacles,
                   const CycleConfig& config) {
@@ -47,7 +59,7 @@ void note_blocked(Navigation& way, Stamp now) {
 void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& config,
                     std::vector<Point2<Map>> obstacles, CycleOutput& output) {
   Navigation& way = state.way;
-  const bool due = way.check.blocked() && way.blocked_since && !way.detour_pending &&
+  const bool due = way.check.blocked() && !way.by_mover && way.blocked_since && !way.detour_pending &&
                    to_seconds(input.now - *way.blocked_since) >= config.detour_after_s &&
                    to_seconds(input.now - way.asked_detour) >= config.detour_again_s;
   const bool near = way.stop_along_m - way.along_m < kDetourWithin_m;
@@ -71,6 +83,11 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
   way.check =
       planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *config.walls, config.check);
+  const auto crossing =
+      planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps,
+                             movers_on_map(state), config.check, config.movers);
+  way.by_mover = crossing.free_m < way.check.free_m;
+  if (way.by_mover) way.check = crossing;
   const double from_m = way.path.along_m(from);
   way.stop_along_m = from_m + way.check.free_m;
   way.care_along_m = from_m + way.check.care_m;

@@ -15,6 +15,7 @@
 #include "control/limits/limits.hpp"
 #include "control/pure_pursuit/pure_pursuit.hpp"
 #include "planning/detour/detour_planner.hpp"
+#include "planning/obstacle_check/moving_objects.hpp"
 #include "planning/obstacle_check/obstacle_field.hpp"
 #include "planning/route_graph/route_search.hpp"
 #include "planning/waypoints/waypoints.hpp"
@@ -31,6 +32,7 @@ struct CycleConfig {
   planning::CheckOptions check;
   planning::BrakingModel braking;
   planning::FieldOptions field;
+  planning::MoverOptions movers;
   planning::WaypointOptions waypoints;
   planning::SensorView lidar;  ///< where the 3D lidar sits, and what it sees
   double lidar_yaw_rad = 0.0;  ///< Base from Lidar
@@ -114,6 +116,7 @@ struct Navigation {
   double stop_along_m = planning::PathCheck::kFree;
   double care_along_m = planning::PathCheck::kFree;
   bool turn_free = true;
+  bool by_mover = false;  ///< what blocks is on its way across
   std::optional<Stamp> blocked_since;
   std::optional<Stamp> free_since;
   Stamp asked_detour{};
@@ -134,6 +137,7 @@ struct CycleState {
   std::unique_ptr<PoseSource> localization;
   PoseEstimate pose;
   planning::ObstacleField obstacles;
+  planning::MovingObjects movers;
   control::wire::Status drive;
   std::optional<Stamp> drive_heard;
   std::optional<Stamp> lidar_heard;

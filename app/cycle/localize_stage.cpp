@@ -73,6 +73,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     const auto odom_from_base =
         state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);
     state.obstacles.update(base, config.lidar, odom_from_base);
+    state.movers.update(state.obstacles.columns(), base.stamp);
   }
 }
 

@@ -1,0 +1,159 @@
+#include "planning/obstacle_check/moving_objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace madori::planning {
+namespace {
+
+struct Group {
+  Point2<Odom> centre;
+  double radius_m = 0.0;
+};
+
+/// Groups of confirmed columns that touch, with a gap of one cell allowed; by flooding over the sorted
+/// columns.
+class Grouping {
+ public:
+  explicit Grouping(const std::vector<Column>& columns) : columns_(columns), taken_(columns.size(), false) {
+    for (std::size_t i = 0; i < columns.size(); ++i) taken_[i] = !columns[i].confirmed;
+  }
+
+  std::vector<Group> groups(double widest_m) {
+    std::vector<Group> found;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (taken_[i]) continue;
+      const auto members = flood(i);
+      if (const auto group = compact(members, widest_m)) found.push_back(*group);
+    }
+    return found;
+  }
+
+ private:
+  std::vector<std::size_t> flood(std::size_t first) {
+    std::vector<std::size_t> members{first};
+    taken_[first] = true;
+    for (std::size_t next = 0; next < members.size(); ++next) {
+      const Column& column = columns_[members[next]];
+      for (std::int32_t dy = -2; dy <= 2; ++dy)
+        for (std::int32_t dx = -2; dx <= 2; ++dx) take(column.cell_x + dx, column.cell_y + dy, members);
+    }
+    return members;
+  }
+  void take(std::int32_t x, std::int32_t y, std::vector<std::size_t>& members) {
+    const auto found =
+        std::lower_bound(columns_.begin(), columns_.end(), std::pair(y, x),
+                         [](const auto& c, auto cell) { return std::pair(c.cell_y, c.cell_x) < cell; });
+    if (found == columns_.end() || found->cell_x != x || found->cell_y != y) return;
+    const auto index = static_cast<std::size_t>(found - columns_.begin());
+    if (taken_[index]) return;
+    taken_[index] = true;
+    members.push_back(index);
+  }
+  [[nodiscard]] std::optional<Group> compact(const std::vector<std::size_t>& members, double widest_m) const {
+    Column box = columns_[members.front()];
+    for (const std::size_t i : members) {
+      box.min_x_m = std::min(box.min_x_m, columns_[i].min_x_m);
+      box.max_x_m = std::max(box.max_x_m, columns_[i].max_x_m);
+      box.min_y_m = std::min(box.min_y_m, columns_[i].min_y_m);
+      box.max_y_m = std::max(box.max_y_m, columns_[i].max_y_m);
+    }
+    const double width_m =
+        static_cast<double>(std::max(box.max_x_m - box.min_x_m, box.max_y_m - box.min_y_m));
+    if (width_m > widest_m) return std::nullopt;
+    return Group{{0.5 * static_cast<double>(box.min_x_m + box.max_x_m),
+                  0.5 * static_cast<double>(box.min_y_m + box.max_y_m)},
+                 std::max(0.1, width_m / 2.0)};
+  }
+
+  const std::vector<Column>& columns_;
+  std::vector<bool> taken_;
+};
+
+}  // namespace
+
+Mover<Odom> MovingObjects::Track::mover() const {
+  const Sighting& a = sightings.front();
+  const Sighting& b = sightings.back();
+  const double time_s = to_seconds(b.stamp - a.stamp);
+  if (!(time_s > 0.0)) return {b.at, 0.0, 0.0, radius_m};
+  return {b.at, (b.at.x_m - a.at.x_m) / time_s, (b.at.y_m - a.at.y_m) / time_s, radius_m};
+}
+
+void MovingObjects::update(const std::vector<Column>& columns, Stamp stamp) {
+  std::vector<Track> followed;
+  for (const Group& group : Grouping(columns).groups(options_.widest_m)) {
+    Track* best = nullptr;
+    double best_m = options_.match_m;
+    for (Track& track : tracks_) {
+      if (track.sightings.empty()) continue;  // given to another group
+      const Mover<Odom> m = track.mover();
+      const double time_s = to_seconds(stamp - track.sightings.back().stamp);
+      const double away_m =
+          distance_m(group.centre, Point2<Odom>{m.at.x_m + m.vx_mps * time_s, m.at.y_m + m.vy_mps * time_s});
+      if (away_m >= best_m) continue;
+      best_m = away_m;
+      best = &track;
+    }
+    Track track;
+    if (best != nullptr) std::swap(track, *best);
+    track.sightings.push_back({stamp, group.centre});
+    track.radius_m = group.radius_m;
+    while (to_seconds(stamp - track.sightings.front().stamp) > options_.history_s)
+      track.sightings.pop_front();
+    followed.push_back(std::move(track));
+  }
+  tracks_ = std::move(followed);
+}
+
+std::vector<Mover<Odom>> MovingObjects::movers() const {
+  std::vector<Mover<Odom>> found;
+  for (const Track& track : tracks_) {
+    if (static_cast<int>(track.sightings.size()) < options_.fewest_sightings) continue;
+    const Mover<Odom> mover = track.mover();
+    const double speed = std::hypot(mover.vx_mps, mover.vy_mps);
+    if (speed >= options_.slowest_mps && speed <= options_.fastest_mps) found.push_back(mover);
+  }
+  return found;
+}
+
+PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, double speed_mps,
+                       const std::vector<Mover<Map>>& movers, const CheckOptions& check,
+                       const MoverOptions& options) {
+  constexpr double kTimeStep_s = 0.1;
+  constexpr double kSlowest_mps = 0.3;  // a standing vehicle is judged by what it would do
+  PathCheck result;
+  double along_m = 0.0;
+  double previous_m = 0.0;
+  double checked_m = -check.step_m;
+  for (std::size_t i = from; i < path.points.size() && along_m <= ahead_m && !movers.empty(); ++i) {
+    if (i > from) along_m += distance_m(path.points[i - 1].position, path.points[i].position);
+    if (along_m < checked_m + check.step_m && i != from) continue;
+    previous_m = std::max(0.0, checked_m);
+    checked_m = along_m;
+    const PathPoint& point = path.points[i];
+    const Transform2<Base, Map> base_from_map =
+        Transform2<Map, Base>(point.position.x_m, point.position.y_m, point.heading_rad).inverse();
+    const double there_s = along_m / std::max(speed_mps, kSlowest_mps);
+    const double begin_s = std::max(0.0, there_s - options.window_s);
+    const double end_s = std::min(options.foresight_s, there_s + options.window_s);
+    for (const Mover<Map>& m : movers) {
+      const VehicleOutline zone =
+          check.vehicle.grown(m.radius_m + options.margin_m, m.radius_m + options.margin_m);
+      for (double t = begin_s; t <= end_s; t += kTimeStep_s) {
+        const Point2<Map> then{m.at.x_m + m.vx_mps * t, m.at.y_m + m.vy_mps * t};
+        if (!zone.contains(base_from_map * then)) continue;
+        result.free_m = previous_m;
+        result.care_m = previous_m;
+        result.first_blocked = result.last_blocked = i;
+        result.where = then;
+        return result;
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace madori::planning

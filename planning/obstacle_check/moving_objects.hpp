@@ -1,0 +1,65 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "core/path.hpp"
+#include "core/transform2.hpp"
+#include "planning/obstacle_check/obstacle_field.hpp"
+#include "planning/obstacle_check/path_check.hpp"
+
+namespace madori::planning {
+
+/// Something of a person's or a forklift's size that moves, as a disc.
+template <class F>
+struct Mover {
+  Point2<F> at;
+  double vx_mps = 0.0;
+  double vy_mps = 0.0;
+  double radius_m = 0.0;
+};
+
+struct MoverOptions {
+  double widest_m = 1.6;      ///< larger things are walls and shelves, of which only parts come into view
+  double slowest_mps = 0.35;  ///< slower ones are measured as if they stood
+  double fastest_mps = 3.0;
+  double match_m = 0.45;   ///< furthest from where it was expected
+  double history_s = 0.5;  ///< over which a velocity is measured
+  int fewest_sightings = 4;
+  double margin_m = 0.15;  ///< around the disc
+  double window_s = 1.0;   ///< before and after the vehicle would be at a place
+  double foresight_s = 3.0;
+};
+
+/// Follows compact groups of columns from scan to scan and measures how they move.
+class MovingObjects {
+ public:
+  explicit MovingObjects(const MoverOptions& options = {}) : options_(options) {}
+
+  /// `columns` after a scan taken at `stamp`.
+  void update(const std::vector<Column>& columns, Stamp stamp);
+  [[nodiscard]] std::vector<Mover<Odom>> movers() const;
+  [[nodiscard]] const MoverOptions& options() const { return options_; }
+
+ private:
+  struct Sighting {
+    Stamp stamp{};
+    Point2<Odom> at;
+  };
+  struct Track {
+    std::deque<Sighting> sightings;
+    double radius_m = 0.0;
+    [[nodiscard]] Mover<Odom> mover() const;
+  };
+
+  MoverOptions options_;
+  std::vector<Track> tracks_;
+};
+
+/// Points [from, ...] of the path against where the movers will be when the vehicle gets there at
+/// `speed_mps`. free_m, first_blocked and where as in check_path().
+[[nodiscard]] PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, double speed_mps,
+                                     const std::vector<Mover<Map>>& movers, const CheckOptions& check,
+                                     const MoverOptions& options);
+
+}  // namespace madori::planning
