@@ -7,8 +7,9 @@ class App;
 /// Every sub-command of `madori` adds itself; its callback throws Error on failure (exit 1).
 namespace madori::app {
 
-void add_localize(CLI::App& app);
+void add_demo(CLI::App& app);
 void add_import(CLI::App& app);
+void add_localize(CLI::App& app);
 void add_route(CLI::App& app);
 void add_version(CLI::App& app);
 

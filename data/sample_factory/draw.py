@@ -84,8 +84,10 @@ def main():
     write_routes(out / "routes_factory", factory, lambda p: p, 0.0)
     write_routes(out / "routes_scan", factory, move, SKEW_DEG)
     origin = move((0, 0))
+    known = [round(c, 2) for x in (0.0, factory["size"][0]) for c in pixel((x, sheets.TOTAL_LENGTH_Y))]
     meta = {"scan": {"file": "factory_scan.png", "m_per_px": m_per_px, "skew_deg": SKEW_DEG,
-                     "map_from_factory": {"x_m": round(origin[0], 6), "y_m": round(origin[1], 6), "yaw_deg": SKEW_DEG}},
+                     "map_from_factory": {"x_m": round(origin[0], 6), "y_m": round(origin[1], 6), "yaw_deg": SKEW_DEG},
+                     "known_length": {"pixels": known, "metres": factory["size"][0]}},
             "pdf": {"file": "factory.pdf", "paper_scale": spec["scale"], "map_from_factory": {"x_m": -frame[0], "y_m": -frame[1], "yaw_deg": 0.0}},
             "dxf": {"file": "factory.dxf", "unit_m": 0.001}}
     (out / "meta.yaml").write_text(yaml.safe_dump(meta, sort_keys=False), encoding="utf-8")

@@ -13,6 +13,9 @@ LAYERS = {
 }
 
 
+TOTAL_LENGTH_Y = -5.6  # of the dimension line that states the length of the factory
+
+
 @dataclass
 class Sheet:
     strokes: list = field(default_factory=list)  # layer, [(x, y), ...]
@@ -115,7 +118,7 @@ def draw_dimensions(sheet, factory):
     xs, (width, depth) = factory["axes"]["x"], factory["size"]
     for a, b in zip(xs[:-1], xs[1:]):
         dimension(sheet, (a, -3.2), (b, -3.2), str(round(1000 * (b - a))))
-    dimension(sheet, (0, -5.6), (width, -5.6), str(round(1000 * width)))
+    dimension(sheet, (0, TOTAL_LENGTH_Y), (width, TOTAL_LENGTH_Y), str(round(1000 * width)))
     ys = factory["axes"]["y"]
     for a, b in zip(ys[:-1], ys[1:]):
         dimension(sheet, (width + 4.6, a), (width + 4.6, b), str(round(1000 * (b - a))))

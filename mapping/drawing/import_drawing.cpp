@@ -107,7 +107,8 @@ Site make_site(const ImportOptions& options, const Plan& plan, const std::string
   site.drawing = {drawing_name, plan.picture.width_px, plan.picture.height_px, options.plan.page,
                   options.plan.dpi.value_or(plan.picture.dpi)};
   if (options.m_per_px)
-    site.scale = ScaleRecord{*options.m_per_px, "option", 0.0, 0.0, options.date, {"--scale"}};
+    site.scale =
+        ScaleRecord{*options.m_per_px, options.scale_method, 0.0, 0.0, options.date, options.scale_inputs};
   else if (plan.m_per_px)
     site.scale = ScaleRecord{*plan.m_per_px, plan.scale_method, 0.0, 0.0, options.date, plan.notes};
   return site;

@@ -1,0 +1,66 @@
+#include "app/import_report.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace madori::app {
+
+using nlohmann::json;
+
+mapping::Progress terminal_progress() {
+  if (::isatty(STDERR_FILENO) == 0) return {};
+  return [start = std::chrono::steady_clock::now()](const std::string& stage, double share) {
+    if (std::chrono::steady_clock::now() - start < std::chrono::seconds(1)) return;
+    std::fprintf(stderr, "\r\033[K%3.0f %%  %s", 100.0 * share, stage.c_str());
+    if (share >= 1.0) std::fputs("\r\033[K", stderr);
+  };
+}
+
+json import_json(const mapping::ImportReport& report) {
+  json stages = json::array();
+  for (const auto& s : report.stages)
+    stages.push_back({{"name", s.name}, {"ms", s.milliseconds}, {"count", s.count}});
+  json out{{"name", report.site.name},
+           {"drawing", report.site.drawing.file},
+           {"width_px", report.site.drawing.width_px},
+           {"height_px", report.site.drawing.height_px},
+           {"scaled", report.site.scale.has_value()},
+           {"walls", report.walls},
+           {"wall_length", report.wall_length},
+           {"length_unit", report.site.scale ? "m" : "px"},
+           {"rejected", report.rejected},
+           {"skew_deg", report.skew_deg},
+           {"points_sampled", report.points_sampled},
+           {"points", report.points},
+           {"stages", stages},
+           {"notes", report.notes}};
+  if (report.site.scale) {
+    out["m_per_px"] = report.site.scale->m_per_px;
+    out["scale_method"] = report.site.scale->method;
+  }
+  return out;
+}
+
+void print_import_summary(const mapping::ImportReport& report, const std::string& site) {
+  const auto& drawing = report.site.drawing;
+  const char* unit = report.site.scale ? "m" : "px";
+  std::printf("%s: %d x %d px", report.site.name.c_str(), drawing.width_px, drawing.height_px);
+  if (report.site.scale)
+    std::printf(", %.1f x %.1f m, %.6g m/px (%s)", drawing.width_px * report.site.scale->m_per_px,
+                drawing.height_px * report.site.scale->m_per_px, report.site.scale->m_per_px,
+                report.site.scale->method.c_str());
+  std::printf("\nwalls     %zu faces, %.1f %s in all; %zu lines taken for something else\n", report.walls,
+              report.wall_length, unit, report.rejected);
+  std::printf("skew      %.2f deg\n", report.skew_deg);
+  std::printf("points    %zu sampled, %zu after the voxel grid\n", report.points_sampled, report.points);
+  for (const auto& note : report.notes) std::printf("note      %s\n", note.c_str());
+  std::printf("look at   %s/import.png\n", site.c_str());
+  if (!report.site.scale)
+    std::printf("UNSCALED  nothing may drive on it yet: madori scale %s --known u1,v1,u2,v2=METRES --apply\n",
+                site.c_str());
+}
+
+}  // namespace madori::app
