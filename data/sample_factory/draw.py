@@ -8,7 +8,9 @@ true walls; routes in the Map frame of each import; meta.yaml with scales and tr
 import argparse
 import csv
 import math
+import os
 import pathlib
+import sys
 
 import yaml
 
@@ -57,7 +59,14 @@ def write_routes(folder, factory, move, turn_deg):
     write_csv(folder / "path.csv", ["ID", "x", "y", "name", "station", "heading_deg", "speed_mps", "action"], rows)
 
 
+def fix_hash_seed():
+    """ezdxf writes some sections in the order of Python's hashes: start again with fixed ones."""
+    if os.environ.get("PYTHONHASHSEED") != "0":
+        os.execve(sys.executable, [sys.executable, "-B", *sys.argv], {**os.environ, "PYTHONHASHSEED": "0"})
+
+
 def main():
+    fix_hash_seed()
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path(__file__).parent, help="folder for the files")
     out = parser.parse_args().out
