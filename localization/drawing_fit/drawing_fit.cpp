@@ -211,4 +211,25 @@ std::vector<UnaryFactor> DrawingFit::pulls(const MemoryCloud& cloud,
   return factors;
 }
 
+void DrawingFit::pull(const SurfaceScan& scan, const Transform2<Map, Base>& pose, Eigen::Matrix3d& hessian,
+                      Eigen::Vector3d& gradient) const {
+  const double variance = model_.sigma_m * model_.sigma_m;
+  const Mixture mixture(model_, model_.sigma_m);
+  for (std::size_t i = 1; i < scan.points.size(); ++i) {
+    const SurfacePoint& p = scan.points[i];
+    if (!p.has_normal()) continue;
+    const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
+    const double nx = pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y;
+    const double ny = pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y;
+    const WallIndex::Hit hit = index_.nearest(q.x_m, q.y_m, WallIndex::direction_of(nx, ny));
+    if (hit.wall < 0 || hit.beyond_m > kBeyond_m) continue;
+    const double run =
+        std::min(kVoxel_m, std::hypot(p.x_m - scan.points[i - 1].x_m, p.y_m - scan.points[i - 1].y_m));
+    const double information = run / kVoxel_m * kShare * mixture.is_wall(hit.distance_m) / variance;
+    const Eigen::Vector3d j = jacobian(hit, q, pose.translation());
+    hessian += information * j * j.transpose();
+    gradient += information * hit.distance_m * j;
+  }
+}
+
 }  // namespace madori::localization

@@ -50,6 +50,10 @@ class DrawingFit {
   [[nodiscard]] std::vector<UnaryFactor> pulls(const MemoryCloud& cloud,
                                                const std::vector<Transform2<Map, Base>>& poses) const;
 
+  /// The drawing's pull on one scan at `pose`: adds Gauss-Newton terms of (x, y, yaw), Map axes.
+  void pull(const SurfaceScan& scan, const Transform2<Map, Base>& pose, Eigen::Matrix3d& hessian,
+            Eigen::Vector3d& gradient) const;
+
  private:
   [[nodiscard]] Transform2<Map, Map> refine(const MemoryCloud& cloud, const Point2<Map>& centre,
                                             Transform2<Map, Map> correction) const;

@@ -67,10 +67,10 @@ double straightness(const CloudSurface& p, const Voxels& voxels) {
 
 }  // namespace
 
-MemoryCloud memory_cloud(const Memory& memory) {
+MemoryCloud memory_cloud(const Memory& memory, std::size_t first) {
   Voxels voxels;
   voxels.reserve(8192);
-  for (std::size_t k = 0; k < memory.size(); ++k) {
+  for (std::size_t k = first; k < memory.size(); ++k) {
     add_keyframe(memory, k, voxels);
   }
   std::vector<std::pair<std::uint64_t, CloudSurface>> sorted;
@@ -88,6 +88,20 @@ MemoryCloud memory_cloud(const Memory& memory) {
     cloud.push_back(entry.second);
   }
   return cloud;
+}
+
+MemoryCloud moved(const MemoryCloud& cloud, const Transform2<Map, Map>& by) {
+  MemoryCloud out = cloud;
+  for (CloudSurface& p : out) {
+    const Point2<Map> q = by * Point2<Map>{p.x_m, p.y_m};
+    const double nx = by.cos_yaw() * p.normal_x - by.sin_yaw() * p.normal_y;
+    p.normal_y = by.sin_yaw() * p.normal_x + by.cos_yaw() * p.normal_y;
+    p.normal_x = nx;
+    p.x_m = q.x_m;
+    p.y_m = q.y_m;
+    p.direction = WallIndex::direction_of(p.normal_x, p.normal_y);
+  }
+  return out;
 }
 
 }  // namespace madori::localization

@@ -21,7 +21,9 @@ using MemoryCloud = std::vector<CloudSurface>;
 
 inline constexpr double kVoxel_m = 0.2;
 
-/// All surfaces of the memory with a known normal. Deterministic: ordered by voxel.
-[[nodiscard]] MemoryCloud memory_cloud(const Memory& memory);
+/// The surfaces with a known normal of the keyframes from `first` on. Deterministic: ordered by voxel.
+[[nodiscard]] MemoryCloud memory_cloud(const Memory& memory, std::size_t first = 0);
+/// The same surfaces elsewhere.
+[[nodiscard]] MemoryCloud moved(const MemoryCloud& cloud, const Transform2<Map, Map>& by);
 
 }  // namespace madori::localization

@@ -77,7 +77,13 @@ MatchResult Localizer::match(const SurfaceScan& scan, const OdometryStep& step) 
   window.sigma_rad = std::sqrt(covariance(2, 2));
   window.half_m = std::clamp(3.0 * window.sigma_m, std::min(1.0, 0.15 + 2.0 * step.path_m), 1.0);
   window.half_rad = std::clamp(3.0 * window.sigma_rad, 0.05, 0.8);
-  const MatchResult near = map.refine(scan, map.search(scan, prediction, window).map_from_base, prior);
+  ExtraPull pull;
+  if (drawing_ && drawing_->model().sigma_m < options_.exact_drawing_m) {
+    pull = [&](const Transform2<Map, Base>& pose, Eigen::Matrix3d& hessian, Eigen::Vector3d& gradient) {
+      drawing_->pull(scan, pose, hessian, gradient);
+    };
+  }
+  const MatchResult near = map.refine(scan, map.search(scan, prediction, window).map_from_base, prior, pull);
   if (near.inlier_share > options_.sure_inliers) {
     return near;
   }
@@ -140,6 +146,9 @@ void Localizer::consult_drawing() {
     cloud = memory_cloud(memory_);
   }
   drawing_->learn(cloud);
+  if (correct_recent_drift()) {
+    cloud = memory_cloud(memory_);
+  }
   std::vector<UnaryFactor> unary = drawing_->pulls(cloud, memory_.poses());
   UnaryFactor start;
   start.at = initial_.map_from_base;
@@ -149,6 +158,23 @@ void Localizer::consult_drawing() {
                       .asDiagonal();
   unary.push_back(start);
   memory_.optimise(unary);
+}
+
+/// On an exact drawing, a stretch that lies beside it by many times the drawing's own error has drifted:
+/// the walls it belongs to are sought anew. On a rough drawing the building's own shape is the better guide.
+bool Localizer::correct_recent_drift() {
+  const std::size_t first = memory_.window_begin();
+  if (drawing_->model().sigma_m > options_.exact_drawing_m || first == 0) {
+    return false;
+  }
+  const Alignment found = drawing_->align(memory_cloud(memory_, first), {0.8, 0.09});
+  const Point2<Map> here = memory_.poses().back().translation();
+  if (found.gain < 2.0 * options_.move_gain ||
+      distance_m(found.correction * here, here) < 3.0 * drawing_->model().sigma_m) {
+    return false;
+  }
+  memory_.move(found.correction, first);
+  return true;
 }
 
 PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {

@@ -30,8 +30,10 @@ struct LocalizerOptions {
   double keyframe_rad = 0.25;   ///< or turning
   int keyframes_per_solve = 4;  ///< the graph is solved this often, and after every surprising loop
   double sure_inliers = 0.6;    ///< below it, a wider search follows
-  double move_gain = 3.0;       ///< nats by which another place must explain the memory better
-  double lost_inliers = 0.25;   ///< a scan that fits the memory less than this leaves the pose to the wheels
+  double exact_drawing_m =
+      0.1;                     ///< a drawing more exact than this pulls on every scan, not only on the memory
+  double move_gain = 3.0;      ///< nats by which another place must explain the memory better
+  double lost_inliers = 0.25;  ///< a scan that fits the memory less than this leaves the pose to the wheels
 };
 
 /// The policy: odometry, scans and the drawing become map_from_base. Deterministic: the same readings in the
@@ -55,6 +57,7 @@ class Localizer {
   void remember(SurfaceScan scan, const MatchResult& match);
   [[nodiscard]] bool is_solve_due() const;
   void consult_drawing();
+  bool correct_recent_drift();
   [[nodiscard]] double surprise(const Transform2<Map, Base>& first) const;
 
   LocalizerOptions options_;

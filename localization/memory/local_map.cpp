@@ -23,56 +23,74 @@ SurfacePoint moved(const Transform2<Map, Base>& pose, const SurfacePoint& p) {
 }  // namespace
 
 LocalMap::LocalMap(const std::vector<Piece>& pieces, const Point2<Map>& centre, double radius_m) {
-  for (const Piece& piece : pieces) {
-    for (const SurfacePoint& p : piece.scan->points) {
-      const SurfacePoint q = moved(piece.map_from_base, p);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    for (const SurfacePoint& p : pieces[i].scan->points) {
+      const SurfacePoint q = moved(pieces[i].map_from_base, p);
       if (std::hypot(q.x_m - centre.x_m, q.y_m - centre.y_m) < radius_m) {
-        points_.push_back(q);
+        points_.push_back({q, static_cast<int>(i)});
       }
     }
   }
   build_index();
+  weigh();
+}
+
+/// What several keyframes saw in one cell stays; what one saw may have been a passer-by.
+void LocalMap::weigh() {
+  for (std::size_t cell = 0; cell + 1 < cell_begin_.size(); ++cell) {
+    int pieces = 0;
+    int last = -1;
+    for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
+      pieces += points_[i].piece != last ? 1 : 0;  // a cell keeps the order of the pieces
+      last = points_[i].piece;
+    }
+    const double weight = pieces >= 3 ? 1.0 : (pieces == 2 ? 0.6 : 0.2);
+    for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
+      points_[i].weight = weight;
+    }
+  }
 }
 
 void LocalMap::build_index() {
   if (points_.empty()) {
     return;
   }
-  Point2<Map> low{points_[0].x_m, points_[0].y_m};
+  Point2<Map> low{points_[0].point.x_m, points_[0].point.y_m};
   Point2<Map> high = low;
-  for (const SurfacePoint& p : points_) {
-    low = {std::min(low.x_m, p.x_m), std::min(low.y_m, p.y_m)};
-    high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
+  for (const Entry& e : points_) {
+    low = {std::min(low.x_m, e.point.x_m), std::min(low.y_m, e.point.y_m)};
+    high = {std::max(high.x_m, e.point.x_m), std::max(high.y_m, e.point.y_m)};
   }
   origin_ = {low.x_m - kCell_m, low.y_m - kCell_m};
   width_ = static_cast<int>((high.x_m - origin_.x_m) / kCell_m) + 2;
   height_ = static_cast<int>((high.y_m - origin_.y_m) / kCell_m) + 2;
-  const auto cell_of = [this](const SurfacePoint& p) {
-    return static_cast<std::size_t>((p.y_m - origin_.y_m) / kCell_m) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>((p.x_m - origin_.x_m) / kCell_m);
+  const auto cell_of = [this](const Entry& e) {
+    return static_cast<std::size_t>((e.point.y_m - origin_.y_m) / kCell_m) *
+               static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>((e.point.x_m - origin_.x_m) / kCell_m);
   };
   cell_begin_.assign(static_cast<std::size_t>(width_) * height_ + 1, 0);
-  for (const SurfacePoint& p : points_) {
+  for (const Entry& p : points_) {
     ++cell_begin_[cell_of(p) + 1];
   }
   for (std::size_t i = 1; i < cell_begin_.size(); ++i) {
     cell_begin_[i] += cell_begin_[i - 1];
   }
-  std::vector<SurfacePoint> sorted(points_.size());
+  std::vector<Entry> sorted(points_.size());
   std::vector<std::uint32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
-  for (const SurfacePoint& p : points_) {
+  for (const Entry& p : points_) {
     sorted[next[cell_of(p)]++] = p;
   }
   points_ = std::move(sorted);
 }
 
-const SurfacePoint* LocalMap::nearest(double x_m, double y_m, double normal_x, double normal_y,
-                                      double reach_m) const {
+const LocalMap::Entry* LocalMap::nearest(double x_m, double y_m, double normal_x, double normal_y,
+                                         double reach_m) const {
   const int cx = static_cast<int>(std::floor((x_m - origin_.x_m) / kCell_m));
   const int cy = static_cast<int>(std::floor((y_m - origin_.y_m) / kCell_m));
   const int r = static_cast<int>(std::ceil(reach_m / kCell_m));
   const bool directed = normal_x != 0.0 || normal_y != 0.0;
-  const SurfacePoint* best = nullptr;
+  const Entry* best = nullptr;
   double best_sq = reach_m * reach_m;
   for (int y = std::max(0, cy - r); y <= std::min(height_ - 1, cy + r); ++y) {
     const int x_low = std::max(0, cx - r);
@@ -82,12 +100,12 @@ const SurfacePoint* LocalMap::nearest(double x_m, double y_m, double normal_x, d
     }
     const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
     for (std::uint32_t i = cell_begin_[row + x_low]; i < cell_begin_[row + x_high + 1]; ++i) {
-      const SurfacePoint& q = points_[i];
+      const SurfacePoint& q = points_[i].point;
       const double sq = (q.x_m - x_m) * (q.x_m - x_m) + (q.y_m - y_m) * (q.y_m - y_m);
       if (sq < best_sq && q.has_normal() &&
           (!directed || q.normal_x * normal_x + q.normal_y * normal_y > kSameDirection)) {
         best_sq = sq;
-        best = &q;
+        best = &points_[i];
       }
     }
   }
@@ -97,10 +115,10 @@ const SurfacePoint* LocalMap::nearest(double x_m, double y_m, double normal_x, d
 SearchResult LocalMap::search(const SurfaceScan& scan, const Transform2<Map, Base>& prediction,
                               const SearchWindow& window) const {
   if (!grid_) {
-    std::vector<Point2<Map>> points;
+    std::vector<ScoreGrid::Mark> points;
     points.reserve(points_.size());
-    for (const SurfacePoint& p : points_) {
-      points.push_back({p.x_m, p.y_m});
+    for (const Entry& e : points_) {
+      points.push_back({{e.point.x_m, e.point.y_m}, e.weight});
     }
     grid_ = std::make_unique<ScoreGrid>(points);
   }
@@ -116,11 +134,13 @@ struct NormalEquations {
   int covered = 0;
   int inliers = 0;
   double squares = 0.0;
+  double trust_sum = 0.0;
 
-  void add(double residual, const Eigen::Vector3d& jacobian, double kernel_m) {
+  void add(double residual, const Eigen::Vector3d& jacobian, double kernel_m, double trust) {
     const double ratio = residual / kernel_m;
     const double weight = 1.0 / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio));  // Geman-McClure
-    const double information = weight / (kResidualSigma_m * kResidualSigma_m);
+    const double information = trust * weight / (kResidualSigma_m * kResidualSigma_m);
+    trust_sum += trust;
     hessian += information * jacobian * jacobian.transpose();
     gradient += information * residual * jacobian;
     if (std::abs(residual) < 0.1) {
@@ -137,13 +157,14 @@ Eigen::Vector3d difference(const Transform2<Map, Base>& a, const Transform2<Map,
 }  // namespace
 
 MatchResult LocalMap::refine(const SurfaceScan& scan, const Transform2<Map, Base>& start,
-                             const MatchPrior& prior) const {
+                             const MatchPrior& prior, const ExtraPull& extra) const {
   MatchResult result;
   result.map_from_base = start;
   if (empty() || scan.points.empty()) {
     return result;
   }
   constexpr int kMaxIterations = 20;
+  double mean_trust = 1.0;  // where nothing is confirmed yet, all of it counts alike
   for (int i = 0; i < kMaxIterations; ++i) {
     const double shrink = std::max(0.0, 1.0 - i / 6.0);
     const double reach_m = 0.3 + 0.3 * shrink;
@@ -152,15 +173,22 @@ MatchResult LocalMap::refine(const SurfaceScan& scan, const Transform2<Map, Base
     const Transform2<Map, Base>& pose = result.map_from_base;
     for (const SurfacePoint& p : scan.points) {
       const SurfacePoint q = moved(pose, p);
-      const SurfacePoint* m = nearest(q.x_m, q.y_m, q.normal_x, q.normal_y, reach_m);
-      if (m == nullptr) {
+      const Entry* found = nearest(q.x_m, q.y_m, q.normal_x, q.normal_y, reach_m);
+      if (found == nullptr) {
         continue;
       }
+      const SurfacePoint* m = &found->point;
       ++sums.covered;
       const double residual = m->normal_x * (q.x_m - m->x_m) + m->normal_y * (q.y_m - m->y_m);
       const Eigen::Vector3d jacobian(
           m->normal_x, m->normal_y, -m->normal_x * (q.y_m - pose.y_m()) + m->normal_y * (q.x_m - pose.x_m()));
-      sums.add(residual, jacobian, kernel_m);
+      sums.add(residual, jacobian, kernel_m, found->weight / mean_trust);
+    }
+    if (sums.covered > 0) {
+      mean_trust *= std::max(0.2, sums.trust_sum / sums.covered);
+    }
+    if (extra && i >= 4) {  // once near: far off, it would draw to the wrong walls
+      extra(pose, sums.hessian, sums.gradient);
     }
     const Eigen::Vector3d off = difference(pose, prior.map_from_base);
     // Slipping wheels are far off at once: beyond three sigmas the prediction lets go (Cauchy).

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct MatchResult {
   double covered_share = 0.0;  ///< of the points, those that had the map around them
   double rms_m = 0.0;          ///< of the inliers
 };
+
+/// Another pull on the scan's pose: adds its Gauss-Newton terms of (x, y, yaw) at the pose, Map axes.
+using ExtraPull = std::function<void(const Transform2<Map, Base>& pose, Eigen::Matrix3d& hessian,
+                                     Eigen::Vector3d& gradient)>;
 
 /// A prediction to lean on: `information` of (x, y, yaw), Map axes; zero for none.
 struct MatchPrior {
@@ -45,14 +50,21 @@ class LocalMap {
                                     const SearchWindow& window) const;
   /// Gauss-Newton on the distances to the nearest surface's tangent, robust (Geman-McClure), from `start`.
   [[nodiscard]] MatchResult refine(const SurfaceScan& scan, const Transform2<Map, Base>& start,
-                                   const MatchPrior& prior) const;
+                                   const MatchPrior& prior, const ExtraPull& extra = {}) const;
 
  private:
-  [[nodiscard]] const SurfacePoint* nearest(double x_m, double y_m, double normal_x, double normal_y,
-                                            double reach_m) const;
+  /// A remembered point, and how far the other keyframes confirm it, 0..1.
+  struct Entry {
+    SurfacePoint point;
+    int piece = 0;
+    double weight = 1.0;
+  };
+  [[nodiscard]] const Entry* nearest(double x_m, double y_m, double normal_x, double normal_y,
+                                     double reach_m) const;
   void build_index();
+  void weigh();
 
-  std::vector<SurfacePoint> points_;  ///< Map frame, sorted by cell
+  std::vector<Entry> points_;  ///< Map frame, sorted by cell
   std::vector<std::uint32_t> cell_begin_;
   int width_ = 0;
   int height_ = 0;

@@ -141,9 +141,9 @@ bool Memory::optimise(const std::vector<UnaryFactor>& unary) {
   return optimise_graph(poses_, factors_, unary);
 }
 
-void Memory::move(const Transform2<Map, Map>& by) {
-  for (auto& pose : poses_) {
-    pose = by * pose;
+void Memory::move(const Transform2<Map, Map>& by, std::size_t first) {
+  for (std::size_t i = first; i < poses_.size(); ++i) {
+    poses_[i] = by * poses_[i];
   }
 }
 

@@ -44,6 +44,8 @@ class Memory {
   [[nodiscard]] const std::vector<RelativeFactor>& factors() const { return factors_; }
   [[nodiscard]] int loops() const { return loops_; }
 
+  /// The first of the keyframes that count as recent.
+  [[nodiscard]] std::size_t window_begin() const;
   /// The recent surfaces around a place.
   [[nodiscard]] LocalMap recent_map(const Point2<Map>& centre) const;
   /// Adds a keyframe; `motion` from the newest one with its information (axes of the newest), if there is
@@ -54,8 +56,8 @@ class Memory {
   int close_loops();
   /// Solves the graph with the drawing's pulls.
   bool optimise(const std::vector<UnaryFactor>& unary);
-  /// Moves everything rigidly.
-  void move(const Transform2<Map, Map>& by);
+  /// Moves the keyframes from `first` on rigidly.
+  void move(const Transform2<Map, Map>& by, std::size_t first = 0);
 
  private:
   struct LoopCandidate {
@@ -64,7 +66,6 @@ class Memory {
     std::size_t last;
     double distance_m;
   };
-  [[nodiscard]] std::size_t window_begin() const;
   [[nodiscard]] std::vector<LoopCandidate> loop_candidates() const;
   [[nodiscard]] bool close_loop(const LoopCandidate& candidate);
   void fuse_if_full();

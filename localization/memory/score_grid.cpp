@@ -26,37 +26,38 @@ std::array<std::uint8_t, (2 * kReach + 1) * (2 * kReach + 1)> smear_kernel() {
 
 }  // namespace
 
-ScoreGrid::ScoreGrid(const std::vector<Point2<Map>>& points) {
-  if (points.empty()) {
+ScoreGrid::ScoreGrid(const std::vector<Mark>& marks) {
+  if (marks.empty()) {
     return;
   }
-  Point2<Map> low = points.front();
+  Point2<Map> low = marks.front().point;
   Point2<Map> high = low;
-  for (const Point2<Map>& p : points) {
+  for (const auto& [p, weight] : marks) {
     low = {std::min(low.x_m, p.x_m), std::min(low.y_m, p.y_m)};
     high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
   }
   origin_ = {low.x_m - kMargin * kResolution_m, low.y_m - kMargin * kResolution_m};
   width_ = static_cast<int>((high.x_m - low.x_m) / kResolution_m) + 2 * kMargin + 1;
   height_ = static_cast<int>((high.y_m - low.y_m) / kResolution_m) + 2 * kMargin + 1;
-  smear(points);
+  smear(marks);
   for (int level = 1; level < kLevels; ++level) {
     pool(level);
   }
 }
 
-void ScoreGrid::smear(const std::vector<Point2<Map>>& points) {
+void ScoreGrid::smear(const std::vector<Mark>& marks) {
   static const auto kernel = smear_kernel();
   Level& grid = levels_[0];
   grid.assign(static_cast<std::size_t>(width_) * height_, 0);
-  for (const Point2<Map>& p : points) {
+  for (const auto& [p, weight] : marks) {
+    const auto scale = static_cast<unsigned>(std::lround(256.0 * weight));
     const int cx = static_cast<int>((p.x_m - origin_.x_m) / kResolution_m);
     const int cy = static_cast<int>((p.y_m - origin_.y_m) / kResolution_m);
     const std::uint8_t* k = kernel.data();
     for (int y = cy - kReach; y <= cy + kReach; ++y) {
       std::uint8_t* row = grid.data() + static_cast<std::size_t>(y) * width_ + cx - kReach;
       for (int x = 0; x < 2 * kReach + 1; ++x, ++k) {
-        row[x] = std::max(row[x], *k);
+        row[x] = std::max(row[x], static_cast<std::uint8_t>(*k * scale >> 8U));
       }
     }
   }

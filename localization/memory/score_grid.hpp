@@ -31,15 +31,19 @@ class ScoreGrid {
   static constexpr double kResolution_m = 0.05;
   static constexpr int kLevels = 4;  ///< windows of 1, 2, 4, 8 cells
 
-  /// `points` are Map frame.
-  explicit ScoreGrid(const std::vector<Point2<Map>>& points);
+  /// A point of the map and its weight, 0..1.
+  struct Mark {
+    Point2<Map> point;
+    double weight = 1.0;
+  };
+  explicit ScoreGrid(const std::vector<Mark>& marks);
 
   [[nodiscard]] SearchResult search(const SurfaceScan& scan, const Transform2<Map, Base>& prediction,
                                     const SearchWindow& window) const;
 
  private:
   using Level = std::vector<std::uint8_t>;
-  void smear(const std::vector<Point2<Map>>& points);
+  void smear(const std::vector<Mark>& marks);
   void pool(int level);
   [[nodiscard]] std::uint8_t at(int level, int x, int y) const {
     if (static_cast<unsigned>(x) >= static_cast<unsigned>(width_) ||
