@@ -7,7 +7,9 @@
 #include "core/result.hpp"
 #include "mapping/drawing/raster/arcs.hpp"
 #include "mapping/drawing/raster/binarize.hpp"
+#include "mapping/drawing/raster/columns.hpp"
 #include "mapping/drawing/raster/components.hpp"
+#include "mapping/drawing/raster/dash_ends.hpp"
 #include "mapping/drawing/raster/dashed_marks.hpp"
 #include "mapping/drawing/raster/dimension_lines.hpp"
 #include "mapping/drawing/raster/hatch_lines.hpp"
@@ -91,14 +93,9 @@ DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& optio
          RejectReason::Text});
     for (const std::size_t i : text.marks) drop[i] = true;
   }
-  for (const auto& dashes : dashed)
-    for (const std::size_t i : dashes) {
-      drop[i] = true;
-      const Component& c = marks.all()[i];
-      const double du = 0.5 * c.long_px * std::cos(c.angle_rad), dv = 0.5 * c.long_px * std::sin(c.angle_rad);
-      found.rejected.push_back(
-          {{c.middle_u - du, c.middle_v - dv, c.middle_u + du, c.middle_v + dv}, RejectReason::Dashed});
-    }
+  const DrawnLines dashes = dash_axes(marks, dashed);
+  for (const DrawnLine& dash : dashes) found.rejected.push_back({dash.segment, RejectReason::Dashed});
+  const auto columns = find_columns(marks, drop, pen_px);
   marks.paint(binary.ink, drop, 0);
   fill_pores(binary.ink, pen_px);
   stages.end(texts.size() + dashed.size());
@@ -152,6 +149,7 @@ DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& optio
   const auto evidence = weigh_lines(drawn, strips, style);
   if (!options.keep_dimensions) reject_dimensions(drawn, texts, evidence, style, pen_px);
   if (!options.keep_furniture) reject_hatch(drawn, evidence);
+  if (!options.keep_dashed) reject_dash_ends(drawn, dashes);
   reject_frame(drawn, evidence, style);
   reject_arcs(drawn, evidence, style);
   if (!options.keep_furniture) {
@@ -162,9 +160,14 @@ DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& optio
   sort_lines(drawn, evidence, style, options);
   if (!options.keep_outer_faces) {
     const auto outside = faces_outside(drawn, binary.ink);
+    const auto spare = spare_faces(drawn, strips, style);
     for (std::size_t i = 0; i < drawn.size(); ++i)
-      if (outside[i] && drawn[i].solid_face && !drawn[i].rejected) drawn[i].rejected = RejectReason::Other;
+      if (outside[i] && spare[i] && !drawn[i].rejected) drawn[i].rejected = RejectReason::Other;
   }
+  for (const Column& column : columns)
+    if (column.side_px > std::max(1.4 * style.thickness_px, 6 * pen_px) &&
+        column.side_px < 3.5 * style.thickness_px)
+      found.walls.insert(found.walls.end(), column.faces.begin(), column.faces.end());
   for (const auto& line : drawn) {
     if (line.rejected) {
       found.rejected.push_back({line.segment, *line.rejected});

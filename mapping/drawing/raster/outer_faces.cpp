@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kCoarse = 1200;         // pixels of the coarse picture's longer side
 constexpr double kEnclosed = 0.35;    // of the ink's box: less is no closed building
+constexpr double kTwoSided = 1.3;     // of a line's length is paired: it has walls on both sides
 constexpr double kSampleShare = 0.8;  // of a line's samples that see the outside
 
 /// 0 = ink, 255 = reached from the border of the picture, 128 = paper inside.
@@ -34,13 +35,40 @@ double enclosed_share(const cv::Mat& picture) {
   return 1 - static_cast<double>(cv::countNonZero(picture(box) == 255)) / box.area();
 }
 
+/// Whether the ray from (u, v) in direction (du, dv) meets a wall.
+bool hits_wall(std::size_t self, const DrawnLines& lines, double u, double v, double du, double dv) {
+  for (std::size_t j = 0; j < lines.size(); ++j) {
+    if (j == self || lines[j].rejected) continue;
+    const PixelSegment& s = lines[j].segment;
+    const double a = (s.u1 - u) * dv - (s.v1 - v) * du, b = (s.u2 - u) * dv - (s.v2 - v) * du;
+    if ((a > 0) == (b > 0)) continue;
+    const double t = a / (a - b);
+    if ((std::lerp(s.u1, s.u2, t) - u) * du + (std::lerp(s.v1, s.v2, t) - v) * dv > 1) return true;
+  }
+  return false;
+}
+
+/// One side of the line looks straight out of the drawing all along, the other meets walls all along.
+bool looks_out(std::size_t self, const DrawnLines& lines) {
+  const PixelSegment& s = lines[self].segment;
+  const FittedLine axis = line_through(s);
+  int left = 0, right = 0;
+  constexpr int kSamples = 5;
+  for (int k = 0; k < kSamples; ++k) {
+    const double t = (k + 0.5) / kSamples, u = std::lerp(s.u1, s.u2, t), v = std::lerp(s.v1, s.v2, t);
+    left += hits_wall(self, lines, u, v, axis.direction_v, -axis.direction_u) ? 1 : 0;
+    right += hits_wall(self, lines, u, v, -axis.direction_v, axis.direction_u) ? 1 : 0;
+  }
+  return std::min(left, right) == 0 && std::max(left, right) == kSamples;
+}
+
 }  // namespace
 
 std::vector<bool> faces_outside(const DrawnLines& lines, const GrayImage& ink) {
   std::vector<bool> outside(lines.size(), false);
   const double shrink = std::max(1.0, static_cast<double>(std::max(ink.width_px, ink.height_px)) / kCoarse);
   const cv::Mat picture = flooded(ink, shrink);
-  if (enclosed_share(picture) < kEnclosed) return outside;
+  const bool closed = enclosed_share(picture) >= kEnclosed;
   const double step_off = 2.5 * shrink;
   const auto sees = [&](double u, double v) {
     const int pu = std::clamp(static_cast<int>(u / shrink) + 1, 0, picture.cols - 1);
@@ -57,9 +85,28 @@ std::vector<bool> faces_outside(const DrawnLines& lines, const GrayImage& ink) {
       const double t = (k + 0.5) / kSamples, u = std::lerp(s.u1, s.u2, t), v = std::lerp(s.v1, s.v2, t);
       seen += sees(u + du, v + dv) != sees(u - du, v - dv) ? 1 : 0;
     }
-    outside[i] = seen >= kSampleShare * kSamples;
+    outside[i] = (closed && seen >= kSampleShare * kSamples) || (!lines[i].rejected && looks_out(i, lines));
   }
   return outside;
+}
+
+std::vector<bool> spare_faces(const DrawnLines& lines, const std::vector<Strip>& strips,
+                              const WallStyle& style) {
+  std::vector<double> beside(lines.size(), 0), behind(lines.size(), 0);
+  const double widest = std::max(style.widest_empty_px, style.widest_filled_px);
+  const auto is_wall = [&](std::size_t i) { return !lines[i].rejected; };
+  for (const Strip& strip : strips)
+    if (strip.width_px <= widest && is_wall(strip.line) && is_wall(strip.partner))
+      beside[strip.line] += strip.length_px();
+  for (const Strip& strip : strips) {
+    if (strip.width_px > widest || !is_wall(strip.partner)) continue;
+    const double partner = lines[strip.partner].length_px();
+    if (beside[strip.partner] > kTwoSided * partner) behind[strip.line] += strip.length_px();
+  }
+  std::vector<bool> spare(lines.size(), false);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    spare[i] = lines[i].solid_face || behind[i] > 0.5 * lines[i].length_px();
+  return spare;
 }
 
 }  // namespace madori::mapping

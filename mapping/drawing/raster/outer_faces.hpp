@@ -4,6 +4,8 @@
 
 #include "mapping/drawing/gray_image.hpp"
 #include "mapping/drawing/raster/drawn_line.hpp"
+#include "mapping/drawing/raster/strips.hpp"
+#include "mapping/drawing/raster/wall_evidence.hpp"
 
 namespace madori::mapping {
 
@@ -11,5 +13,10 @@ namespace madori::mapping {
 /// the drawing, on the other a wall. All false where the outside reaches most places (a plan of separate
 /// walls). `wall_px` is the largest thickness of a wall; openings up to it do not let the outside in.
 [[nodiscard]] std::vector<bool> faces_outside(const DrawnLines& lines, const GrayImage& ink);
+
+/// Faces that a wall can spare: those of solid fills, and the third line of a
+/// wall that has two others.
+[[nodiscard]] std::vector<bool> spare_faces(const DrawnLines& lines, const std::vector<Strip>& strips,
+                                            const WallStyle& style);
 
 }  // namespace madori::mapping

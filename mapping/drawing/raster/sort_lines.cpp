@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "mapping/drawing/raster/line_fit.hpp"
 #include "mapping/drawing/raster/line_index.hpp"
@@ -23,7 +24,9 @@ constexpr double kHeldFromSingle = 1.5;
 constexpr double kSingleBelow = 0.2;  // share of paired length
 constexpr double kHeldFromClean = 6;
 constexpr double kHeldFromCluttered = 25;
-constexpr double kStubFrom = 1.5;
+constexpr double kFinePen = 0.72;  // of the wall's pen
+constexpr double kHeavyStub = 3;
+constexpr double kFinePenFactor = 2.5;
 constexpr double kEndReach = 1.5;
 constexpr double kCleanBelow = 0.15, kClutteredAbove = 0.35;  // share of lines that nothing explains
 
@@ -32,12 +35,35 @@ bool passes(const PixelSegment& s, double u, double v, double reach) {
   return std::abs(line.across(u, v)) <= reach && std::abs(line.along(u, v)) <= 0.5 * s.length_px() + reach;
 }
 
+/// A straight line, or all pieces of a bent one together.
+struct Unit {
+  double length = 0;
+  Evidence evidence;
+};
+
+std::vector<Unit> units_of(const DrawnLines& lines, const std::vector<Evidence>& evidence) {
+  std::map<int, Unit> chains;
+  const auto add = [&](Unit& unit, std::size_t i) {
+    unit.length += lines[i].length_px();
+    unit.evidence.paired_px += evidence[i].paired_px;
+    unit.evidence.filled_px += evidence[i].filled_px;
+    unit.evidence.width_px = std::max(unit.evidence.width_px, evidence[i].width_px);
+  };
+  std::vector<Unit> units(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (!lines[i].rejected) add(lines[i].chain >= 0 ? chains[lines[i].chain] : units[i], i);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (lines[i].chain >= 0) units[i] = chains[lines[i].chain];
+  return units;
+}
+
 class Sorter {
  public:
   Sorter(const DrawnLines& lines, const std::vector<Evidence>& evidence, const WallStyle& style)
       : lines_(lines),
         evidence_(evidence),
         style_(style),
+        units_(units_of(lines, evidence)),
         t_(style.thickness_px),
         index_(lines, 64),
         wall_(lines.size(), false) {
@@ -87,26 +113,52 @@ class Sorter {
     }
     return all > 0 ? paired / all : 0;
   }
+  /// Lines thinner than the pen of the walls must be longer: draughtsmen draw furniture with a finer one.
+  [[nodiscard]] double thin_pen(std::size_t i) const {
+    return !lines_[i].solid_face &&
+                   lines_[i].stroke_px < std::min(kFinePen * style_.wall_pen_px, style_.wall_pen_px - 1)
+               ? kFinePenFactor
+               : 1;
+  }
   [[nodiscard]] bool stands_alone(std::size_t i) const {
-    const double length = lines_[i].length_px();
-    const Evidence& e = evidence_[i];
+    const double length = units_[i].length;
+    const Evidence& e = units_[i].evidence;
+    const double width = std::max(e.width_px, 0.4 * t_) * thin_pen(i);
     if (e.filled_px >= filled_from_ * e.width_px && e.filled_px >= kPairedShare * length) return true;
-    if (e.paired_px >= paired_from_ * t_ && e.paired_px >= kPairedShare * length) return true;
-    return !filled_style_ && length >= long_from_ * t_;
+    if (e.paired_px >= paired_from_ * width && e.paired_px >= kPairedShare * length) return true;
+    return !filled_style_ && length >= long_from_ * t_ * thin_pen(i);
   }
   [[nodiscard]] bool hangs_on_walls(std::size_t i) const {
     const PixelSegment& s = lines_[i].segment;
-    const double length = s.length_px();
-    const Evidence& e = evidence_[i];
+    const double length = units_[i].length;
+    const Evidence& e = units_[i].evidence;
+    const double width = std::max(e.width_px, 0.4 * t_) * thin_pen(i);
     const bool filled = e.filled_px >= kPairedShare * length && length >= 0.4 * filled_from_ * e.width_px;
-    const bool paired = e.paired_px >= kPairedShare * length && length >= 0.5 * paired_from_ * t_;
+    const bool paired =
+        e.paired_px >= kPairedShare * length &&
+        length >= (style_.pens_differ && thin_pen(i) == 1 ? kHeavyStub : 0.5 * paired_from_) * width;
     const bool cap = length <= std::max(style_.widest_empty_px, style_.widest_filled_px);
-    const bool held = length >= (filled_style_ ? kLongFrom : held_from_) * t_;
+    const bool held = length >= (filled_style_ ? kLongFrom : held_from_) * t_ * thin_pen(i);
     if (!filled && !paired && !cap && !held) return false;
     const double reach = cap ? 0.3 * t_ + 2 : kEndReach * t_;
     const int ends = (meets_wall(i, s.u1, s.v1, reach) ? 1 : 0) + (meets_wall(i, s.u2, s.v2, reach) ? 1 : 0);
-    if (filled || paired) return ends >= (filled || !filled_style_ ? 1 : 2);
-    return ends == 2 || (ends == 1 && length >= (filled_style_ ? kLongFrom : 1.5 * held_from_) * t_);
+    const bool heavy = style_.pens_differ && thin_pen(i) == 1;
+    if (filled || paired) return ends >= (filled || heavy || !filled_style_ ? 1 : 2);
+    if (ends == 0 && !held) return false;
+    return ends == 2 ||
+           ((ends == 1 || carries_wall(i)) && length >= (filled_style_ ? kLongFrom : 1.5 * held_from_) * t_);
+  }
+  /// A wall ends on this line, somewhere between its own ends.
+  [[nodiscard]] bool carries_wall(std::size_t self) const {
+    const PixelSegment& own = lines_[self].segment;
+    bool met = false;
+    index_.near(own, t_, [&](std::size_t j) {
+      const PixelSegment& s = lines_[j].segment;
+      met = met ||
+            (j != self && wall_[j] && angle_between(lines_[self].angle_rad(), lines_[j].angle_rad()) > 0.5 &&
+             (passes(own, s.u1, s.v1, 0.5 * t_) || passes(own, s.u2, s.v2, 0.5 * t_)));
+    });
+    return met;
   }
   [[nodiscard]] bool meets_wall(std::size_t self, double u, double v, double reach) const {
     bool met = false;
@@ -119,6 +171,7 @@ class Sorter {
   const DrawnLines& lines_;
   const std::vector<Evidence>& evidence_;
   const WallStyle& style_;
+  std::vector<Unit> units_;
   double t_;
   double paired_from_ = kPairedFromCluttered;
   double filled_from_ = kFilledFromCluttered;

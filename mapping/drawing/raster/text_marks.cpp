@@ -15,6 +15,7 @@ constexpr double kLargestInPens = 45;
 constexpr double kSmallestInPens = 2.5;
 constexpr double kLikeSize = 2.2;      // "-" and "i" beside "M"
 constexpr double kReachInSizes = 1.5;  // between the middles of neighbouring letters
+constexpr double kBarLike = 5;         // I and 1 are; a word of bars alone is a row of dashes
 constexpr std::size_t kFewestLetters = 3;
 
 bool can_be_letter(const Component& mark, double pen_px, int picture_size_px) {
@@ -107,7 +108,11 @@ std::vector<TextGroup> find_text(const Components& marks, const std::vector<bool
         seen[other] = true;
         members.push_back(other);
       });
-    if (members.size() >= kFewestLetters) groups.push_back(describe(marks, std::move(members)));
+    const auto bars = std::count_if(members.begin(), members.end(), [&](std::size_t i) {
+      return all[i].long_px > kBarLike * all[i].short_px;
+    });
+    if (members.size() >= kFewestLetters && 2 * static_cast<std::size_t>(bars) <= members.size())
+      groups.push_back(describe(marks, std::move(members)));
   }
   return groups;
 }

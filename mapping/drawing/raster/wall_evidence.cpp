@@ -11,6 +11,7 @@ constexpr double kFilledFrom = 0.75;  // ink share
 constexpr double kSidePeak =
     0.15;  // a second wall thickness has at least this share of the first one's length
 constexpr double kFilledOnly = 0.8;  // a drawing that fills its walls draws furniture with empty lines
+constexpr double kPensDiffer = 0.12;
 constexpr double kNarrowest = 2.5;
 using Lengths = std::vector<double>;  // of strips, by rounded width
 
@@ -51,6 +52,37 @@ double last_above(const Lengths& lengths, double least) {
   return last;
 }
 
+/// The stroke of most of the length of long strips at wall thickness.
+double wall_pen(const DrawnLines& lines, const std::vector<Strip>& strips, const WallStyle& style,
+                double pen_px) {
+  std::vector<std::pair<double, double>> strokes;  // width, length
+  double all = 0;
+  for (const Strip& strip : strips) {
+    const DrawnLine& line = lines[strip.line];
+    if (line.solid_face || strip.length_px() < 12 * strip.width_px ||
+        strip.width_px > 1.6 * style.thickness_px)
+      continue;
+    strokes.emplace_back(line.stroke_px, strip.length_px());
+    all += strip.length_px();
+  }
+  std::sort(strokes.begin(), strokes.end());
+  double seen = 0;
+  for (const auto& [stroke, length] : strokes)
+    if ((seen += length) >= 0.5 * all) return stroke;
+  return pen_px;
+}
+
+/// How much of the length of longer pen lines is finer than the pen of the walls.
+double fine_share(const DrawnLines& lines, const WallStyle& style, double pen_px) {
+  double all = 0, fine = 0;
+  for (const DrawnLine& line : lines) {
+    if (line.solid_face || line.length_px() < 10 * pen_px) continue;
+    all += line.length_px();
+    if (line.stroke_px <= style.finer_than_px()) fine += line.length_px();
+  }
+  return all > 0 ? fine / all : 0;
+}
+
 }  // namespace
 
 WallStyle measure_style(const DrawnLines& lines, const std::vector<Strip>& strips, double pen_px) {
@@ -69,6 +101,8 @@ WallStyle measure_style(const DrawnLines& lines, const std::vector<Strip>& strip
       bold += 2 * line.length_px();
   const double fill = total(filled, 4 * style.thickness_px) + bold;
   style.filled_share = fill / std::max(1.0, fill + total(empty, 2 * style.thickness_px));
+  style.wall_pen_px = wall_pen(lines, strips, style, pen_px);
+  style.pens_differ = fine_share(lines, style, pen_px) > kPensDiffer;
   const double last_filled = last_above(filled, kSidePeak * most),
                last_empty = last_above(empty, kSidePeak * most);
   style.widest_filled_px = 1.3 * std::max(style.thickness_px, last_filled) + 1;

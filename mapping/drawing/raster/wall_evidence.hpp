@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "mapping/drawing/raster/drawn_line.hpp"
@@ -14,7 +15,12 @@ struct WallStyle {
   double widest_empty_px = 0;   ///< two lines with nothing between are no wall beyond this distance
   double widest_filled_px = 0;  ///< the same with hatching or a solid fill between
   double bold_px = 0;           ///< a pen stroke at least this thick is a wall in itself
+  double wall_pen_px = 0;       ///< stroke that the faces of its walls are drawn with
+  bool pens_differ = false;     ///< much is drawn with a clearly finer pen than the walls
   double filled_share = 0;      ///< of the length of all wall-like strips: how much is filled or bold
+
+  /// A stroke up to this width is finer than the pen of the walls.
+  [[nodiscard]] double finer_than_px() const { return std::min(0.72 * wall_pen_px, wall_pen_px - 1); }
 };
 
 /// The peaks of the strip widths weighted by length. With no strips, 4 pens.
