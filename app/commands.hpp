@@ -10,6 +10,7 @@ namespace madori::app {
 void add_demo(CLI::App& app);
 void add_import(CLI::App& app);
 void add_localize(CLI::App& app);
+void add_relocalize(CLI::App& app);
 void add_route(CLI::App& app);
 void add_version(CLI::App& app);
 

@@ -25,6 +25,8 @@ bool same_place(const Pose& a, const Pose& b, double limit_m, double limit_rad) 
          std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < limit_rad;
 }
 
+constexpr double kBeamsThatErrTogether = 12.0;
+
 /// A place and a turn of the index.
 struct Cell {
   std::uint32_t place;
@@ -158,14 +160,16 @@ void GlobalLocalizer::weigh(const ScanPoints& points, double noise_m,
   const BeamBlocks beams(points, field);
   std::vector<std::uint32_t> sums(poses.size());
   sum_counts(poses, beams, field, sums);
-  const double per_count = log_likelihood_per_count(beams, field);
+  // Neighbouring beams err together: a scan of few is worth fewer than the model's.
+  const double effective =
+      std::min(field.model().effective_beams, static_cast<double>(beams.beams()) / kBeamsThatErrTogether);
+  const double per_count = log_likelihood_per_count(beams, field) * effective / field.model().effective_beams;
   BeamPathOptions path;
   path.end_margin_m = std::max(path.end_margin_m, 3.0 * noise_m);
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     Hypothesis& h = hypotheses[i];
     h.through_walls = share_through_walls(points, distance_, h.fit.map_from_base, path);
-    h.log_likelihood =
-        per_count * sums[i] - options_.through_wall_nats * fine_.model().effective_beams * h.through_walls;
+    h.log_likelihood = per_count * sums[i] - options_.through_wall_nats * effective * h.through_walls;
   }
 }
 
