@@ -179,8 +179,10 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
   const auto png =
       import_picture(plan.picture, found.walls, found.rejected, scaled ? std::optional(unit) : std::nullopt);
   change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
-  change.commit();
   stages.end(png.size());
+  stages.begin("commit", 0.98);
+  change.commit();
+  stages.end(1);
 
   report.walls = walls.size();
   for (const auto& wall : walls) report.wall_length += wall.segment.length_m();

@@ -19,8 +19,8 @@ namespace {
       error == ENOSPC ? "free some disk space and try again" : "check the folder and its permissions");
 }
 
-/// Writes, syncs and closes; false with errno on failure.
-bool write_and_sync(int descriptor, std::string_view content) {
+/// Writes, syncs where that is wanted, and closes; false with errno on failure.
+bool write_and_close(int descriptor, std::string_view content, bool sync) {
   bool good = true;
   while (good && !content.empty()) {
     const ssize_t written = ::write(descriptor, content.data(), content.size());
@@ -28,21 +28,36 @@ bool write_and_sync(int descriptor, std::string_view content) {
     good = written > 0;
     if (good) content.remove_prefix(static_cast<std::size_t>(written));
   }
-  good = good && ::fsync(descriptor) == 0;
+  good = good && (!sync || ::fsync(descriptor) == 0);
   const int error = errno;
   good = ::close(descriptor) == 0 && good;
   if (!good && error != 0) errno = error;
   return good;
 }
 
+/// Writes `path` anew; on failure it is removed and the Error names `file`.
+void write_whole(const std::string& path, const std::filesystem::path& file, std::string_view content,
+                 bool sync) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail(file, "cannot be written");
+  errno = 0;
+  if (write_and_close(descriptor, content, sync)) return;
+  const int error = errno;
+  ::unlink(path.c_str());
+  errno = error;
+  fail(file, "cannot be written");
+}
+
 }  // namespace
+
+void write_new_file(const std::filesystem::path& file, std::string_view content) {
+  write_whole(file.string(), file, content, false);
+}
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
   const std::string temporary = file.string() + ".tmp" + std::to_string(::getpid());
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor < 0) fail(file, "cannot be written");
-  errno = 0;
-  if (!write_and_sync(descriptor, content) || ::rename(temporary.c_str(), file.c_str()) != 0) {
+  write_whole(temporary, file, content, true);
+  if (::rename(temporary.c_str(), file.c_str()) != 0) {
     const int error = errno;
     ::unlink(temporary.c_str());
     errno = error;

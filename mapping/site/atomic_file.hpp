@@ -9,4 +9,7 @@ namespace madori::mapping {
 /// Throws Error (disk full, no permission) and leaves no temporary file behind.
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
+/// Writes a file that nobody reads yet; neither atomic nor synced. Throws Error as above, with nothing left.
+void write_new_file(const std::filesystem::path& file, std::string_view content);
+
 }  // namespace madori::mapping

@@ -102,7 +102,7 @@ fs::path SiteTransaction::staged(const std::string& name) {
 }
 
 void SiteTransaction::write(const std::string& name, std::string_view content) {
-  write_file_atomically(staged(name), content);
+  write_new_file(staged(name), content);  // commit() syncs it
 }
 
 void SiteTransaction::remove(const std::string& name) {

@@ -3,8 +3,11 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "core/result.hpp"
+#include "mapping/drawing/import_picture.hpp"
 #include "mapping/wall_map/occupancy_map.hpp"
 #include "mapping/wall_map/point_map.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -58,6 +61,32 @@ TEST(OccupancyMap, DrawsWallsUprightInMapServerFormat) {
   for (std::size_t i = 0; i < cells.size(); ++i)
     EXPECT_EQ(static_cast<unsigned char>(cells[i]), i < 40 ? 0 : 254) << i;
   EXPECT_NE(map.yaml.find("resolution: 0.05\n"), std::string::npos);
+}
+
+TEST(ImportPicture, WallsAreBlueRejectedLinesOrangePaperPale) {
+  GrayImage drawing{5000, 3000, std::vector<std::uint8_t>(15'000'000, 255), 0};
+  std::fill_n(drawing.pixels.begin() + 1000 * 5000, 5000 * 50, std::uint8_t{0});  // a black beam
+  const std::vector<PixelSegment> walls{{600, 600, 4400, 600}};
+  const std::vector<RejectedSegment> rejected{{{600, 2400, 4400, 2400}, RejectReason::Text}};
+  const auto png = import_picture(drawing, walls, rejected, 0.01);
+  const cv::Mat picture = cv::imdecode(png, cv::IMREAD_COLOR);
+  EXPECT_LE(picture.cols, 2400);
+  const double zoom = picture.cols / 5000.0;
+  const auto at = [&](double u, double v) {
+    return picture.at<cv::Vec3b>(static_cast<int>(v * zoom), static_cast<int>(u * zoom));
+  };
+  EXPECT_EQ(at(2000, 600), cv::Vec3b(150, 50, 0));       // BGR
+  EXPECT_GT(at(2000, 2400)[2], at(2000, 2400)[0] + 60);  // orange
+  EXPECT_EQ(at(2000, 1800), cv::Vec3b(255, 255, 255));
+  EXPECT_EQ(at(2000, 1025), cv::Vec3b(165, 165, 165));
+}
+
+TEST(ImportPicture, TheSmallestAndTheNarrowestDrawingHaveOneToo) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {30'000, 2}, {3, 20'000}}) {
+    const GrayImage drawing{width, height,
+                            std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height, 255), 0};
+    EXPECT_FALSE(cv::imdecode(import_picture(drawing, {}, {}, std::nullopt), cv::IMREAD_COLOR).empty());
+  }
 }
 
 }  // namespace
