@@ -77,7 +77,7 @@ DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& optio
   const Components marks(binary.ink);
   stages.end(marks.all().size());
   stages.begin("text", 0.2);
-  const double pen_px = pen_width_px(binary.ink, marks);
+  const double pen_px = pen_width_px(run_lengths(binary.ink, marks));
   const auto dashed = find_dashed(marks, pen_px);
   std::vector<bool> drop(marks.all().size(), false);
   for (const auto& dashes : dashed)
@@ -100,7 +100,11 @@ DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& optio
   fill_pores(binary.ink, pen_px);
   stages.end(texts.size() + dashed.size());
   stages.begin("strokes", 0.2);
-  Strokes strokes = split_strokes(binary.ink, pen_px, options.min_thickness_px);
+  const Components cleaned(binary.ink);
+  const double solid_px =
+      options.min_thickness_px.value_or(solid_from_px(run_lengths(binary.ink, cleaned), pen_px));
+  if (std::getenv("DUMP")) std::printf("solid %.1f\n", solid_px);
+  Strokes strokes = split_strokes(binary.ink, solid_px);
   stages.end(static_cast<std::size_t>(10 * pen_px));
   stages.begin("solid", 0.2);
   stages.picture(strokes.solid);
@@ -153,7 +157,7 @@ DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& optio
   reject_frame(drawn, evidence, style);
   reject_arcs(drawn, evidence, style);
   if (!options.keep_furniture) {
-    const auto small = on_small_marks(drawn, Components(binary.ink), style);
+    const auto small = on_small_marks(drawn, cleaned, style);
     for (std::size_t i = 0; i < drawn.size(); ++i)
       if (small[i] && !drawn[i].rejected) drawn[i].rejected = RejectReason::Furniture;
   }

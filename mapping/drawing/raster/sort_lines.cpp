@@ -25,6 +25,7 @@ constexpr double kSingleBelow = 0.2;  // share of paired length
 constexpr double kHeldFromClean = 6;
 constexpr double kHeldFromCluttered = 25;
 constexpr double kFinePen = 0.72;  // of the wall's pen
+constexpr double kPenFillFactor = 3;
 constexpr double kHeavyStub = 3;
 constexpr double kFinePenFactor = 2.5;
 constexpr double kEndReach = 1.5;
@@ -113,6 +114,11 @@ class Sorter {
     }
     return all > 0 ? paired / all : 0;
   }
+  /// Two pen lines with something between are furniture more often than the two faces of a solid fill are.
+  [[nodiscard]] double filled_from(std::size_t i) const {
+    const bool heavy = style_.pens_differ && thin_pen(i) == 1;
+    return lines_[i].solid_face || heavy ? filled_from_ : kPenFillFactor * filled_from_;
+  }
   /// Lines thinner than the pen of the walls must be longer: draughtsmen draw furniture with a finer one.
   [[nodiscard]] double thin_pen(std::size_t i) const {
     return !lines_[i].solid_face &&
@@ -124,7 +130,7 @@ class Sorter {
     const double length = units_[i].length;
     const Evidence& e = units_[i].evidence;
     const double width = std::max(e.width_px, 0.4 * t_) * thin_pen(i);
-    if (e.filled_px >= filled_from_ * e.width_px && e.filled_px >= kPairedShare * length) return true;
+    if (e.filled_px >= filled_from(i) * e.width_px && e.filled_px >= kPairedShare * length) return true;
     if (e.paired_px >= paired_from_ * width && e.paired_px >= kPairedShare * length) return true;
     return !filled_style_ && length >= long_from_ * t_ * thin_pen(i);
   }
@@ -133,7 +139,7 @@ class Sorter {
     const double length = units_[i].length;
     const Evidence& e = units_[i].evidence;
     const double width = std::max(e.width_px, 0.4 * t_) * thin_pen(i);
-    const bool filled = e.filled_px >= kPairedShare * length && length >= 0.4 * filled_from_ * e.width_px;
+    const bool filled = e.filled_px >= kPairedShare * length && length >= 0.4 * filled_from(i) * e.width_px;
     const bool paired =
         e.paired_px >= kPairedShare * length &&
         length >= (style_.pens_differ && thin_pen(i) == 1 ? kHeavyStub : 0.5 * paired_from_) * width;

@@ -1,7 +1,6 @@
 #include "mapping/drawing/raster/strokes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -11,10 +10,11 @@ namespace madori::mapping {
 namespace {
 
 constexpr int kLongestRun = 64;
+constexpr double kLeastSolid = 4, kMostSolid = 8;  // pixels
+constexpr double kLeastPens = 2, kMostPens = 4;
 constexpr int kColumnStep = 7;  // a sample of the columns is enough, and a column walk is slow on memory
-using Histogram = std::array<double, kLongestRun + 2>;
 
-void count_down(const GrayImage& ink, int u, Histogram& runs) {
+void count_down(const GrayImage& ink, int u, RunLengths& runs) {
   int length = 0;
   for (int v = 0; v < ink.height_px; ++v) {
     if (ink.at(u, v) != 0) {
@@ -38,11 +38,15 @@ void grow_or_shrink(cv::Mat& picture, int radius, bool grow) {
 
 }  // namespace
 
-double pen_width_px(const GrayImage& ink, const Components& marks) {
-  Histogram runs{};
+RunLengths run_lengths(const GrayImage& ink, const Components& marks) {
+  RunLengths runs(kLongestRun + 2, 0);
   for (const Run& run : marks.runs())
     if (run.length() <= kLongestRun) runs[static_cast<std::size_t>(run.length())] += 1;
   for (int u = 0; u < ink.width_px; u += kColumnStep) count_down(ink, u, runs);
+  return runs;
+}
+
+double pen_width_px(const RunLengths& runs) {
   const auto peak = std::max_element(runs.begin() + 1, runs.end() - 1);
   const double around = peak[-1] + peak[0] + peak[1];
   if (around <= 0) return 1;
@@ -50,11 +54,20 @@ double pen_width_px(const GrayImage& ink, const Components& marks) {
   return at + (peak[1] - peak[-1]) / around;
 }
 
-Strokes split_strokes(const GrayImage& ink, double pen_px, std::optional<double> solid_from_px) {
-  Strokes strokes{blank_like(ink), blank_like(ink), solid_from_px.value_or(std::max(7.0, 2.5 * pen_px))};
+double solid_from_px(const RunLengths& runs, double pen_px) {
+  const auto first = static_cast<std::size_t>(std::ceil(std::max(kLeastSolid, kLeastPens * pen_px)));
+  const auto last = static_cast<std::size_t>(std::max(kMostSolid, kMostPens * pen_px));
+  std::size_t best = first;
+  for (std::size_t i = first; i <= std::min(last, runs.size() - 2); ++i)
+    if (runs[i - 1] + runs[i] < 0.9 * (runs[best - 1] + runs[best])) best = i;
+  return static_cast<double>(best);
+}
+
+Strokes split_strokes(const GrayImage& ink, double solid_from_px) {
+  Strokes strokes{blank_like(ink), blank_like(ink), solid_from_px};
   cv::Mat solid = cv_view(strokes.solid), thin = cv_view(strokes.thin);
   const cv::Mat all = cv_view(ink);
-  const int radius = std::max(1, static_cast<int>(std::lround((strokes.solid_from_px - 1) / 2)));
+  const int radius = std::max(1, static_cast<int>((strokes.solid_from_px - 1) / 2));
   all.copyTo(solid);
   grow_or_shrink(solid, radius, false);
   if (cv::countNonZero(solid) > 0) {

@@ -1,14 +1,23 @@
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "mapping/drawing/gray_image.hpp"
 #include "mapping/drawing/raster/components.hpp"
 
 namespace madori::mapping {
 
-/// The width of the thin pen: the commonest length of ink runs across and down, pixels.
-[[nodiscard]] double pen_width_px(const GrayImage& ink, const Components& marks);
+/// How often ink runs of each length occur, across (all) and down (a sample, scaled up): element i counts
+/// length i. A straight stroke shows with its thickness, once for every pixel of its length.
+using RunLengths = std::vector<double>;
+[[nodiscard]] RunLengths run_lengths(const GrayImage& ink, const Components& marks);
+
+/// The width of the thin pen: the commonest run length, pixels.
+[[nodiscard]] double pen_width_px(const RunLengths& runs);
+
+/// The thickness from which a stroke counts as solid: the emptiest place of the run lengths between the pen
+/// and four pens, so that no kind of wall in this drawing lies astride of it.
+[[nodiscard]] double solid_from_px(const RunLengths& runs, double pen_px);
 
 /// Ink split by thickness: walls drawn as solid fills, and lines drawn with a pen.
 struct Strokes {
@@ -17,7 +26,7 @@ struct Strokes {
   double solid_from_px = 0;
 };
 
-/// A disc-like opening (box, then diamond) of the ink. Without `solid_from_px` 2.5 pens, at least 7 pixels.
-[[nodiscard]] Strokes split_strokes(const GrayImage& ink, double pen_px, std::optional<double> solid_from_px);
+/// A disc-like opening (box, then diamond) of the ink.
+[[nodiscard]] Strokes split_strokes(const GrayImage& ink, double solid_from_px);
 
 }  // namespace madori::mapping
