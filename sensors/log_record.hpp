@@ -26,7 +26,21 @@ struct CloudRecord {
   std::string source;  ///< vlp16, or the topic
   PointCloud<Lidar> cloud;
   Transform2<Base, Lidar> base_from_lidar;
+  double lidar_height_m = 0.0;  ///< of the lidar above the floor
 };
+
+/// The cloud as the vehicle sees it: on the floor, z up.
+[[nodiscard]] inline PointCloud<Base> cloud_in_base(const CloudRecord& record) {
+  PointCloud<Base> cloud{record.cloud.stamp, record.cloud.points};
+  for (CloudPoint& p : cloud.points) {
+    const Point2<Base> q =
+        record.base_from_lidar * Point2<Lidar>{static_cast<double>(p.x_m), static_cast<double>(p.y_m)};
+    p.x_m = static_cast<float>(q.x_m);
+    p.y_m = static_cast<float>(q.y_m);
+    p.z_m += static_cast<float>(record.lidar_height_m);
+  }
+  return cloud;
+}
 
 using LogRecord = std::variant<OdometryReading, ScanRecord, CloudRecord>;
 

@@ -46,7 +46,7 @@ class Vlp16LogReader final : public LogReader {
       look_ahead(cloud.stamp + kWheelsAhead);
       deskew(cloud, options_.base_from_lidar, track_);
     }
-    return CloudRecord{"vlp16", std::move(cloud), options_.base_from_lidar};
+    return CloudRecord{"vlp16", std::move(cloud), options_.base_from_lidar, options_.lidar_height_m};
   }
 
  private:
@@ -121,6 +121,7 @@ std::unique_ptr<LogReader> open_log(const std::filesystem::path& file, const Log
   if (extension == ".bag") {
     BagOptions bag = options.bag;
     bag.base_from_lidar = options.base_from_lidar;
+    bag.lidar_height_m = options.lidar_height_m;
     return std::make_unique<TimeOrderedReader>(std::make_unique<BagReader>(file, bag), kBagDisorder);
   }
   throw Error(file.string(), "has an extension that is no log's",

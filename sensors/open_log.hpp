@@ -13,8 +13,9 @@ struct LogOptions {
   std::filesystem::path wheels;             ///< `time_s,left_rad,right_rad`, beside a .pcap
   WheelGeometry geometry;                   ///< what the wheels' angles mean
   Transform2<Base, Lidar> base_from_lidar;  ///< mounting, for .pcap and .bag; CARMEN logs tell it themselves
+  double lidar_height_m = 0.0;              ///< of the lidar above the floor
   bool deskew = true;                       ///< move a cloud's points to its stamp, where there is odometry
-  BagOptions bag;                           ///< topics; its base_from_lidar is taken from above
+  BagOptions bag;                           ///< topics; its mounting is taken from above
 };
 
 /// Opens a log by its extension: .log, .clf, .carmen (CARMEN), .bag (ROS 1), .pcap, .pcapng (VLP-16, with

@@ -8,12 +8,12 @@
 
 #include "app/commands.hpp"
 #include "app/json_output.hpp"
+#include "app/log_options.hpp"
 #include "app/log_player.hpp"
 #include "app/trajectory_file.hpp"
 #include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
-#include "sensors/carmen/reader.hpp"
 
 namespace madori::app {
 namespace {
@@ -21,6 +21,7 @@ namespace {
 struct LocalizeArguments {
   std::string site;
   std::string log;
+  std::string wheels;
   std::string initial;
   std::string out;
   std::string json_file;
@@ -48,13 +49,13 @@ double percentile(std::vector<double> values, double share) {
 
 void localize(const LocalizeArguments& arguments) {
   const std::filesystem::path folder(arguments.site);
-  (void)mapping::load_scaled_site(folder);
+  const mapping::Site site = mapping::load_scaled_site(folder);
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
   localization::Localizer localizer(walls, {parse_pose(arguments.initial)});
-  sensors::carmen::CarmenReader log(arguments.log);
+  const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   std::string trajectory = "# timestamp x y z qx qy qz qw, Map frame\n";
   const PlayedLog played = play_log(
-      log, localizer, [&](const PoseEstimate& e) { trajectory += tum_line(e.stamp, e.map_from_base); });
+      *log, localizer, [&](const PoseEstimate& e) { trajectory += tum_line(e.stamp, e.map_from_base); });
   mapping::write_file_atomically(arguments.out, trajectory);
   const nlohmann::json result = {{"scans", played.scans},
                                  {"odometry_records", played.odometry_records},
@@ -73,7 +74,11 @@ void add_localize(CLI::App& app) {
   auto arguments = std::make_shared<LocalizeArguments>();
   CLI::App* command = app.add_subcommand("localize", "where the vehicle of a log was on the site's drawing");
   command->add_option("site", arguments->site, "site folder")->required()->check(CLI::ExistingDirectory);
-  command->add_option("--log", arguments->log, "CARMEN log")->required()->check(CLI::ExistingFile);
+  command->add_option("--log", arguments->log, "CARMEN .log, ROS 1 .bag or VLP-16 .pcap")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--wheels", arguments->wheels, "time_s,left_rad,right_rad; for a .pcap")
+      ->check(CLI::ExistingFile);
   command->add_option("--initial", arguments->initial, "pose at the start, \"x y yaw_deg\", Map frame")
       ->required();
   command->add_option("--out", arguments->out, "trajectory to write (TUM), a pose a record")->required();

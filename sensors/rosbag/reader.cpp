@@ -105,7 +105,8 @@ std::optional<LogRecord> BagReader::next() {
   sinks.cloud = [&](const std::string& topic, const bridge::Cloud& in) {
     auto cloud = cloud_from_fields(in);
     if (!cloud) refuse(topic, in.stamp_ns, cloud.reason());
-    ready_.emplace_back(CloudRecord{topic, std::move(cloud).value(), options_.base_from_lidar});
+    ready_.emplace_back(
+        CloudRecord{topic, std::move(cloud).value(), options_.base_from_lidar, options_.lidar_height_m});
   };
   sinks.odometry = [&](const std::string& topic, const bridge::Pose& in) {
     const auto reading = convert(in);

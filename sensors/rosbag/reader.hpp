@@ -20,6 +20,7 @@ struct BagOptions {
   std::string cloud_topic;     ///< empty: the bag's only one, or /velodyne_points
   std::string odometry_topic;  ///< empty: the bag's only one, or /odom
   Transform2<Base, Lidar> base_from_lidar;
+  double lidar_height_m = 0.0;
 };
 
 /// Reads a ROS 1 bag: sensor_msgs/LaserScan, sensor_msgs/PointCloud2, nav_msgs/Odometry, in the order of
