@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "simulation/lidar/echo.hpp"
+#include "simulation/lidar/view.hpp"
+
+namespace madori::simulation {
+
+/// The mechanics of a 2D scanner of 270 deg in 541 beams: the mirror turns evenly, beam i at
+/// -135 deg + i / 2.
+struct PlaneScannerOptions {
+  Duration period{};  ///< of one turn
+  EchoOptions echo;
+  std::uint64_t stream = 0;  ///< of the random numbers
+};
+
+class PlaneScanner {
+ public:
+  static constexpr std::size_t kBeams = 541;
+
+  PlaneScanner(const mapping::SensorRecord& mounting, const PlaneScannerOptions& options, std::uint64_t seed)
+      : mounting_(mounting), options_(options), seed_(seed) {}
+
+  /// When the next scan begins, and when its last beam is fired, since the start.
+  [[nodiscard]] Duration next_start() const { return options_.period * static_cast<std::int64_t>(scan_); }
+  [[nodiscard]] Duration next_complete() const { return next_start() + options_.period * 3 / 4; }
+  [[nodiscard]] std::uint64_t scans() const { return scan_; }
+  /// The next scan's echoes, beam by beam. Precondition: the view's track reaches next_complete().
+  [[nodiscard]] const std::vector<Echo>& measure(const View& view);
+
+ private:
+  mapping::SensorRecord mounting_;
+  PlaneScannerOptions options_;
+  std::uint64_t seed_;
+  std::uint64_t scan_ = 0;
+  BeamBatch beams_;
+  std::vector<Echo> echoes_;
+};
+
+}  // namespace madori::simulation

@@ -1,0 +1,98 @@
+#include "simulation/lidar/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace madori::simulation {
+namespace {
+
+constexpr Duration kKept = std::chrono::milliseconds(200);
+
+Ray ray_of(const RayPacket& p, std::size_t lane) {
+  return {p.x_m[lane], p.y_m[lane], p.z_m[lane], p.dx[lane], p.dy[lane], p.dz[lane]};
+}
+
+}  // namespace
+
+void PoseTrack::add(Duration time, const Transform2<Building, Base>& pose) {
+  poses_.push_back({time, pose});
+  while (poses_.size() > 2 && poses_[1].time < time - kKept) poses_.pop_front();
+}
+
+Transform2<Building, Base> PoseTrack::at(Duration time) const {
+  const auto after = std::lower_bound(poses_.begin(), poses_.end(), time,
+                                      [](const Entry& e, Duration t) { return e.time < t; });
+  if (after == poses_.end()) return poses_.back().pose;
+  if (after == poses_.begin() || after->time == time) return after->pose;
+  const Entry &a = *(after - 1), &b = *after;
+  const double t =
+      static_cast<double>((time - a.time).count()) / static_cast<double>((b.time - a.time).count());
+  return {a.pose.x_m() + t * (b.pose.x_m() - a.pose.x_m()), a.pose.y_m() + t * (b.pose.y_m() - a.pose.y_m()),
+          a.pose.yaw_rad() + t * wrap_angle(b.pose.yaw_rad() - a.pose.yaw_rad())};
+}
+
+SensorPose sensor_pose(const World& world, const Transform2<Building, Base>& pose,
+                       const mapping::SensorRecord& mounting) {
+  const FloorAt floor = world.floor_at(pose.translation());
+  // Base axes on the slope: x along the heading, z the floor's normal, y the rest.
+  const double rise = floor.slope_x * pose.cos_yaw() + floor.slope_y * pose.sin_yaw();
+  const double forward = std::sqrt(1.0 + rise * rise);
+  const std::array<double, 3> x{pose.cos_yaw() / forward, pose.sin_yaw() / forward, rise / forward};
+  const double up = std::sqrt(1.0 + floor.slope_x * floor.slope_x + floor.slope_y * floor.slope_y);
+  const std::array<double, 3> z{-floor.slope_x / up, -floor.slope_y / up, 1.0 / up};
+  const std::array<double, 3> y{z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2],
+                                z[0] * x[1] - z[1] * x[0]};
+  const double c = std::cos(to_rad(mounting.yaw_deg)), s = std::sin(to_rad(mounting.yaw_deg));
+  SensorPose result;
+  const std::array<double, 3> base{pose.x_m(), pose.y_m(), floor.z_m};
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.origin_m[i] = base[i] + x[i] * mounting.x_m + y[i] * mounting.y_m + z[i] * mounting.z_m;
+    result.rotation[3 * i] = x[i] * c + y[i] * s;
+    result.rotation[3 * i + 1] = y[i] * c - x[i] * s;
+    result.rotation[3 * i + 2] = z[i];
+  }
+  return result;
+}
+
+void BeamBatch::reset(std::size_t count) {
+  count_ = count;
+  const std::size_t packets = (count + RayPacket::kLanes - 1) / RayPacket::kLanes;
+  packets_.resize(packets);
+  hits_.assign(packets * RayPacket::kLanes, Hit{});
+  if (count % RayPacket::kLanes == 0 || packets == 0) return;
+  RayPacket& last = packets_.back();
+  for (std::size_t lane = count % RayPacket::kLanes; lane < RayPacket::kLanes; ++lane)
+    last.dx[lane] = last.dy[lane] = 0.0F, last.dz[lane] = 1.0F;
+}
+
+void BeamBatch::cast(const RayCaster& rays, const std::vector<Body>& bodies, float range_max_m) {
+  for (std::size_t i = 0; i < packets_.size(); ++i)
+    rays.cast(packets_[i],
+              std::span<Hit, RayPacket::kLanes>(&hits_[i * RayPacket::kLanes], RayPacket::kLanes));
+  for (const Body& body : bodies) cast_body(body, range_max_m);
+}
+
+void BeamBatch::cast_body(const Body& body, float range_max_m) {
+  const double reach = body.reach_m() + 0.05;
+  for (std::size_t p = 0; p < packets_.size(); ++p) {
+    const RayPacket& packet = packets_[p];
+    const double bx = body.centre.x_m - packet.x_m[0], by = body.centre.y_m - packet.y_m[0];
+    if (bx * bx + by * by > (range_max_m + reach) * (range_max_m + reach)) return;
+    for (std::size_t lane = 0; lane < RayPacket::kLanes; ++lane) {
+      const std::size_t i = p * RayPacket::kLanes + lane;
+      if (i >= count_) return;
+      // Floor distance of the ray's line from the body's middle, times the ray's floor length.
+      const double dx = packet.dx[lane], dy = packet.dy[lane];
+      const double beside = bx * dy - by * dx, length_squared = dx * dx + dy * dy;
+      if (beside * beside > reach * reach * length_squared) continue;
+      const float range = range_to(body, ray_of(packet, lane));
+      if (range >= hits_[i].range_m) continue;
+      hits_[i].range_m = range;
+      hits_[i].material = body.material;
+      hits_[i].incidence_cos = 1.0F;
+      if (hits_[i].glass_m > range) hits_[i].glass_m = Hit::kNothing;
+    }
+  }
+}
+
+}  // namespace madori::simulation

@@ -1,0 +1,126 @@
+#include "simulation/sensor_suite.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sensors/lms1xx/encode.hpp"
+#include "sensors/s300/encode.hpp"
+#include "sensors/vlp16/encode.hpp"
+
+namespace madori::simulation {
+namespace {
+
+namespace lms1xx = sensors::lms1xx;
+namespace s300 = sensors::s300;
+
+constexpr Duration kLmsPeriod = std::chrono::milliseconds(20);
+constexpr Duration kS300Period = std::chrono::milliseconds(40);
+constexpr Duration kHour = std::chrono::hours(1);
+constexpr std::uint64_t kLmsStream = 0x1115, kS300Stream = 0x300;
+
+const char* type_of(Device device) {
+  return device == Device::Drive ? "" : to_string(device);
+}
+
+std::uint16_t rssi(const Echo& echo) {
+  return echo.range_m == Hit::kNothing ? std::uint16_t{0} : reflectivity(echo.material);
+}
+
+}  // namespace
+
+std::vector<mapping::SensorRecord> default_sensors(const mapping::VehicleRecord& vehicle) {
+  const double front = vehicle.length_m - vehicle.base_to_rear_m;
+  return {{"top", "vlp16", front / 2.0, 0.0, 1.2, 0.0},
+          {"front", "lms1xx", front - 0.05, 0.0, 0.35, 0.0},
+          {"safety", "s300", front - 0.02, 0.0, 0.15, 0.0}};
+}
+
+SensorSuite::SensorSuite(const Scenario& scenario, const mapping::VehicleRecord& vehicle,
+                         const std::vector<mapping::SensorRecord>& sensors, std::uint64_t seed, Stamp epoch)
+    : scenario_(scenario), vehicle_(vehicle), sensors_(sensors.empty() ? default_sensors(vehicle) : sensors) {
+  if (const auto top = mounting(Device::Vlp16))
+    vlp16_.emplace(*top, scenario.vlp16, seed, epoch.time_since_epoch() % kHour);
+  if (const auto front = mounting(Device::Lms1xx)) {
+    const EchoOptions echo{static_cast<float>(scenario.lms1xx.noise_m), scenario.lms1xx.dropout, 0.05F,
+                           static_cast<float>(scenario.lms1xx.range_max_m)};
+    lms_.emplace(*front, PlaneScannerOptions{kLmsPeriod, echo, kLmsStream}, seed);
+  }
+  if (const auto safety = mounting(Device::S300)) {
+    const EchoOptions echo{static_cast<float>(scenario.s300.noise_m), scenario.s300.dropout, 0.05F,
+                           static_cast<float>(scenario.s300.range_max_m)};
+    s300_.emplace(*safety, PlaneScannerOptions{kS300Period, echo, kS300Stream}, seed);
+  }
+}
+
+std::optional<mapping::SensorRecord> SensorSuite::mounting(Device device) const {
+  const auto found = std::find_if(sensors_.begin(), sensors_.end(),
+                                  [&](const auto& s) { return s.type == type_of(device); });
+  return found == sensors_.end() ? std::nullopt : std::optional(*found);
+}
+
+void SensorSuite::measure_until(Duration now, const View& view, Mailbox& out) {
+  while (vlp16_ && vlp16_->next_complete() <= now) {
+    const Duration due = vlp16_->next_complete();
+    const auto bytes = sensors::vlp16::encode(vlp16_->measure(view));
+    out.send(Device::Vlp16, {bytes.begin(), bytes.end()}, due);
+  }
+  while (lms_ && lms_->next_complete() <= now) {
+    const Duration start = lms_->next_start(), due = lms_->next_complete();
+    out.send(Device::Lms1xx, lms_telegram(lms_->measure(view), start, due), due);
+  }
+  while (s300_ && s300_->next_complete() <= now) {
+    const Duration due = s300_->next_complete();
+    const bool standby = out.active(FaultKind::Standby, Device::S300, to_seconds(due)) != nullptr;
+    out.send(Device::S300, s300_telegram(s300_->measure(view), standby), due);
+  }
+}
+
+std::vector<std::uint8_t> SensorSuite::lms_telegram(const std::vector<Echo>& echoes, Duration start,
+                                                    Duration now) {
+  lms1xx::ScanData data;
+  const std::uint64_t number = lms_->scans();
+  data.telegram_counter = data.scan_counter = static_cast<std::uint16_t>(number);
+  data.scan_time_us = static_cast<std::uint32_t>(start.count() / 1000);
+  data.transmit_time_us = static_cast<std::uint32_t>(now.count() / 1000);
+  lms1xx::Channel<std::uint16_t> distance{{'D', 'I', 'S', 'T', '1'}, 1.0F, 0.0F, -450'000, 5'000, {}};
+  lms1xx::Channel<std::uint8_t> strength{{'R', 'S', 'S', 'I', '1'}, 1.0F, 0.0F, -450'000, 5'000, {}};
+  for (const Echo& echo : echoes) {
+    const bool seen = echo.range_m != Hit::kNothing;
+    distance.values.push_back(seen ? static_cast<std::uint16_t>(std::lround(echo.range_m * 1000.0F))
+                                   : std::uint16_t{0});
+    strength.values.push_back(static_cast<std::uint8_t>(rssi(echo)));
+  }
+  data.channels16.push_back(std::move(distance));
+  data.channels8.push_back(std::move(strength));
+  return lms1xx::encode(scenario_.lms1xx.binary ? lms1xx::Dialect::B : lms1xx::Dialect::A, data);
+}
+
+std::uint16_t SensorSuite::field_bits(float range_m, double angle_rad) const {
+  const auto at = *mounting(Device::S300);
+  const Transform2<Base, Lidar> base_from_lidar(at.x_m, at.y_m, to_rad(at.yaw_deg));
+  const Point2<Base> p =
+      base_from_lidar * Point2<Lidar>{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)};
+  const double front = vehicle_.length_m - vehicle_.base_to_rear_m;
+  if (std::abs(p.y_m) > vehicle_.width_m / 2.0 + scenario_.s300.side_m || p.x_m < front - 0.1) return 0;
+  std::uint16_t bits = 0;
+  if (p.x_m < front + scenario_.s300.protective_m) bits |= s300::kProtectiveField;
+  if (p.x_m < front + scenario_.s300.warning_m) bits |= s300::kWarningField;
+  return bits;
+}
+
+std::vector<std::uint8_t> SensorSuite::s300_telegram(const std::vector<Echo>& echoes, bool standby) {
+  s300::Telegram telegram;
+  telegram.scan_number = static_cast<std::uint32_t>(s300_->scans());
+  telegram.telegram_number = static_cast<std::uint16_t>(s300_->scans());
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    const float range_m = echoes[i].range_m;
+    std::uint16_t value = s300::kDistanceMask;  // 81.91 m: nothing seen
+    if (range_m != Hit::kNothing)
+      value = static_cast<std::uint16_t>(static_cast<std::uint16_t>(std::lround(range_m * 100.0F)) |
+                                         field_bits(range_m, to_rad(-135.0 + 0.5 * static_cast<double>(i))));
+    telegram.values.push_back(standby ? s300::kStandbyValue : value);
+  }
+  return s300::encode(telegram);
+}
+
+}  // namespace madori::simulation
