@@ -69,9 +69,10 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     const PointCloud<Base> base = in_base(cloud, state.track, config);
     state.lidar_heard = input.now;
     output.computed_lidar = true;
-    state.pose = state.localization->on_cloud(base);
     const auto odom_from_base =
         state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);
+    state.localization->on_cloud(base, odom_from_base);
+    state.pose = state.localization->on_odometry(state.odometry.reading());
     state.obstacles.update(base, config.lidar, odom_from_base);
     state.movers.update(state.obstacles.columns(), base.stamp);
   }

@@ -14,9 +14,11 @@ class PoseSource {
   PoseSource& operator=(const PoseSource&) = delete;
   virtual ~PoseSource() = default;
 
+  /// The pose at a reading of the wheels.
   virtual PoseEstimate on_odometry(const OdometryReading& reading) = 0;
-  /// One revolution, Base frame, already compensated for the motion during it.
-  virtual PoseEstimate on_cloud(const PointCloud<Base>& cloud) = 0;
+  /// One revolution, Base frame at its stamp, already compensated for the motion during it; `odom_from_base`
+  /// is where the wheels were at that stamp. What was learned shows in the next on_odometry().
+  virtual void on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base) = 0;
 };
 
 }  // namespace madori::app

@@ -92,6 +92,8 @@ std::vector<Topic> Input::topics() const {
       topic.kind = Kind::Cloud;
     else if (is<nav_msgs::Odometry>(connection->datatype))
       topic.kind = Kind::Odometry;
+    else if (is<std_msgs::String>(connection->datatype))
+      topic.kind = Kind::Text;
     else if (!is<sensor_msgs::LaserScan>(connection->datatype))
       continue;
     const bool known =
@@ -118,6 +120,8 @@ bool Input::next(const Sinks& sinks) {
     sinks.cloud(message.getTopic(), from_message(*cloud));
   else if (const auto odometry = message.instantiate<nav_msgs::Odometry>())
     sinks.odometry(message.getTopic(), from_message(*odometry));
+  else if (const auto text = message.instantiate<std_msgs::String>(); text && sinks.text)
+    sinks.text(message.getTopic(), text->data);
   return true;
 }
 

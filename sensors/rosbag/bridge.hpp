@@ -39,7 +39,7 @@ struct Cloud {
   std::vector<std::uint8_t> data;
 };
 
-enum class Kind { Scan, Cloud, Odometry };
+enum class Kind { Scan, Cloud, Odometry, Text };
 
 struct Topic {
   std::string name;
@@ -55,7 +55,7 @@ class Input {
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
 
-  /// Topics of the three kinds.
+  /// Topics of these kinds.
   [[nodiscard]] std::vector<Topic> topics() const;
   /// Reads these topics only, in the order of recording.
   void choose(const std::vector<std::string>& topics);
@@ -64,6 +64,7 @@ class Input {
     std::function<void(const std::string& topic, const Scan&)> scan;
     std::function<void(const std::string& topic, const Cloud&)> cloud;
     std::function<void(const std::string& topic, const Pose&)> odometry;
+    std::function<void(const std::string& topic, const std::string& text)> text;
   };
   /// Hands the next message to its sink; false at the end.
   bool next(const Sinks& sinks);

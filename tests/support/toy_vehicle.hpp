@@ -21,7 +21,7 @@ class TruePose : public app::PoseSource {
  public:
   explicit TruePose(const RollingVehicle& vehicle) : vehicle_(vehicle) {}
   PoseEstimate on_odometry(const OdometryReading& reading) override { return now(reading.stamp); }
-  PoseEstimate on_cloud(const PointCloud<Base>& cloud) override { return now(cloud.stamp); }
+  void on_cloud(const PointCloud<Base>& /*cloud*/, const Transform2<Odom, Base>& /*odom*/) override {}
   LocalizationState state = LocalizationState::Localized;
 
  private:
@@ -60,6 +60,7 @@ class ToyVehicle {
     auto [after, out] = app::step(std::move(state_), input, config);
     state_ = std::move(after);
     output = std::move(out);
+    if (on_step) on_step(input, output, state_);
     answer(micros);
   }
 
@@ -75,6 +76,10 @@ class ToyVehicle {
   void say(app::OperatorWord word) { commands.push_back({word, {}}); }
   void drive_to(std::vector<app::OrderStop> stops, int repeat = 1) {
     order = app::Order{++orders_, std::move(stops), repeat, app::OrderState::Running, 0, 0, ""};
+  }
+  void set_source(std::unique_ptr<app::PoseSource> source) {
+    pose = nullptr;
+    state_.localization = std::move(source);
   }
   [[nodiscard]] bool delivered() const { return order && order->state == app::OrderState::Done; }
   [[nodiscard]] const app::CycleState& state() const { return state_; }
@@ -111,6 +116,7 @@ class ToyVehicle {
   std::vector<VelocityCommand> driven;  ///< the command of every step
   std::vector<std::string> events;
   std::function<void()> each_step;
+  std::function<void(const app::CycleInput&, const app::CycleOutput&, const app::CycleState&)> on_step;
   TruePose* pose = nullptr;
 
  private:

@@ -185,7 +185,7 @@ TEST(AutonomyCycle, RecordedInputsGiveTheSameCommandsBitForBit) {
   class Recorded : public PoseSource {
    public:
     PoseEstimate on_odometry(const OdometryReading& reading) override { return at(reading.stamp); }
-    PoseEstimate on_cloud(const PointCloud<Base>& cloud) override { return at(cloud.stamp); }
+    void on_cloud(const PointCloud<Base>& /*cloud*/, const Transform2<Odom, Base>& /*odom*/) override {}
     Transform2<Map, Base> pose;
 
    private:

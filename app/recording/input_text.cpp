@@ -1,0 +1,133 @@
+#include "app/recording/input_text.hpp"
+
+#include <array>
+#include <bit>
+#include <nlohmann/json.hpp>
+
+#include "core/result.hpp"
+
+namespace madori::app {
+namespace {
+
+using nlohmann::json;
+
+/// The bits of a number: JSON knows no infinity, and a speed limit may be infinite.
+std::uint64_t bits(double value) {
+  return std::bit_cast<std::uint64_t>(value);
+}
+double from_bits(const json& value) {
+  return std::bit_cast<double>(value.get<std::uint64_t>());
+}
+
+json status_json(const control::wire::Status& status) {
+  std::array<std::uint8_t, control::wire::kMaxFrame> frame{};
+  const std::size_t size = control::wire::encode(status, frame.data());
+  return std::vector<std::uint8_t>(frame.data(), frame.data() + size - 1);
+}
+control::wire::Status status_from(const json& value) {
+  const auto frame = value.get<std::vector<std::uint8_t>>();
+  control::wire::Status status;
+  if (control::wire::decode(frame.data(), frame.size(), status) != control::wire::Verdict::Good)
+    throw Error("recording", "holds a damaged status of the drive", "use another recording");
+  return status;
+}
+
+json order_json(const Order& order) {
+  json stops = json::array();
+  for (const OrderStop& stop : order.stops)
+    stops.push_back({stop.node, static_cast<int>(stop.action), bits(stop.wait_s)});
+  return {{"id", order.id},         {"stops", stops},
+          {"repeat", order.repeat}, {"state", static_cast<int>(order.state)},
+          {"round", order.round},   {"next", order.next_stop},
+          {"note", order.note}};
+}
+Order order_from(const json& value) {
+  Order order{value.at("id"),     {},
+              value.at("repeat"), static_cast<OrderState>(value.at("state").get<int>()),
+              value.at("round"),  value.at("next"),
+              value.at("note")};
+  for (const json& stop : value.at("stops"))
+    order.stops.push_back(
+        {stop.at(0), static_cast<StopAction>(stop.at(1).get<int>()), from_bits(stop.at(2))});
+  return order;
+}
+
+json detour_json(const planning::DetourAnswer& answer) {
+  json value{{"id", answer.id}, {"rejoin", answer.rejoin}, {"reason", answer.reason}};
+  if (!answer.path) return value;
+  json points = json::array();
+  for (const PathPoint& p : answer.path->points)
+    points.push_back({bits(p.position.x_m), bits(p.position.y_m), bits(p.heading_rad),
+                      bits(p.curvature_per_m), bits(p.speed_limit_mps)});
+  value["path"] = std::move(points);
+  return value;
+}
+planning::DetourAnswer detour_from(const json& value) {
+  planning::DetourAnswer answer{value.at("id"), std::nullopt, value.at("rejoin"), value.at("reason")};
+  if (!value.contains("path")) return answer;
+  answer.path.emplace();
+  for (const json& p : value.at("path"))
+    answer.path->points.push_back({{from_bits(p.at(0)), from_bits(p.at(1))},
+                                   from_bits(p.at(2)),
+                                   from_bits(p.at(3)),
+                                   from_bits(p.at(4))});
+  return answer;
+}
+
+json parsed(const std::string& text) {
+  json value = json::parse(text, nullptr, false);
+  if (value.is_discarded())
+    throw Error("recording", "holds a step that is no JSON", "was it written by a newer Madori?");
+  return value;
+}
+
+}  // namespace
+
+std::string input_text(const CycleInput& input) {
+  json value{{"now", input.now.time_since_epoch().count()}, {"clouds", input.clouds.size()}};
+  for (const auto& status : input.drive) value["drive"].push_back(status_json(status));
+  if (input.protective_stop) value["protective_stop"] = true;
+  for (const auto& command : input.commands)
+    value["words"].push_back(
+        {static_cast<int>(command.word), bits(command.jog.linear_mps), bits(command.jog.angular_radps)});
+  if (input.order) value["order"] = order_json(*input.order);
+  if (input.detour) value["detour"] = detour_json(*input.detour);
+  return value.dump();
+}
+
+CycleInput input_from_text(const std::string& text) {
+  const json value = parsed(text);
+  try {
+    CycleInput input;
+    input.now = Stamp(Duration(value.at("now").get<std::int64_t>()));
+    for (const json& status : value.value("drive", json::array())) input.drive.push_back(status_from(status));
+    input.protective_stop = value.value("protective_stop", false);
+    for (const json& word : value.value("words", json::array()))
+      input.commands.push_back(
+          {static_cast<OperatorWord>(word.at(0).get<int>()), {from_bits(word.at(1)), from_bits(word.at(2))}});
+    if (value.contains("order")) input.order = order_from(value.at("order"));
+    if (value.contains("detour")) input.detour = detour_from(value.at("detour"));
+    return input;
+  } catch (const json::exception& e) {
+    throw Error("recording", e.what(), "was it written by a newer Madori?");
+  }
+}
+
+std::size_t clouds_of_text(const std::string& text) {
+  return parsed(text).value("clouds", std::size_t{0});
+}
+
+std::string command_text(const CycleOutput& output, Stamp now) {
+  return json({now.time_since_epoch().count(), bits(output.command.linear_mps),
+               bits(output.command.angular_radps), output.enable})
+      .dump();
+}
+
+Stamp stamp_of_command(const std::string& text) {
+  const json value = parsed(text);
+  if (!value.is_array() || value.empty() || !value[0].is_number_integer())
+    throw Error("recording", "holds a command that is none", "was it written by a newer Madori?");
+  return Stamp(Duration(value[0].get<std::int64_t>()));
+}
+
+}  // namespace madori::app

@@ -1,0 +1,146 @@
+#include "app/recording/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "app/recording/input_text.hpp"
+#include "sensors/rosbag/writer.hpp"
+
+namespace madori::app {
+
+namespace fs = std::filesystem;
+
+Recorder::Recorder(fs::path folder, const RecorderOptions& options)
+    : folder_(std::move(folder)), options_(options), thread_([this] { run(); }) {}
+
+Recorder::~Recorder() {
+  {
+    const std::scoped_lock lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void Recorder::add(const CycleInput& input, const CycleOutput& output, const CycleState& state) {
+  Record record{input, output, state.pose, state.odometry.reading(), std::nullopt, false};
+  const auto& points = state.way.plain.points;
+  if (points.size() != path_size_ || state.way.detour_id != path_of_) {
+    path_size_ = points.size();
+    path_of_ = state.way.detour_id;
+    record.path = state.way.plain;
+  }
+  const bool drives_now = drives(state.mode);
+  record.stop = drove_ && !drives_now && !state.way.arrived && state.mode != Mode::Idle;
+  drove_ = drives_now;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (waiting_.size() >= options_.max_waiting)
+      ++lost_;
+    else
+      waiting_.push_back(std::move(record));
+  }
+  wake_.notify_one();
+}
+
+std::uint64_t Recorder::lost() const {
+  const std::scoped_lock lock(mutex_);
+  return lost_;
+}
+
+std::string Recorder::problem() const {
+  const std::scoped_lock lock(mutex_);
+  return problem_;
+}
+
+fs::path Recorder::bag_name(int number) const {
+  return folder_ / fmt::format("{:03}.bag", number);
+}
+
+void Recorder::begin_segment(Stamp now) {
+  fs::create_directories(folder_);
+  bag_ = std::make_unique<sensors::BagWriter>(bag_name(number_));
+  begun_ = now;
+}
+
+void Recorder::end_segment() {
+  bag_->close();
+  bag_.reset();
+  if (std::exchange(keep_, false)) {
+    keep(bag_name(number_));
+    if (number_ > 0) keep(bag_name(number_ - 1));
+  }
+  ++number_;
+  make_room();
+}
+
+void Recorder::keep(const fs::path& bag) const {
+  const fs::path kept = folder_ / "stops" / bag.filename();
+  fs::create_directories(kept.parent_path());
+  if (fs::exists(bag) && !fs::exists(kept)) fs::create_hard_link(bag, kept);
+}
+
+/// Removes the oldest bags beyond the limit; what hangs below stops/ stays.
+void Recorder::make_room() const {
+  std::vector<fs::path> bags;
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (entry.path().extension() != ".bag") continue;
+    bags.push_back(entry.path());
+    bytes += entry.file_size();
+  }
+  std::sort(bags.begin(), bags.end());
+  for (std::size_t i = 0; i + 2 < bags.size() && bytes > options_.max_bytes; ++i) {
+    bytes -= fs::file_size(bags[i]);
+    fs::remove(bags[i]);
+  }
+}
+
+void Recorder::write(const Record& record) {
+  const Stamp now = record.input.now;
+  if (bag_ && to_seconds(now - begun_) >= options_.segment_s) end_segment();
+  if (!bag_) begin_segment(now);
+  for (const auto& cloud : record.input.clouds) bag_->write(kCloudTopic, cloud);
+  if (!record.input.drive.empty()) bag_->write("/odom", record.odometry);
+  bag_->write("/pose", record.pose);
+  if (record.path) bag_->write("/path", *record.path, now);
+  bag_->write(kInputTopic, input_text(record.input), now);
+  bag_->write(kCommandTopic, command_text(record.output, now), now);
+  for (const std::string& event : record.output.events) bag_->write(kEventTopic, event, now);
+  keep_ = keep_ || record.stop;
+}
+
+void Recorder::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
+    if (waiting_.empty()) break;
+    const auto batch = std::exchange(waiting_, {});
+    lock.unlock();
+    std::string problem;
+    std::uint64_t failed = 0;
+    for (const Record& record : batch) {
+      try {
+        write(record);
+      } catch (const std::exception& e) {
+        problem = e.what();
+        ++failed;
+      }
+    }
+    lock.lock();
+    lost_ += failed;
+    if (!problem.empty()) problem_ = problem;
+  }
+  lock.unlock();
+  try {
+    if (bag_) end_segment();
+  } catch (const std::exception& e) {
+    const std::scoped_lock relock(mutex_);
+    problem_ = e.what();
+  }
+}
+
+}  // namespace madori::app

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/cycle/cycle.hpp"
+
+namespace madori::sensors {
+class BagWriter;
+}
+
+namespace madori::app {
+
+/// Topics of a recording. The last three are std_msgs/String.
+inline constexpr const char* kCloudTopic = "/velodyne_points";
+inline constexpr const char* kInputTopic = "/madori/input";
+inline constexpr const char* kCommandTopic = "/madori/command";
+inline constexpr const char* kEventTopic = "/madori/event";
+
+struct RecorderOptions {
+  double segment_s = 30.0;                    ///< a new bag so often
+  std::uintmax_t max_bytes = 20'000'000'000;  ///< of all bags of the run together; the oldest go first
+  std::size_t max_waiting = 500;              ///< steps (10 s); a slower disk loses steps, which is counted
+};
+
+/// Writes every step as ROS 1 bags `folder`/000.bag, 001.bag ... from a thread of its own: revolutions,
+/// odometry, pose, path, input, command, events. At each stop that is not part of an order, hard links in
+/// `folder`/stops keep the bag at hand and the one before, and so at least the 30 s before the stop, beyond
+/// the size limit.
+class Recorder {
+ public:
+  Recorder(std::filesystem::path folder, const RecorderOptions& options = {});
+  /// Writes what is left.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  void add(const CycleInput& input, const CycleOutput& output, const CycleState& state);
+  /// Steps that were lost because the disk was too slow or failed.
+  [[nodiscard]] std::uint64_t lost() const;
+  /// The disk's last complaint; empty when there is none.
+  [[nodiscard]] std::string problem() const;
+
+ private:
+  struct Record {
+    CycleInput input;
+    CycleOutput output;
+    PoseEstimate pose;
+    OdometryReading odometry;
+    std::optional<Path> path;  ///< where it is a new one
+    bool stop = false;
+  };
+
+  void run();
+  void write(const Record& record);
+  void begin_segment(Stamp now);
+  void end_segment();
+  void keep(const std::filesystem::path& bag) const;
+  void make_room() const;
+  [[nodiscard]] std::filesystem::path bag_name(int number) const;
+
+  std::filesystem::path folder_;
+  RecorderOptions options_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Record> waiting_;
+  std::uint64_t lost_ = 0;
+  std::string problem_;
+  bool stop_ = false;
+  // of add()
+  bool drove_ = false;
+  std::uint32_t path_of_ = 0;
+  std::size_t path_size_ = 0;
+  // of the thread
+  std::unique_ptr<sensors::BagWriter> bag_;
+  Stamp begun_{};
+  int number_ = 0;
+  bool keep_ = false;
+  std::thread thread_;
+};
+
+}  // namespace madori::app

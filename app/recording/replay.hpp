@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "app/cycle/cycle.hpp"
+
+namespace madori::app {
+
+/// What came of running the cycle on a recording.
+struct ReplayResult {
+  std::uint64_t steps = 0;
+  std::uint64_t different = 0;  ///< steps whose command was not the recorded one, bit for bit
+  std::int64_t first_different = -1;
+  double recorded_s = 0.0;  ///< of vehicle time
+  double worked_s = 0.0;    ///< of computing, reading the bags not counted
+};
+
+/// Runs the cycle on the bags of a recorded run from its beginning, in order. `source` must be made as it was
+/// for the run. Throws Error where a bag is missing, damaged, or no recording of Madori.
+[[nodiscard]] ReplayResult replay(const std::filesystem::path& run, const CycleConfig& config,
+                                  std::unique_ptr<PoseSource> source);
+
+}  // namespace madori::app

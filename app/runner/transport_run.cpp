@@ -1,0 +1,104 @@
+#include "app/runner/transport_run.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+namespace madori::app {
+namespace {
+
+constexpr std::uint64_t kDetourChecks = 60'000;  ///< about 0.1 s
+
+}  // namespace
+
+TransportRun::TransportRun(CycleConfig config, std::unique_ptr<PoseSource> source,
+                           std::unique_ptr<VehicleLink> link, const TransportOptions& options)
+    : config_(std::move(config)),
+      options_(options),
+      link_(std::move(link)),
+      store_(options.site / "madori.db"),
+      events_(options.site / "madori.db"),
+      state_(config_, std::move(source)) {
+  if (options_.detours_in_step)
+    detour_options_.free_space.max_checks = kDetourChecks;
+  else
+    planner_ = std::make_unique<planning::DetourPlanner>(config_.walls, config_.check, detour_options_);
+}
+
+void TransportRun::say(const OperatorCommand& command) {
+  const std::scoped_lock lock(mutex_);
+  said_.push_back(command);
+}
+
+VehicleView TransportRun::view() const {
+  const std::scoped_lock lock(mutex_);
+  return view_;
+}
+
+/// Orders come from other programs too: what stands in the database counts.
+void TransportRun::look_for_orders(Stamp now) {
+  if (to_seconds(now - looked_) < options_.store_poll_s) return;
+  looked_ = now;
+  if (order_) order_ = store_.find(order_->id);
+  if (!order_ || order_->state != OrderState::Running) {
+    const bool may_begin = state_.mode == Mode::Idle || state_.mode == Mode::Localizing;
+    order_ = may_begin ? store_.begin_next(now) : std::nullopt;
+  }
+}
+
+void TransportRun::ask_detour(const planning::DetourRequest& request) {
+  if (planner_)
+    planner_->submit(request);
+  else
+    answer_ = planning::plan_detour(request, *config_.walls, config_.check, detour_options_);
+}
+
+void TransportRun::carry_out(const CycleOutput& output, Stamp now) {
+  if (output.detour_wanted) ask_detour(*output.detour_wanted);
+  if (output.stop_done) {
+    order_ = store_.stop_done(output.stop_done->order, output.stop_done->round, output.stop_done->stop, now);
+    events_.add({now, "order",
+                 "order " + std::to_string(order_->id) + ": stop reached; " + to_string(order_->state)});
+  }
+  if (output.order_refused) {
+    store_.close(output.order_refused->first, OrderState::Refused, output.order_refused->second, now);
+    events_.add({now, "order",
+                 "order " + std::to_string(output.order_refused->first) +
+                     " refused: " + output.order_refused->second});
+    order_.reset();
+  }
+  for (const std::string& text : output.events) {
+    spdlog::info("{}", text);
+    events_.add({now, "mode", text});
+  }
+}
+
+void TransportRun::tick(Stamp now) {
+  CycleInput input;
+  input.now = now;
+  link_->collect(input);
+  look_for_orders(now);
+  input.order = order_;
+  input.detour = planner_ ? planner_->take() : std::exchange(answer_, std::nullopt);
+  {
+    const std::scoped_lock lock(mutex_);
+    input.commands = std::exchange(said_, {});
+  }
+  StepResult result = step(std::move(state_), input, config_);
+  state_ = std::move(result.state);
+  link_->send(result.output);
+  carry_out(result.output, now);
+  if (tap_) tap_(input, result.output, state_);
+  const std::scoped_lock lock(mutex_);
+  view_ = {now,
+           state_.mode,
+           state_.standstill,
+           state_.pose,
+           order_,
+           result.output.command,
+           state_.way.cross_track_m,
+           state_.drive.battery_mv / 1000.0,
+           link_->problem()};
+}
+
+}  // namespace madori::app

@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "app/recording/input_text.hpp"
+#include "app/recording/recorder.hpp"
+#include "app/recording/replay.hpp"
+#include "core/result.hpp"
+#include "planning/route_graph/route_csv.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/toy_vehicle.hpp"
+
+namespace madori::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A pose from the wheels alone, begun at the origin: the same in the run and in its replay.
+class WheelPose final : public PoseSource {
+ public:
+  PoseEstimate on_odometry(const OdometryReading& r) override {
+    const auto& p = r.odom_from_base;
+    return {r.stamp,
+            {p.x_m(), p.y_m(), p.yaw_rad()},
+            Eigen::Matrix3d::Identity() * 1e-4,
+            {LocalizationState::Localized, ""}};
+  }
+  void on_cloud(const PointCloud<Base>& /*cloud*/, const Transform2<Odom, Base>& /*odom*/) override {}
+};
+
+CycleConfig config() {
+  return test::toy_config(planning::parse_routes("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,0,0\n1,12,0\n").graph);
+}
+
+/// Drives past a pallet, with a silent lidar for a while, and records every step.
+void record_run(const fs::path& folder, const RecorderOptions& options) {
+  test::ToyVehicle vehicle(config(), {0.0, 0.0, 0.0});
+  vehicle.lidar.azimuths = 180;
+  vehicle.lidar.bodies.push_back({{{6.0, -0.3}, {6.0, 0.3}}, 0.3, 0.4});
+  vehicle.set_source(std::make_unique<WheelPose>());
+  Recorder recorder(folder, options);
+  vehicle.on_step = [&](const CycleInput& in, const CycleOutput& out, const CycleState& s) {
+    recorder.add(in, out, s);
+  };
+  vehicle.each_step = [&] { vehicle.lidar_silent = vehicle.time_s() > 4.0 && vehicle.time_s() < 5.5; };
+  vehicle.drive_to({{1, StopAction::Unload, 0.5}});
+  vehicle.say(OperatorWord::Resume);
+  ASSERT_TRUE(vehicle.run_until([&] { return vehicle.delivered(); }, 90.0));
+}
+
+TEST(InputText, ComesBackToTheLastBit) {
+  CycleInput input;
+  input.now = stamp_from_seconds(1.7e9 + 0.123456789);
+  input.drive.push_back(
+      {.sequence = 7, .faults = 3, .time_us = 123, .left_angle = 16383, .battery_mv = 25'000});
+  input.protective_stop = true;
+  input.commands.push_back({OperatorWord::Jog, {0.1, -1.0 / 3.0}});
+  input.order = Order{5, {{3, StopAction::Load, 0.1}}, 2, OrderState::Running, 1, 0, "note"};
+  input.detour = planning::DetourAnswer{9, Path{{PathPoint{{1.0 / 3.0, 2.0}, -0.1, 0.2}}}, 1, "why"};
+  const CycleInput back = input_from_text(input_text(input));
+  EXPECT_EQ(back.now, input.now);
+  ASSERT_EQ(back.drive.size(), 1U);
+  EXPECT_EQ(back.drive[0].left_angle, 16383);
+  EXPECT_TRUE(back.protective_stop);
+  EXPECT_EQ(back.commands[0].jog, input.commands[0].jog);
+  EXPECT_EQ(back.order, input.order);
+  ASSERT_TRUE(back.detour && back.detour->path);
+  EXPECT_EQ(back.detour->path->points[0].position, input.detour->path->points[0].position);
+  EXPECT_EQ(back.detour->path->points[0].speed_limit_mps, std::numeric_limits<double>::infinity());
+  EXPECT_THROW((void)input_from_text("{"), Error);
+  EXPECT_THROW((void)input_from_text("{\"now\": \"never\"}"), Error);
+}
+
+TEST(Recording, AReplayedRunGivesTheSameCommandsBitForBit) {
+  const test::TemporaryFolder folder;
+  RecorderOptions options;
+  options.max_waiting = 1'000'000;
+  options.segment_s = 8.0;
+  record_run(folder.path() / "run", options);
+  EXPECT_TRUE(fs::exists(folder.path() / "run/001.bag")) << "bags rotate";
+  const auto result = replay(folder.path() / "run", config(), std::make_unique<WheelPose>());
+  EXPECT_GT(result.steps, 500U);
+  EXPECT_EQ(result.different, 0U) << "first at step " << result.first_different;
+
+  CycleConfig other = config();
+  other.pursuit.look_ahead_s = 0.9;
+  EXPECT_GT(replay(folder.path() / "run", other, std::make_unique<WheelPose>()).different, 10U)
+      << "a replay with other settings must show";
+}
+
+TEST(Recording, TheSizeLimitHoldsAndStopsAreKept) {
+  const test::TemporaryFolder folder;
+  RecorderOptions options;
+  options.max_waiting = 1'000'000;
+  options.segment_s = 3.0;
+  options.max_bytes = 1;
+  record_run(folder.path() / "run", options);
+  EXPECT_FALSE(fs::exists(folder.path() / "run/000.bag")) << "the oldest has made room";
+  std::size_t bags = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "run"))
+    bags += entry.path().extension() == ".bag";
+  EXPECT_EQ(bags, 2U);
+  EXPECT_TRUE(fs::exists(folder.path() / "run/stops")) << "the vehicle stopped while the lidar was silent";
+}
+
+TEST(Recording, WhatIsNoRecordingIsRefused) {
+  const test::TemporaryFolder folder;
+  EXPECT_THROW((void)replay(folder.path(), config(), std::make_unique<WheelPose>()), Error);
+  folder.write("000.bag", "no bag");
+  EXPECT_THROW((void)replay(folder.path(), config(), std::make_unique<WheelPose>()), Error);
+}
+
+}  // namespace
+}  // namespace madori::app
