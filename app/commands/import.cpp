@@ -39,7 +39,13 @@ void add_import(CLI::App& app) {
   command->add_option("--name", o.name, "name of the site (default: the drawing's)");
   command->add_option("--scale", o.m_per_px, "metres a pixel, where it is known")
       ->check(CLI::Range(1e-9, 1e6));
-  command->add_option("--dpi", o.plan.dpi, "resolution a PDF or SVG is rendered at")
+  command
+      ->add_option("--paper-scale", o.paper_scale,
+                   "N where the drawing is printed 1:N (needs its resolution)")
+      ->check(CLI::Range(1.0, 1e5));
+  command
+      ->add_option("--dpi", o.plan.dpi,
+                   "resolution a PDF or SVG is rendered at, or of a scan that does not state it")
       ->check(CLI::Range(1.0, 10000.0));
   command->add_option("--page", o.plan.page, "page of a PDF, from 1");
   command->add_option("--layers", o.plan.layers, "layers of a DXF that hold walls")->delimiter(',');

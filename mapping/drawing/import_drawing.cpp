@@ -96,21 +96,42 @@ void refuse_blank(const ImportOptions& options, const GrayImage& picture) {
                     "--min-wall-length 10; drawings of furniture lines: --keep-furniture");
 }
 
+constexpr double kMetresPerInch = 0.0254;
+
+/// From a printed scale: one pixel is 1/dpi inch of paper.
+double scale_of_paper(const ImportOptions& options, const Plan& plan) {
+  const double dpi = plan.vectors ? 0.0 : options.plan.dpi.value_or(plan.picture.dpi);
+  if (!(dpi > 0.0))
+    throw Error(options.drawing.string(), "has no resolution that --paper-scale could work with",
+                "state it with --dpi, or give --scale");
+  return kMetresPerInch / dpi * *options.paper_scale;
+}
+
+/// Where the scale comes from, strongest first: the options, the paper, the file's own units.
+std::optional<ScaleRecord> find_scale(const ImportOptions& options, const Plan& plan) {
+  if (options.m_per_px)
+    return ScaleRecord{*options.m_per_px, options.scale_method, 0, 0, options.date, options.scale_inputs};
+  if (options.paper_scale)
+    return ScaleRecord{scale_of_paper(options, plan),
+                       "paper",
+                       0,
+                       0,
+                       options.date,
+                       {"--paper-scale " + std::to_string(*options.paper_scale)}};
+  if (plan.m_per_px) return ScaleRecord{*plan.m_per_px, plan.scale_method, 0, 0, options.date, plan.notes};
+  return std::nullopt;
+}
+
 Site make_site(const ImportOptions& options, const Plan& plan, const std::string& drawing_name) {
   Site site;
   const bool replaces = options.force && fs::exists(options.site / "site.yaml");
   if (replaces) site = load_site(options.site);
-  site.scale.reset();
   site.georeference.reset();
   if (!options.name.empty() || !replaces)
     site.name = options.name.empty() ? options.drawing.stem().string() : options.name;
   site.drawing = {drawing_name, plan.picture.width_px, plan.picture.height_px, options.plan.page,
                   options.plan.dpi.value_or(plan.picture.dpi)};
-  if (options.m_per_px)
-    site.scale =
-        ScaleRecord{*options.m_per_px, options.scale_method, 0.0, 0.0, options.date, options.scale_inputs};
-  else if (plan.m_per_px)
-    site.scale = ScaleRecord{*plan.m_per_px, plan.scale_method, 0.0, 0.0, options.date, plan.notes};
+  site.scale = find_scale(options, plan);
   return site;
 }
 
@@ -145,7 +166,8 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
   } else {
     refuse_blank(options, plan.picture);
     DetectionOptions detection = options.detection;
-    if (!detection.m_per_px) detection.m_per_px = options.m_per_px;
+    if (const auto scale = find_scale(options, plan); scale && !detection.m_per_px)
+      detection.m_per_px = scale->m_per_px;
     found = detect_walls(plan.picture, detection, debug_sink(options, change), progress);
   }
   if (found.walls.empty()) no_walls(options, plan);

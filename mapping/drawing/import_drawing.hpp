@@ -14,8 +14,10 @@ namespace madori::mapping {
 struct ImportOptions {
   std::filesystem::path drawing;
   std::filesystem::path site;
-  std::string name;                                  ///< of the site; empty: the drawing's file name
-  std::optional<double> m_per_px;                    ///< stronger than the file's own units
+  std::string name;                ///< of the site; empty: the drawing's file name
+  std::optional<double> m_per_px;  ///< stronger than the file's own units
+  std::optional<double>
+      paper_scale;  ///< the N of 1:N, where the picture has a resolution; m_per_px is stronger
   std::string scale_method = "option";               ///< how m_per_px was found (ScaleRecord)
   std::vector<std::string> scale_inputs{"--scale"};  ///< and from what
   PlanOptions plan;

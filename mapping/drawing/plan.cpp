@@ -18,6 +18,8 @@ Plan load_plan(const std::filesystem::path& file, const PlanOptions& options) {
   if (std::filesystem::is_directory(file))
     throw Error(file.string(), "is a folder", "name the drawing file in it");
   if (!std::filesystem::exists(file)) throw Error(file.string(), "does not exist", "check the path");
+  if (!std::filesystem::is_regular_file(file))
+    throw Error(file.string(), "is no regular file", "save the drawing to a file first");
   if (extension == ".dwg")
     throw Error(file.string(), "is a DWG drawing, which only CAD programs can open",
                 "save it as DXF there and import that");

@@ -1,6 +1,7 @@
 #include "mapping/drawing/raster/load_image.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -9,6 +10,7 @@
 
 #include "core/result.hpp"
 #include "mapping/drawing/raster/image_header.hpp"
+#include "mapping/drawing/raster/quiet_stderr.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -47,11 +49,26 @@ ImageHeader checked_header(const fs::path& file, const std::vector<std::uint8_t>
   return *header;
 }
 
+/// Whether the end-of-image marker follows the picture's data (ITU-T T.81 B.1.1.2; the data itself holds no
+/// such marker, a thumbnail before it may). Decoders fill what is missing of a JPEG with grey.
+bool ends_as_jpeg(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::uint8_t kStartOfScan = 0xDA;
+  constexpr std::array<std::uint8_t, 2> kEnd{0xFF, 0xD9};
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size() && bytes[at] == 0xFF && bytes[at + 1] != kStartOfScan)
+    at += bytes[at + 1] == 0xFF ? 1 : 2 + (std::size_t{bytes[at + 2]} << 8U | bytes[at + 3]);
+  const auto data = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at, bytes.size()));
+  return std::search(data, bytes.end(), kEnd.begin(), kEnd.end()) != bytes.end();
+}
+
 /// Palette, colour and depth are OpenCV's; only JPEG carries an EXIF orientation, which IMREAD_UNCHANGED
 /// skips.
 cv::Mat decode(const fs::path& file, const std::vector<std::uint8_t>& bytes, ImageFormat format) {
   const int flags = format == ImageFormat::Jpeg ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
+  if (format == ImageFormat::Jpeg && !ends_as_jpeg(bytes))
+    throw Error(file.string(), "is cut off", "copy or export it again");
   cv::Mat picture;
+  const QuietStderr quiet;
   try {
     picture = cv::imdecode(bytes, flags);
   } catch (const cv::Exception&) {

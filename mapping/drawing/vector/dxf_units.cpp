@@ -45,7 +45,7 @@ int score(const Unit& unit, const DxfUnitEvidence& evidence) {
 
 std::string note_of(const Unit& unit, const DxfUnitEvidence& evidence) {
   std::ostringstream note;
-  note << "one drawing unit is one of " << unit.name << ": ";
+  note << "drawing units are " << unit.name << ": ";
   if (evidence.insunits == unit.insunits)
     note << "$INSUNITS says so";
   else if (evidence.insunits && *evidence.insunits != 0)

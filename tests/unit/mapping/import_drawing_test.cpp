@@ -87,6 +87,18 @@ TEST_F(ImportDrawing, WithoutScaleNothingMayDriveOnIt) {
   EXPECT_THROW((void)load_scaled_site(o.site), Error);
 }
 
+TEST_F(ImportDrawing, APrintedScaleNeedsTheResolution) {
+  ImportOptions o = options(draw_room(folder_));
+  o.paper_scale = 100;
+  o.m_per_px.reset();
+  o.drawing = draw_room(folder_, "room.bmp");
+  o.plan.dpi = 127;  // 0.2 mm of paper a pixel
+  import_drawing(o);
+  const Site site = load_scaled_site(o.site);
+  EXPECT_NEAR(site.scale->m_per_px, 0.02, 1e-12);
+  EXPECT_EQ(site.scale->method, "paper");
+}
+
 TEST_F(ImportDrawing, BadInputIsRefusedWithoutATrace) {
   expect_refused(folder_.path() / "nowhere.png", "does not exist");
   expect_refused(folder_.write("text.png", "this is no image"), "text.png");

@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "core/result.hpp"
 #include "mapping/drawing/raster/image_header.hpp"
@@ -77,6 +78,20 @@ TEST_F(LoadImage, BadInputIsNamedWithItsMend) {
   const auto good = write("good.png", cv::Mat(300, 300, CV_8UC1, cv::Scalar(7)));
   std::filesystem::resize_file(good, std::filesystem::file_size(good) / 2);
   EXPECT_THAT(reason(good), HasSubstr("damaged or cut off"));
+}
+
+/// Decoders fill the missing half of a JPEG with grey, and say so on stderr only.
+TEST_F(LoadImage, EveryFormatCutOffIsRefusedInSilence) {
+  cv::Mat picture(400, 500, CV_8UC1, cv::Scalar(255));
+  for (int i = 0; i < 400; i += 7) cv::line(picture, {0, i}, {499, 399 - i}, 0);
+  for (const char* name : {"a.jpg", "b.png", "c.tiff", "d.bmp"}) {
+    const auto file = write(name, picture);
+    EXPECT_NO_THROW((void)load_image(file)) << name;
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+    testing::internal::CaptureStderr();
+    EXPECT_THAT(reason(file), HasSubstr("cut off")) << name;
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << name;
+  }
 }
 
 TEST_F(LoadImage, AGigapixelIsRefusedBeforeItIsDecoded) {

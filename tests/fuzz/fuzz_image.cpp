@@ -1,0 +1,26 @@
+// The way of a raster drawing: its header, the decoder, the detection of walls on small ones, the picture.
+#include "mapping/drawing/import_picture.hpp"
+#include "mapping/drawing/raster/detect_walls.hpp"
+#include "mapping/drawing/raster/image_header.hpp"
+#include "mapping/drawing/raster/load_image.hpp"
+#include "tests/fuzz/fuzz_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  using namespace madori::mapping;
+  // Honest headers of large pictures only cost time: the size limit has its own unit test.
+  const auto header = read_image_header({data, size});
+  if (header && header->width_px * header->height_px > 1'000'000) return 0;
+  static const madori::fuzz::MemoryFile file(".png");
+  file.write(data, size);
+  try {
+    const GrayImage image = load_image(file.path());
+    madori::fuzz::check(image);
+    if (image.pixels.size() > 200'000) return 0;
+    const DetectedWalls found = detect_walls(image, {});
+    for (const auto& wall : found.walls)
+      madori::fuzz::require(std::isfinite(wall.u1 + wall.v1 + wall.u2 + wall.v2));
+    madori::fuzz::require(!import_picture(image, found.walls, found.rejected, 0.01).empty());
+  } catch (const madori::Error&) {
+  }
+  return 0;
+}
