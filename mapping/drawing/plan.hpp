@@ -15,6 +15,7 @@ struct PlanOptions {
   std::optional<double> dpi;        ///< of a PDF or SVG that is rendered; stated resolution of a raster
   int page = 1;                     ///< of a PDF
   std::vector<std::string> layers;  ///< of a DXF; empty: chosen by name and content
+  std::string unit;                 ///< of a DXF: mm, cm, dm, m, in or ft; empty: chosen by its evidence
 };
 
 /// Exact lines of a vector drawing, on the pixel grid of its picture.

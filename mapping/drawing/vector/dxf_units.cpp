@@ -14,14 +14,15 @@ struct Unit {
   int insunits;
   double metres;
   const char* name;
+  const char* word;
   bool metric;
 };
-constexpr std::array<Unit, 6> kUnits{{{4, 0.001, "millimetres", true},
-                                      {5, 0.01, "centimetres", true},
-                                      {14, 0.1, "decimetres", true},
-                                      {6, 1.0, "metres", true},
-                                      {1, 0.0254, "inches", false},
-                                      {2, 0.3048, "feet", false}}};
+constexpr std::array<Unit, 6> kUnits{{{4, 0.001, "millimetres", "mm", true},
+                                      {5, 0.01, "centimetres", "cm", true},
+                                      {14, 0.1, "decimetres", "dm", true},
+                                      {6, 1.0, "metres", "m", true},
+                                      {1, 0.0254, "inches", "in", false},
+                                      {2, 0.3048, "feet", "ft", false}}};
 
 constexpr double kShortestBuilding_m = 3.0;
 constexpr double kLongestBuilding_m = 2000.0;
@@ -76,6 +77,13 @@ std::optional<DxfUnit> choose_unit(const DxfUnitEvidence& evidence) {
   }
   if (best == nullptr) return std::nullopt;
   return DxfUnit{best->metres, note_of(*best, evidence)};
+}
+
+std::optional<DxfUnit> named_unit(const std::string& word) {
+  for (const Unit& unit : kUnits)
+    if (word == unit.word)
+      return DxfUnit{unit.metres, std::string("drawing units are ") + unit.name + ": --unit"};
+  return std::nullopt;
 }
 
 void read_header_units(const std::string& text, DxfUnitEvidence& evidence) {

@@ -24,6 +24,9 @@ struct DxfUnit {
 /// plausibility (a building is 3 m to 2 km long, a door about 0.9 m wide). Nothing where none is plausible.
 [[nodiscard]] std::optional<DxfUnit> choose_unit(const DxfUnitEvidence& evidence);
 
+/// The unit that the user named: mm, cm, dm, m, in, ft; nothing for another word.
+[[nodiscard]] std::optional<DxfUnit> named_unit(const std::string& word);
+
 /// Reads $INSUNITS and $MEASUREMENT of a text DXF's HEADER section into `evidence`.
 void read_header_units(const std::string& text, DxfUnitEvidence& evidence);
 

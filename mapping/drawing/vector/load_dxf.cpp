@@ -150,7 +150,7 @@ Plan load_dxf(const std::filesystem::path& file, const PlanOptions& options) {
   }
   plan.picture = render(*plan.vectors, std::max(width, 1), std::max(height, 1));
   plan.notes.push_back(layer_note(content, meaning, unknown_is_wall));
-  if (const auto unit = choose_unit(content.units)) {
+  if (const auto unit = options.unit.empty() ? choose_unit(content.units) : named_unit(options.unit)) {
     plan.m_per_px = unit->metres * unit_per_px;
     plan.scale_method = "dxf-units";
     plan.notes.push_back(unit->note);

@@ -86,6 +86,14 @@ TEST(LoadDxf, TheSampleFactoryComesOutExactly) {
   EXPECT_NEAR(found_m, truth_m, 0.01 * truth_m);
 }
 
+TEST(LoadDxf, ANamedUnitIsStrongerThanTheFile) {
+  PlanOptions options;
+  const double said = load_dxf(kFactory / "factory.dxf", options).m_per_px.value();
+  options.unit = "cm";
+  EXPECT_NEAR(load_dxf(kFactory / "factory.dxf", options).m_per_px.value(), 10.0 * said, 1e-9);
+  EXPECT_FALSE(named_unit("furlong"));
+}
+
 TEST(LoadDxf, NamedLayersAreTakenAndUnknownOnesListed) {
   PlanOptions options;
   options.layers = {"COLUMNS"};
