@@ -12,6 +12,9 @@ void add_import(CLI::App& app);
 void add_localize(CLI::App& app);
 void add_relocalize(CLI::App& app);
 void add_route(CLI::App& app);
+void add_order(CLI::App& app);
+void add_replay(CLI::App& app);
+void add_run(CLI::App& app);
 void add_version(CLI::App& app);
 
 }  // namespace madori::app

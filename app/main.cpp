@@ -13,6 +13,9 @@ int main(int argc, char** argv) {
   madori::app::add_localize(app);
   madori::app::add_relocalize(app);
   madori::app::add_route(app);
+  madori::app::add_order(app);
+  madori::app::add_replay(app);
+  madori::app::add_run(app);
   madori::app::add_version(app);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "app/runner/transport_run.hpp"
+
+namespace madori::app {
+
+/// Ticks `run` every 20 ms by the steady clock until `stop` or `done()`. A step that takes longer delays the
+/// next one; the drive stops by itself after 200 ms of silence.
+void run_in_real_time(TransportRun& run, const std::atomic<bool>& stop,
+                      const std::function<bool()>& done = {});
+
+}  // namespace madori::app
