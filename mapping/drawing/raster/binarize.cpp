@@ -13,17 +13,18 @@
 namespace madori::mapping {
 namespace {
 
-constexpr int kReach = 2;    // pixels between the two sides of an edge: spans the blur of a scan
-constexpr int kRowStep = 3;  // every third row is sample enough
+constexpr int kReach = 2;       // pixels between the two sides of an edge: spans the blur of a scan
+constexpr int kRowStep = 5;     // every fifth row is sample enough
+constexpr int kNoiseStep = 16;  // ... and far fewer for the noise
 constexpr double kLeastContrast = 16;
 constexpr double kNearBest = 0.96;  // thresholds that cross almost as many edges form the plateau
 using Levels = std::array<double, 257>;
 
 /// Calls visit(brighter, darker, u, v) for sampled pixel pairs across and down.
 template <class Visit>
-void for_pairs(const GrayImage& image, Visit visit) {
+void for_pairs(const GrayImage& image, int row_step, Visit visit) {
   const auto width = static_cast<std::size_t>(image.width_px);
-  for (int v = 0; v + kReach < image.height_px; v += kRowStep) {
+  for (int v = 0; v + kReach < image.height_px; v += row_step) {
     const std::uint8_t* row = &image.pixels[static_cast<std::size_t>(v) * width];
     const std::uint8_t* below = row + kReach * width;
     for (int u = 0; u + kReach < image.width_px; ++u) {
@@ -37,7 +38,7 @@ void for_pairs(const GrayImage& image, Visit visit) {
 double noise_of(const GrayImage& image) {
   std::array<std::size_t, 256> counts{};
   std::size_t total = 0;
-  for_pairs(image, [&](int a, int b, int, int) {
+  for_pairs(image, kNoiseStep, [&](int a, int b, int, int) {
     ++counts[static_cast<std::size_t>(std::abs(a - b))];
     ++total;
   });
@@ -49,7 +50,7 @@ double noise_of(const GrayImage& image) {
 /// How many edges each threshold crosses, on a paper of 255.
 Levels crossings(const GrayImage& image, const Paper& paper, double least_contrast) {
   Levels steps{};
-  for_pairs(image, [&](int a, int b, int u, int v) {
+  for_pairs(image, kRowStep, [&](int a, int b, int u, int v) {
     if (std::abs(a - b) < least_contrast) return;
     const double gain = 255.0 / paper.at(u, v);
     const auto level = [gain](int value) {
@@ -89,10 +90,10 @@ Binarized binarize(const GrayImage& image, std::optional<double> threshold) {
   const auto share = static_cast<float>(result.threshold / 255);
   for (int v = 0; v < image.height_px; ++v) {
     paper.row(v, levels);
-    const auto start = static_cast<std::size_t>(v) * levels.size();
+    const std::uint8_t* grey = &image.pixels[static_cast<std::size_t>(v) * levels.size()];
+    std::uint8_t* out = &result.ink.pixels[static_cast<std::size_t>(v) * levels.size()];
     for (std::size_t u = 0; u < levels.size(); ++u)
-      result.ink.pixels[start + u] =
-          static_cast<float>(image.pixels[start + u]) <= levels[u] * share ? 255 : 0;
+      out[u] = static_cast<std::uint8_t>(-static_cast<int>(static_cast<float>(grey[u]) <= levels[u] * share));
   }
   return result;
 }

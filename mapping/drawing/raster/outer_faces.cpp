@@ -64,8 +64,10 @@ bool looks_out(std::size_t self, const DrawnLines& lines) {
 
 }  // namespace
 
-std::vector<bool> faces_outside(const DrawnLines& lines, const GrayImage& ink) {
+std::vector<bool> faces_outside(const DrawnLines& lines, const std::vector<bool>& asked,
+                                const GrayImage& ink) {
   std::vector<bool> outside(lines.size(), false);
+  if (std::find(asked.begin(), asked.end(), true) == asked.end()) return outside;
   const double shrink = std::max(1.0, static_cast<double>(std::max(ink.width_px, ink.height_px)) / kCoarse);
   const cv::Mat picture = flooded(ink, shrink);
   const bool closed = enclosed_share(picture) >= kEnclosed;
@@ -76,6 +78,7 @@ std::vector<bool> faces_outside(const DrawnLines& lines, const GrayImage& ink) {
     return picture.at<std::uint8_t>(pv, pu) == 255;
   };
   for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!asked[i]) continue;
     const PixelSegment& s = lines[i].segment;
     const FittedLine axis = line_through(s);
     const double du = -axis.direction_v * step_off, dv = axis.direction_u * step_off;

@@ -9,10 +9,12 @@
 
 namespace madori::mapping {
 
-/// Which of the lines can only be seen from outside a closed building: on one side there is the paper around
-/// the drawing, on the other a wall. All false where the outside reaches most places (a plan of separate
-/// walls). `wall_px` is the largest thickness of a wall; openings up to it do not let the outside in.
-[[nodiscard]] std::vector<bool> faces_outside(const DrawnLines& lines, const GrayImage& ink);
+/// Which of the `asked` lines can only be seen from outside a closed building: on one side there is the paper
+/// around the drawing, on the other a wall. All false where the outside reaches most places (a plan of
+/// separate walls). `wall_px` is the largest thickness of a wall; openings up to it do not let the outside
+/// in.
+[[nodiscard]] std::vector<bool> faces_outside(const DrawnLines& lines, const std::vector<bool>& asked,
+                                              const GrayImage& ink);
 
 /// Faces that a wall can spare: those of solid fills, and the third line of a
 /// wall that has two others.

@@ -64,10 +64,20 @@ double Paper::at(int u, int v) const {
 }
 
 void Paper::row(int v, std::vector<float>& out) const {
-  for (std::size_t u = 0; u < out.size(); u += 4) {  // the map is smooth: four pixels share a value
-    const auto value = static_cast<float>(at(static_cast<int>(u), v));
-    std::fill(out.begin() + static_cast<std::ptrdiff_t>(u),
-              out.begin() + static_cast<std::ptrdiff_t>(std::min(u + 4, out.size())), value);
+  const double y = std::clamp((v + 0.5) / kBlock - 0.5, 0.0, rows_ - 1.0);
+  const int y0 = static_cast<int>(y), y1 = std::min(y0 + 1, rows_ - 1);
+  const auto part = static_cast<float>(y - y0);
+  const float* above = &blocks_[static_cast<std::size_t>(y0 * columns_)];
+  const float* below = &blocks_[static_cast<std::size_t>(y1 * columns_)];
+  const int width = static_cast<int>(out.size());
+  for (int column = -1; column < columns_; ++column) {  // between the middles of two blocks
+    const int left = std::max(column, 0), right = std::min(column + 1, columns_ - 1);
+    const float a = std::lerp(above[left], below[left], part),
+                b = std::lerp(above[right], below[right], part);
+    const int first = column * kBlock + kBlock / 2;
+    const float step = (b - a) / kBlock;
+    for (int u = std::max(first, 0); u < std::min(first + kBlock, width); ++u)
+      out[static_cast<std::size_t>(u)] = a + step * (static_cast<float>(u - first) + 0.5F);
   }
 }
 

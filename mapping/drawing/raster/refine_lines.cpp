@@ -11,6 +11,7 @@ namespace madori::mapping {
 namespace {
 
 constexpr double kCorridor = 1.5;  // half width, pixels
+constexpr double kExplained = 0.8;
 constexpr int kMostRounds = 16;
 constexpr double kLeastConnected = 0.8;  // share of a line's pixels that touch their predecessor
 constexpr double kLargestBow = 0.5;      // pixels between the thirds; a straight line of a scan stays below
@@ -21,6 +22,7 @@ class Follower {
   Follower(GrayImage& lines, const RefineOptions& options) : lines_(lines), options_(options) {}
 
   std::optional<DrawnLine> follow(const PixelSegment& seed) {
+    if (is_explained(seed)) return std::nullopt;
     FittedLine line = line_through(seed);
     double from = line.along(seed.u1, seed.v1), to = line.along(seed.u2, seed.v2);
     if (from > to) std::swap(from, to);
@@ -43,6 +45,22 @@ class Follower {
   [[nodiscard]] std::uint8_t at(int u, int v) const {
     return u < 0 || v < 0 || u >= lines_.width_px || v >= lines_.height_px ? std::uint8_t{kNoLine}
                                                                            : lines_.at(u, v);
+  }
+
+  /// Most of the seed lies on lines already found: long lines give a seed in every tile.
+  [[nodiscard]] bool is_explained(const PixelSegment& s) const {
+    const int steps = std::max(4, static_cast<int>(s.length_px() / 4));
+    int seen = 0, taken = 0;
+    for (int i = 0; i <= steps; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      const int u = static_cast<int>(std::lerp(s.u1, s.u2, t)),
+                v = static_cast<int>(std::lerp(s.v1, s.v2, t));
+      std::uint8_t value = at(u, v);
+      for (const int step : {-1, 1}) value |= static_cast<std::uint8_t>(at(u + step, v) | at(u, v + step));
+      seen += value != kNoLine ? 1 : 0;
+      taken += (value & kTaken) != 0 ? 1 : 0;
+    }
+    return taken >= kExplained * seen;
   }
 
   /// The line's pixel at this position along it, the nearest within the corridor.

@@ -190,13 +190,10 @@ class Sorter {
 
 }  // namespace
 
-void sort_lines(DrawnLines& lines, const std::vector<Evidence>& evidence, const WallStyle& style,
-                const DetectionOptions& options) {
-  Sorter sorter(lines, evidence, style);
-  const auto wall = sorter.run();
+void sort_lines(DrawnLines& lines, const std::vector<Evidence>& evidence, const WallStyle& style) {
+  const auto wall = Sorter(lines, evidence, style).run();
   for (std::size_t i = 0; i < lines.size(); ++i)
-    if (!wall[i] && !lines[i].rejected && !options.keep_furniture)
-      lines[i].rejected = RejectReason::Furniture;
+    if (!wall[i] && !lines[i].rejected) lines[i].rejected = RejectReason::Furniture;
 }
 
 }  // namespace madori::mapping

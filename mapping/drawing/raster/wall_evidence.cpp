@@ -11,6 +11,7 @@ constexpr double kFilledFrom = 0.75;  // ink share
 constexpr double kSidePeak =
     0.15;  // a second wall thickness has at least this share of the first one's length
 constexpr double kFilledOnly = 0.8;  // a drawing that fills its walls draws furniture with empty lines
+constexpr double kWidest = 2.5;      // common wall thicknesses
 constexpr double kPensDiffer = 0.12;
 constexpr double kNarrowest = 2.5;
 using Lengths = std::vector<double>;  // of strips, by rounded width
@@ -25,8 +26,13 @@ Lengths widths_of(const DrawnLines& lines, const std::vector<Strip>& strips, boo
     if (bin >= lengths.size()) lengths.resize(bin + 1, 0);
     lengths[bin] += strip.length_px();
   }
+  return lengths;
+}
+
+/// Sums over neighbouring widths; the reach grows with the width.
+Lengths smoothed(const Lengths& lengths) {
   Lengths smooth(lengths.size(), 0);
-  for (std::size_t i = 0; i < lengths.size(); ++i) {  // the reach of the smoothing grows with the width
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
     const std::size_t reach = 1 + i / 10;
     for (std::size_t j = i - std::min(i, reach); j <= std::min(i + reach, lengths.size() - 1); ++j)
       smooth[i] += lengths[j];
@@ -34,14 +40,21 @@ Lengths widths_of(const DrawnLines& lines, const std::vector<Strip>& strips, boo
   return smooth;
 }
 
-double largest_peak(const Lengths& lengths) {
-  return static_cast<double>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
+/// The mean width around the peak.
+double peak_width(const Lengths& lengths, const Lengths& smooth) {
+  const auto peak = static_cast<std::size_t>(std::max_element(smooth.begin(), smooth.end()) - smooth.begin());
+  const std::size_t reach = 1 + peak / 10;
+  double sum = 0, all = 0;
+  for (std::size_t j = peak - std::min(peak, reach); j <= std::min(peak + reach, lengths.size() - 1); ++j) {
+    sum += lengths[j] * static_cast<double>(j);
+    all += lengths[j];
+  }
+  return sum / all;
 }
 
 double total(const Lengths& lengths, double up_to) {
   double sum = 0;
-  for (std::size_t i = 0; i < lengths.size() && static_cast<double>(i) <= up_to; ++i)
-    sum += lengths[i] / static_cast<double>(3 + 2 * (i / 10));
+  for (std::size_t i = 0; i < lengths.size() && static_cast<double>(i) <= up_to; ++i) sum += lengths[i];
   return sum;
 }
 
@@ -86,25 +99,26 @@ double fine_share(const DrawnLines& lines, const WallStyle& style, double pen_px
 }  // namespace
 
 WallStyle measure_style(const DrawnLines& lines, const std::vector<Strip>& strips, double pen_px) {
-  const Lengths empty = widths_of(lines, strips, false), filled = widths_of(lines, strips, true);
-  Lengths both(std::max(empty.size(), filled.size()), 0);
-  for (std::size_t i = 0; i < empty.size(); ++i) both[i] += empty[i];
-  for (std::size_t i = 0; i < filled.size(); ++i) both[i] += 2 * filled[i];
+  const Lengths raw_empty = widths_of(lines, strips, false), raw_filled = widths_of(lines, strips, true);
+  Lengths raw(std::max(raw_empty.size(), raw_filled.size()), 0);
+  for (std::size_t i = 0; i < raw_empty.size(); ++i) raw[i] += raw_empty[i];
+  for (std::size_t i = 0; i < raw_filled.size(); ++i) raw[i] += 2 * raw_filled[i];
+  const Lengths empty = smoothed(raw_empty), filled = smoothed(raw_filled), both = smoothed(raw);
   WallStyle style;
   const double most = *std::max_element(both.begin(), both.end());
-  style.thickness_px = most > 0 ? largest_peak(both) : 4 * pen_px;
+  style.thickness_px = most > 0 ? peak_width(raw, both) : 4 * pen_px;
   style.narrowest_px = std::max(kNarrowest, 0.25 * style.thickness_px);
   style.bold_px = std::max(4.0, 2.2 * pen_px);
   double bold = 0;
   for (const DrawnLine& line : lines)
     if (!line.solid_face && line.stroke_px >= style.bold_px && line.length_px() > 6 * line.stroke_px)
       bold += 2 * line.length_px();
-  const double fill = total(filled, 4 * style.thickness_px) + bold;
-  style.filled_share = fill / std::max(1.0, fill + total(empty, 2 * style.thickness_px));
+  const double fill = total(raw_filled, 4 * style.thickness_px) + bold;
+  style.filled_share = fill / std::max(1.0, fill + total(raw_empty, 2 * style.thickness_px));
   style.wall_pen_px = wall_pen(lines, strips, style, pen_px);
   style.pens_differ = fine_share(lines, style, pen_px) > kPensDiffer;
-  const double last_filled = last_above(filled, kSidePeak * most),
-               last_empty = last_above(empty, kSidePeak * most);
+  const double last_filled = std::min(last_above(filled, kSidePeak * most), kWidest * style.thickness_px),
+               last_empty = std::min(last_above(empty, kSidePeak * most), kWidest * style.thickness_px);
   style.widest_filled_px = 1.3 * std::max(style.thickness_px, last_filled) + 1;
   if (style.filled_share > kFilledOnly) return style;
   style.widest_empty_px = style.filled_share > 0.5 ? 1.6 * style.thickness_px + 1
