@@ -4,9 +4,11 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "app/commands.hpp"
+#include "app/health_log.hpp"
 #include "app/json_output.hpp"
 #include "app/log_options.hpp"
 #include "app/log_player.hpp"
@@ -25,6 +27,8 @@ struct LocalizeArguments {
   std::string initial;
   std::string out;
   std::string json_file;
+  std::string health_file;
+  bool global = false;
   unsigned seed = 1;
 };
 
@@ -51,21 +55,34 @@ void localize(const LocalizeArguments& arguments) {
   const std::filesystem::path folder(arguments.site);
   const mapping::Site site = mapping::load_scaled_site(folder);
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
-  localization::Localizer localizer(walls, {parse_pose(arguments.initial)});
+  std::optional<localization::InitialPose> initial;
+  if (!arguments.global) initial = localization::InitialPose{parse_pose(arguments.initial)};
+  localization::Localizer localizer(walls, initial);
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   std::string trajectory = "# timestamp x y z qx qy qz qw, Map frame\n";
-  const PlayedLog played = play_log(
-      *log, localizer, [&](const PoseEstimate& e) { trajectory += tum_line(e.stamp, e.map_from_base); });
+  HealthLog health;
+  const PlayedLog played = play_log(*log, localizer, [&](const PoseEstimate& e) {
+    trajectory += tum_line(e.stamp, e.map_from_base);
+    health.add(e);
+  });
   mapping::write_file_atomically(arguments.out, trajectory);
+  if (!arguments.health_file.empty()) {
+    mapping::write_file_atomically(arguments.health_file, health.csv());
+  }
   const nlohmann::json result = {{"scans", played.scans},
                                  {"odometry_records", played.odometry_records},
                                  {"keyframes", localizer.memory().size()},
+                                 {"loop_closures", localizer.memory().loops()},
+                                 {"drawing_sigma_m", localizer.evidence().sigma_m},
+                                 {"drawing_inliers", localizer.evidence().inliers},
+                                 {"health", health.json()},
                                  {"scan_ms_median", percentile(played.scan_ms, 0.5)},
                                  {"scan_ms_p99", percentile(played.scan_ms, 0.99)},
                                  {"seed", arguments.seed}};
   write_json(arguments.json_file, result);
-  std::fprintf(arguments.json_file == "-" ? stderr : stdout, "%d scans, %d odometry records; %s written\n",
-               played.scans, played.odometry_records, arguments.out.c_str());
+  std::fprintf(arguments.json_file == "-" ? stderr : stdout,
+               "%d scans, %d odometry records; %s written\n%s\n", played.scans, played.odometry_records,
+               arguments.out.c_str(), health.summary().c_str());
 }
 
 }  // namespace
@@ -79,12 +96,21 @@ void add_localize(CLI::App& app) {
       ->check(CLI::ExistingFile);
   command->add_option("--wheels", arguments->wheels, "time_s,left_rad,right_rad; for a .pcap")
       ->check(CLI::ExistingFile);
-  command->add_option("--initial", arguments->initial, "pose at the start, \"x y yaw_deg\", Map frame")
-      ->required();
+  CLI::Option* initial =
+      command->add_option("--initial", arguments->initial, "pose at the start, \"x y yaw_deg\", Map frame");
+  CLI::Option* global = command->add_flag("--global", arguments->global, "the start is not known: find it");
+  initial->excludes(global);
   command->add_option("--out", arguments->out, "trajectory to write (TUM), a pose a record")->required();
+  command->add_option("--health", arguments->health_file,
+                      "table of the health at every record to write (CSV)");
   command->add_option("--json", arguments->json_file, "figures; - for stdout");
   command->add_option("--seed", arguments->seed, "of everything left to chance");
-  command->callback([arguments] { localize(*arguments); });
+  command->callback([arguments] {
+    if (!arguments->global && arguments->initial.empty()) {
+      throw CLI::RequiredError("--initial or --global");
+    }
+    localize(*arguments);
+  });
 }
 
 }  // namespace madori::app

@@ -73,22 +73,34 @@ Eigen::Vector3d jacobian(const WallIndex::Hit& hit, const Point2<Map>& q, const 
           -hit.normal_x * (q.y_m - pivot.y_m) + hit.normal_y * (q.x_m - pivot.x_m)};
 }
 
-}  // namespace
-
-double DrawingFit::likelihood(const MemoryCloud& cloud, const Transform2<Map, Map>& correction,
-                              double sigma_m) const {
-  const Mixture mixture(model_, sigma_m);
+double sum_of_nats(const WallIndex& index, const MemoryCloud& cloud, const Transform2<Map, Map>& correction,
+                   const Mixture& mixture) {
   double sum = 0.0;
-  for_each_hit(index_, cloud, correction, [&](const CloudSurface& p, const auto&, const auto& hit) {
+  for_each_hit(index, cloud, correction, [&](const CloudSurface& p, const auto&, const auto& hit) {
     sum += p.weight * kShare * std::log1p(mixture.odds(hit.distance_m));
   });
   return sum;
 }
 
+}  // namespace
+
+double DrawingFit::likelihood(const MemoryCloud& cloud, const Transform2<Map, Map>& correction,
+                              double sigma_m) const {
+  return sum_of_nats(index_, cloud, correction, Mixture(model_, sigma_m));
+}
+
+Alignment DrawingFit::settle(const MemoryCloud& cloud, const Transform2<Map, Map>& start) const {
+  const DrawingModel plain;
+  Alignment found;
+  found.correction = refine(cloud, centre_of(cloud), start, plain);
+  found.likelihood = sum_of_nats(index_, cloud, found.correction, Mixture(plain, plain.sigma_m));
+  return found;
+}
+
 Transform2<Map, Map> DrawingFit::refine(const MemoryCloud& cloud, const Point2<Map>& centre,
-                                        Transform2<Map, Map> correction) const {
+                                        Transform2<Map, Map> correction, const DrawingModel& model) const {
   for (int i = 0; i < 12; ++i) {
-    const Mixture mixture(model_, std::max(model_.sigma_m, 0.35 * std::pow(0.75, i)));
+    const Mixture mixture(model, std::max(model.sigma_m, 0.35 * std::pow(0.75, i)));
     const Point2<Map> pivot = correction * centre;
     Eigen::Matrix3d h = 1e-3 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
@@ -156,10 +168,10 @@ Alignment DrawingFit::align(const MemoryCloud& cloud, const AlignmentWindow& win
   const Point2<Map> centre = centre_of(cloud);
   const double sigma = std::max(0.1, model_.sigma_m);
   Alignment best;
-  best.correction = refine(cloud, centre, {});
+  best.correction = refine(cloud, centre, {}, model_);
   best.likelihood = likelihood(cloud, best.correction, sigma);
   for (const Transform2<Map, Map>& start : coarse(cloud, centre, window)) {
-    const Transform2<Map, Map> correction = refine(cloud, centre, start);
+    const Transform2<Map, Map> correction = refine(cloud, centre, start, model_);
     const double value = likelihood(cloud, correction, sigma);
     if (value > best.likelihood + 0.5) {
       best.correction = correction;
@@ -170,13 +182,18 @@ Alignment DrawingFit::align(const MemoryCloud& cloud, const AlignmentWindow& win
   return best;
 }
 
+double DrawingFit::walls_seen(const MemoryCloud& cloud) {
+  double sum = 0.0;
+  for (const CloudSurface& p : cloud) {
+    sum += p.weight * kShare;
+  }
+  return sum;
+}
+
 void DrawingFit::learn(const MemoryCloud& cloud) {
   constexpr double kPriorCount = 10.0;  // walls' worth of belief in the first guess
   constexpr double kPriorSigma_m = 0.2;
-  double all = kPriorCount;
-  for (const CloudSurface& p : cloud) {
-    all += p.weight * kShare;
-  }
+  const double all = kPriorCount + walls_seen(cloud);
   for (int round = 0; round < 5; ++round) {
     const Mixture mixture(model_, model_.sigma_m);
     double squares = kPriorCount * kPriorSigma_m * kPriorSigma_m;
@@ -211,25 +228,49 @@ std::vector<UnaryFactor> DrawingFit::pulls(const MemoryCloud& cloud,
   return factors;
 }
 
-void DrawingFit::pull(const SurfaceScan& scan, const Transform2<Map, Base>& pose, Eigen::Matrix3d& hessian,
-                      Eigen::Vector3d& gradient) const {
-  const double variance = model_.sigma_m * model_.sigma_m;
-  const Mixture mixture(model_, model_.sigma_m);
+namespace {
+
+/// Calls visit(place, hit, length) for each directed point of a scan; `hit.wall` is -1 where none is near.
+template <class Visit>
+void for_each_surface(const WallIndex& index, const SurfaceScan& scan, const Transform2<Map, Base>& pose,
+                      Visit&& visit) {
   for (std::size_t i = 1; i < scan.points.size(); ++i) {
     const SurfacePoint& p = scan.points[i];
     if (!p.has_normal()) continue;
     const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
     const double nx = pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y;
     const double ny = pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y;
-    const WallIndex::Hit hit = index_.nearest(q.x_m, q.y_m, WallIndex::direction_of(nx, ny));
-    if (hit.wall < 0 || hit.beyond_m > kBeyond_m) continue;
-    const double run =
-        std::min(kVoxel_m, std::hypot(p.x_m - scan.points[i - 1].x_m, p.y_m - scan.points[i - 1].y_m));
-    const double information = run / kVoxel_m * kShare * mixture.is_wall(hit.distance_m) / variance;
+    WallIndex::Hit hit = index.nearest(q.x_m, q.y_m, WallIndex::direction_of(nx, ny));
+    if (hit.beyond_m > kBeyond_m) hit.wall = -1;
+    const double gap = std::hypot(p.x_m - scan.points[i - 1].x_m, p.y_m - scan.points[i - 1].y_m);
+    visit(q, hit, std::min(kVoxel_m, gap));
+  }
+}
+
+}  // namespace
+
+double DrawingFit::share_on_walls(const SurfaceScan& scan, const Transform2<Map, Base>& pose) const {
+  const Mixture mixture(model_, std::max(0.05, model_.sigma_m));
+  double on_walls = 0.0;
+  double all = 1e-9;
+  for_each_surface(index_, scan, pose, [&](const auto&, const WallIndex::Hit& hit, double length) {
+    all += length;
+    on_walls += hit.wall >= 0 ? length * mixture.is_wall(hit.distance_m) : 0.0;
+  });
+  return on_walls / all;
+}
+
+void DrawingFit::pull(const SurfaceScan& scan, const Transform2<Map, Base>& pose, Eigen::Matrix3d& hessian,
+                      Eigen::Vector3d& gradient) const {
+  const double variance = model_.sigma_m * model_.sigma_m;
+  const Mixture mixture(model_, model_.sigma_m);
+  for_each_surface(index_, scan, pose, [&](const Point2<Map>& q, const WallIndex::Hit& hit, double length) {
+    if (hit.wall < 0) return;
+    const double information = length / kVoxel_m * kShare * mixture.is_wall(hit.distance_m) / variance;
     const Eigen::Vector3d j = jacobian(hit, q, pose.translation());
     hessian += information * j * j.transpose();
     gradient += information * hit.distance_m * j;
-  }
+  });
 }
 
 }  // namespace madori::localization

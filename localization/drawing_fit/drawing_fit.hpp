@@ -39,24 +39,30 @@ class DrawingFit {
   [[nodiscard]] const WallIndex& index() const { return index_; }
   [[nodiscard]] const DrawingModel& model() const { return model_; }
 
+  /// Surfaces of the cloud, in walls of two metres.
+  [[nodiscard]] static double walls_seen(const MemoryCloud& cloud);
   /// Log likelihood of the cloud after `correction`, the drawing blurred to `sigma_m`.
   [[nodiscard]] double likelihood(const MemoryCloud& cloud, const Transform2<Map, Map>& correction,
                                   double sigma_m) const;
   /// The best rigid correction within the window, found on a grid and refined.
   [[nodiscard]] Alignment align(const MemoryCloud& cloud, const AlignmentWindow& window) const;
+  /// From one start, with the plain model of a drawing never seen before: comparable between places.
+  [[nodiscard]] Alignment settle(const MemoryCloud& cloud, const Transform2<Map, Map>& start) const;
   /// Learns sigma and the share of inliers from a cloud that lies right.
   void learn(const MemoryCloud& cloud);
   /// The drawing's pulls, one a keyframe, for keyframes at `poses`.
   [[nodiscard]] std::vector<UnaryFactor> pulls(const MemoryCloud& cloud,
                                                const std::vector<Transform2<Map, Base>>& poses) const;
 
+  /// Share of the scan's surfaces, by length, that lie on drawn walls at `pose`.
+  [[nodiscard]] double share_on_walls(const SurfaceScan& scan, const Transform2<Map, Base>& pose) const;
   /// The drawing's pull on one scan at `pose`: adds Gauss-Newton terms of (x, y, yaw), Map axes.
   void pull(const SurfaceScan& scan, const Transform2<Map, Base>& pose, Eigen::Matrix3d& hessian,
             Eigen::Vector3d& gradient) const;
 
  private:
   [[nodiscard]] Transform2<Map, Map> refine(const MemoryCloud& cloud, const Point2<Map>& centre,
-                                            Transform2<Map, Map> correction) const;
+                                            Transform2<Map, Map> correction, const DrawingModel& model) const;
   [[nodiscard]] std::vector<Transform2<Map, Map>> coarse(const MemoryCloud& cloud, const Point2<Map>& centre,
                                                          const AlignmentWindow& window) const;
 

@@ -35,22 +35,42 @@ Eigen::Matrix3d with_floor(const Eigen::Matrix3d& covariance) {
 
 }  // namespace
 
-Localizer::Localizer(const mapping::Walls& walls, const InitialPose& initial, const LocalizerOptions& options)
+Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPose>& initial,
+                     const LocalizerOptions& options)
     : options_(options),
-      initial_(initial),
+      initial_(initial.value_or(InitialPose{})),
       model_(options.odometry),
       memory_(options.memory),
-      anchor_(initial.map_from_base) {
+      anchor_(initial_.map_from_base) {
+  evidence_.has_drawing = !walls.empty();
   if (!walls.empty()) {
     drawing_.emplace(walls);
+    evidence_.searching = !initial;
   }
+}
+
+HealthEvidence Localizer::evidence_with_time(Stamp stamp) const {
+  HealthEvidence evidence = evidence_;
+  if (evidence.blind_scans > 0) {
+    evidence.blind_s = to_seconds(stamp - last_agreed_);
+  }
+  return evidence;
+}
+
+/// Did the drawing explain the memory before? Only then is it any use for finding the place again.
+bool Localizer::drawing_fits() const {
+  return evidence_.fit_nats > options_.health.verified_nats &&
+         evidence_.fit_nats > options_.health.good_nats_a_wall * evidence_.walls_seen;
 }
 
 PoseEstimate Localizer::estimate(Stamp stamp, const Transform2<Map, Base>& map_from_base) const {
   PoseEstimate estimate;
   estimate.stamp = stamp;
   estimate.map_from_base = map_from_base;
-  estimate.covariance = covariance_;
+  estimate.covariance = covariance_ + in_map_axes(since_scan_.covariance, anchor_.yaw_rad());
+  HealthEvidence evidence = evidence_with_time(stamp);
+  evidence.position_sigma_m = std::sqrt(std::max(estimate.covariance(0, 0), estimate.covariance(1, 1)));
+  estimate.health = judge(evidence, options_.health);
   return estimate;
 }
 
@@ -68,8 +88,18 @@ PoseEstimate Localizer::on_odometry(const OdometryReading& reading) {
 }
 
 MatchResult Localizer::match(const SurfaceScan& scan, const OdometryStep& step) const {
-  const Transform2<Map, Base> prediction = anchor_ * step.motion;
-  const Eigen::Matrix3d covariance = with_floor(in_map_axes(step.covariance, anchor_.yaw_rad()));
+  MatchResult best = match_from(anchor_, scan, step);
+  if (late_anchor_ && best.inlier_share < options_.sure_inliers) {
+    const MatchResult late = match_from(*late_anchor_, scan, step);
+    best = late.inlier_share > best.inlier_share ? late : best;
+  }
+  return best;
+}
+
+MatchResult Localizer::match_from(const Transform2<Map, Base>& anchor, const SurfaceScan& scan,
+                                  const OdometryStep& step) const {
+  const Transform2<Map, Base> prediction = anchor * step.motion;
+  const Eigen::Matrix3d covariance = with_floor(in_map_axes(step.covariance, anchor.yaw_rad()));
   const MatchPrior prior{prediction, covariance.inverse()};
   const LocalMap map = memory_.recent_map(prediction.translation());
   SearchWindow window;
@@ -89,19 +119,25 @@ MatchResult Localizer::match(const SurfaceScan& scan, const OdometryStep& step) 
   }
   window.half_m = 0.5 + 0.5 * std::min(2.0, step.path_m);
   window.half_rad = 0.8;
-  const MatchResult far = map.refine(scan, map.search(scan, prediction, window).map_from_base, prior);
+  const LocalMap whole = memory_.whole_map(prediction.translation());
+  const MatchResult far =
+      whole.refine(scan, whole.search(scan, prediction, window).map_from_base, prior, pull);
   return far.inlier_share > near.inlier_share + 0.05 ? far : near;
 }
 
 void Localizer::start(SurfaceScan scan) {
   anchor_stamp_ = scan.stamp;
+  last_agreed_ = scan.stamp;
   memory_.add({std::move(scan), 0.0}, anchor_, Eigen::Matrix3d::Zero());
   since_scan_ = {};
   since_keyframe_ = {};
-  if (drawing_) {
+  if (drawing_ && evidence_.searching) {
+    next_survey_walls_ = 0.0;
+    look_everywhere();
+  } else if (drawing_) {
     consult_drawing();
-    anchor_ = memory_.poses().back();
   }
+  anchor_ = memory_.poses().back();
 }
 
 void Localizer::remember(SurfaceScan scan, const MatchResult& match) {
@@ -115,7 +151,9 @@ void Localizer::remember(SurfaceScan scan, const MatchResult& match) {
   ++keyframes_since_solve_;
   if (is_solve_due()) {
     keyframes_since_solve_ = 0;
-    if (drawing_) {
+    if (drawing_ && evidence_.searching) {
+      look_everywhere();
+    } else if (drawing_) {
       consult_drawing();
     } else if (memory_.loops() > 0) {
       memory_.optimise({});
@@ -146,6 +184,14 @@ void Localizer::consult_drawing() {
     cloud = memory_cloud(memory_);
   }
   drawing_->learn(cloud);
+  evidence_.walls_seen = DrawingFit::walls_seen(cloud);
+  if (evidence_.walls_seen > next_survey_walls_) {
+    survey_drawing(cloud);
+    cloud = memory_cloud(memory_);
+  }
+  evidence_.fit_nats = drawing_->likelihood(cloud, {}, std::max(0.1, drawing_->model().sigma_m));
+  evidence_.inliers = drawing_->model().inliers;
+  evidence_.sigma_m = drawing_->model().sigma_m;
   if (correct_recent_drift()) {
     cloud = memory_cloud(memory_);
   }
@@ -158,6 +204,47 @@ void Localizer::consult_drawing() {
                       .asDiagonal();
   unary.push_back(start);
   memory_.optimise(unary);
+}
+
+/// Seldom: is there a better place, or does the mirror image fit better? A start pose that an operator gave
+/// is never thrown away silently: the contradiction is reported.
+void Localizer::survey_drawing(const MemoryCloud& cloud) {
+  const Survey found = survey(*drawing_, cloud);
+  evidence_.mirrored_nats = found.mirrored_nats - found.here_nats;
+  evidence_.elsewhere_nats = found.elsewhere_nats - found.here_nats;
+  const bool in_doubt = evidence_.elsewhere_nats > options_.health.rival_nats;
+  next_survey_walls_ = evidence_.walls_seen * (in_doubt ? 1.3 : 2.0);
+}
+
+/// Global localization: the memory built so far is laid on all places of the drawing. Taken is a place that
+/// explains it well and leads all others.
+void Localizer::look_everywhere() {
+  MemoryCloud cloud = memory_cloud(memory_);
+  evidence_.walls_seen = DrawingFit::walls_seen(cloud);
+  if (evidence_.walls_seen < std::max(options_.search_walls, next_survey_walls_)) {
+    return;
+  }
+  next_survey_walls_ = 1.3 * evidence_.walls_seen;
+  const Transform2<Map, Map> place = best_place_of_all(*drawing_, cloud);
+  const Survey found = survey(*drawing_, moved(cloud, place));
+  if (found.elsewhere_nats - found.here_nats > -options_.found_nats ||
+      found.here_nats < options_.health.good_nats_a_wall * evidence_.walls_seen) {
+    return;
+  }
+  memory_.move(place);
+  initial_ = {memory_.poses().front(), 0.3, 0.1};
+  evidence_.searching = false;
+  next_survey_walls_ = std::max(30.0, 1.3 * evidence_.walls_seen);
+  consult_drawing();
+}
+
+/// After being moved by hand: what was remembered lies elsewhere; the place is sought with a fresh memory.
+void Localizer::start_search() {
+  memory_ = Memory(options_.memory);
+  evidence_ = {};
+  evidence_.searching = true;
+  next_survey_walls_ = 0.0;
+  keyframes_since_solve_ = 0;
 }
 
 /// On an exact drawing, a stretch that lies beside it by many times the drawing's own error has drifted:
@@ -177,6 +264,41 @@ bool Localizer::correct_recent_drift() {
   return true;
 }
 
+/// Does the scan agree with the memory and with the drawing as scans usually do here? Once in doubt, the
+/// memory alone does not clear it: what was added since the doubt began agrees with itself anywhere.
+void Localizer::note_agreement(const SurfaceScan& scan, const MatchResult& match, const OdometryStep& step) {
+  const bool drawing_speaks = drawing_ && !evidence_.searching && drawing_fits();
+  const double on_walls = drawing_speaks ? drawing_->share_on_walls(scan, match.map_from_base) : 0.0;
+  const bool exact = drawing_speaks && drawing_->model().sigma_m < options_.exact_drawing_m;
+  bool agrees = match.inlier_share > std::max(options_.lost_inliers, 0.5 * usual_inliers_);
+  if (exact) {  // in a furnished room of a rough drawing, few returns are on drawn walls anyway
+    agrees = agrees && on_walls > 0.5 * usual_on_walls_;
+  }
+  if (!agrees) {
+    ++evidence_.blind_scans;
+    evidence_.blind_m += step.path_m;
+    return;
+  }
+  usual_inliers_ += 0.05 * (match.inlier_share - usual_inliers_);
+  if (drawing_speaks) {
+    usual_on_walls_ += 0.05 * (on_walls - usual_on_walls_);
+  }
+  last_agreed_ = scan.stamp;
+  evidence_.blind_scans = 0;
+  evidence_.blind_m = 0.0;
+}
+
+/// What the scan says, and what the drawing's own error adds: walls that are drawn wrong lead all alike.
+void Localizer::update_covariance(const MatchResult& match) {
+  const Eigen::Matrix3d floor = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
+  covariance_ = (match.information + Eigen::Matrix3d::Identity()).inverse() + floor;
+  if (drawing_ && evidence_.walls_seen > 0.0) {
+    const double share = drawing_->model().sigma_m * drawing_->model().sigma_m;
+    const double walls = std::max(1.0, 0.1 * evidence_.inliers * evidence_.walls_seen);
+    covariance_.diagonal() += Eigen::Vector3d(share, share, 0.01 * share) * (1.0 + 4.0 / walls) * 0.5;
+  }
+}
+
 PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
   SurfaceScan scan = make_surface_scan(stamp, sensor, to_points(points), options_.scan);
   if (memory_.empty()) {
@@ -186,21 +308,33 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
     return estimate(stamp, anchor_);
   }
   if (stamp < anchor_stamp_) {
-    return estimate(stamp, match(scan, OdometryStep{}).map_from_base);
+    late_anchor_ = match(scan, OdometryStep{}).map_from_base;  // which of the two clocks is right shows next
+    return estimate(stamp, *late_anchor_);
   }
   const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
   MatchResult matched = match(scan, step);
+  late_anchor_.reset();
+  note_agreement(scan, matched, step);
   const bool fits = matched.inlier_share > options_.lost_inliers;
   if (!fits) {
     matched.map_from_base = anchor_ * step.motion;
     matched.information.setZero();
+    memory_.note_break();
+    since_keyframe_.covariance += Eigen::Vector3d(0.04, 0.04, 0.25).asDiagonal();  // wheels may have slipped
   }
   if (fits) {
     model_.learn(step, anchor_.inverse() * matched.map_from_base, 0.02, 0.005);
   }
   anchor_ = matched.map_from_base;
   anchor_stamp_ = stamp;
+  update_covariance(matched);
   since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
+  if (drawing_ && !evidence_.searching && evidence_.blind_scans >= options_.health.blind_scans &&
+      judge(evidence_with_time(stamp), options_.health).state == LocalizationState::Lost && drawing_fits()) {
+    start_search();
+    start(std::move(scan));
+    return estimate(stamp, anchor_);
+  }
   const Transform2<Base, Base> moved = memory_.poses().back().inverse() * anchor_;
   if (std::hypot(moved.x_m(), moved.y_m()) > options_.keyframe_m ||
       std::abs(moved.yaw_rad()) > options_.keyframe_rad) {

@@ -46,6 +46,27 @@ LocalMap Memory::recent_map(const Point2<Map>& centre) const {
   return {pieces, centre, options_.map_radius_m};
 }
 
+LocalMap Memory::whole_map(const Point2<Map>& centre) const {
+  std::vector<std::pair<double, std::size_t>> near;
+  const std::size_t recent = window_begin();
+  for (std::size_t i = 0; i < recent; ++i) {
+    const double d = distance_m(poses_[i].translation(), centre);
+    if (d < options_.nearby_m) {
+      near.emplace_back(d, i);
+    }
+  }
+  std::sort(near.begin(), near.end());
+  near.resize(std::min(near.size(), static_cast<std::size_t>(options_.nearby_keyframes)));
+  std::vector<LocalMap::Piece> pieces;
+  for (const auto& [d, i] : near) {
+    pieces.push_back({&keyframes_[i].scan, poses_[i]});
+  }
+  for (std::size_t i = recent; i < keyframes_.size(); ++i) {
+    pieces.push_back({&keyframes_[i].scan, poses_[i]});
+  }
+  return {pieces, centre, options_.map_radius_m};
+}
+
 int Memory::add(Keyframe keyframe, const Transform2<Map, Base>& map_from_base,
                 const Eigen::Matrix3d& motion_information) {
   const int id = static_cast<int>(keyframes_.size());
@@ -101,7 +122,7 @@ bool Memory::close_loop(const LoopCandidate& candidate) {
   if (map.empty()) {
     return false;
   }
-  const double open_m = keyframes_.back().path_m - last_loop_path_m_;
+  const double open_m = keyframes_.back().path_m - last_loop_path_m_ + extra_open_m_;
   SearchWindow window;
   window.sigma_m = 0.05 + options_.drift_per_m * open_m;
   window.sigma_rad = 0.01 + options_.drift_rad_per_m * open_m;
@@ -133,6 +154,7 @@ int Memory::close_loops() {
   if (closed > 0) {
     loops_ += closed;
     last_loop_path_m_ = keyframes_.back().path_m;
+    extra_open_m_ = 0.0;
   }
   return closed;
 }

@@ -21,6 +21,9 @@ struct MemoryOptions {
   double loop_radius_m = 3.5;   ///< how near an old keyframe must be to close a loop with it
   int loop_chain = 12;          ///< keyframes around the nearest one that make the piece to match against
   double loop_inliers = 0.55;   ///< share of the scan that must fit
+  double nearby_m = 5.0;        ///< old keyframes this near count as nearby
+  int nearby_keyframes = 20;    ///< at most
+  double break_open_m = 60.0;   ///< a break in the chain counts as so much driving
   double drift_per_m = 0.015;   ///< growth of the uncertainty between loops, metres a metre
   double drift_rad_per_m = 0.004;
 };
@@ -48,6 +51,10 @@ class Memory {
   [[nodiscard]] std::size_t window_begin() const;
   /// The recent surfaces around a place.
   [[nodiscard]] LocalMap recent_map(const Point2<Map>& centre) const;
+  /// These, and what older keyframes near the place saw.
+  [[nodiscard]] LocalMap whole_map(const Point2<Map>& centre) const;
+  /// The chain of motions may be broken here: loops are sought in a wide window until one is closed.
+  void note_break() { extra_open_m_ = options_.break_open_m; }
   /// Adds a keyframe; `motion` from the newest one with its information (axes of the newest), if there is
   /// one.
   int add(Keyframe keyframe, const Transform2<Map, Base>& map_from_base,
@@ -76,6 +83,7 @@ class Memory {
   std::vector<RelativeFactor> factors_;
   int loops_ = 0;
   double last_loop_path_m_ = 0.0;
+  double extra_open_m_ = 0.0;
 };
 
 }  // namespace madori::localization

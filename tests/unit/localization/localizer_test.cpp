@@ -52,7 +52,8 @@ TEST(Localizer, FindsItsPlaceOnAnExactDrawingFromARoughStart) {
   const mapping::Walls walls = test::laboratory_hall();
   const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
   const Transform2<Map, Base> truth = moments.front().truth;
-  Localizer localizer(walls, {{truth.x_m() + 0.4, truth.y_m() - 0.3, truth.yaw_rad() + to_rad(10.0)}});
+  Localizer localizer(walls,
+                      InitialPose{{truth.x_m() + 0.4, truth.y_m() - 0.3, truth.yaw_rad() + to_rad(10.0)}});
   const Errors errors = run(localizer, moments);
   EXPECT_LT(errors.rms_m, 0.05);
   EXPECT_LT(errors.last_rad, to_rad(0.5));
@@ -67,14 +68,14 @@ TEST(Localizer, FollowsTheBuildingWhereTheDrawingIsWrong) {
     drawing[i].segment.a.x_m += 0.5;
     drawing[i].segment.b.x_m += 0.5;
   }
-  Localizer localizer(drawing, {moments.front().truth});
+  Localizer localizer(drawing, InitialPose{moments.front().truth});
   EXPECT_LT(run(localizer, moments).rms_m, 0.12);
 }
 
 TEST(Localizer, MapsWithoutADrawing) {
   std::mt19937 engine(13);
   const auto moments = test::drive(test::laboratory_hall(), kRound, bad_wheels(), engine);
-  Localizer localizer({}, {moments.front().truth});
+  Localizer localizer({}, InitialPose{moments.front().truth});
   const Errors errors = run(localizer, moments);
   EXPECT_LT(errors.rms_m, 0.10);
   EXPECT_GT(localizer.memory().loops(), 0);
@@ -85,7 +86,7 @@ TEST(Localizer, TheSameReadingsGiveTheSamePosesBitForBit) {
   const mapping::Walls walls = test::laboratory_hall();
   auto moments = test::drive(walls, kRound, bad_wheels(), engine);
   moments.resize(150);
-  Localizer a(walls, {moments.front().truth}), b(walls, {moments.front().truth});
+  Localizer a(walls, InitialPose{moments.front().truth}), b(walls, InitialPose{moments.front().truth});
   for (const auto& m : moments) {
     (void)a.on_odometry(m.odometry);
     (void)b.on_odometry(m.odometry);
@@ -101,7 +102,7 @@ TEST(Localizer, SurvivesEmptyScansAndLateReadings) {
   std::mt19937 engine(15);
   const mapping::Walls walls = test::laboratory_hall();
   const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
-  Localizer localizer(walls, {moments.front().truth});
+  Localizer localizer(walls, InitialPose{moments.front().truth});
   for (std::size_t i = 0; i < moments.size(); ++i) {
     (void)localizer.on_odometry(moments[i].odometry);
     if (i > 0 && i % 7 == 0) (void)localizer.on_odometry(moments[i - 1].odometry);
@@ -113,6 +114,70 @@ TEST(Localizer, SurvivesEmptyScansAndLateReadings) {
   }
   const PoseEstimate last = localizer.on_odometry(moments.back().odometry);
   EXPECT_LT(distance_m(last.map_from_base.translation(), moments.back().truth.translation()), 0.15);
+}
+
+PoseEstimate feed(Localizer& localizer, const test::DriveMoment& m) {
+  const PoseEstimate e = localizer.on_odometry(m.odometry);
+  return m.has_scan ? localizer.on_scan(m.scan.stamp, scan_points(m.scan, {})) : e;
+}
+
+TEST(Localizer, FindsItsPlaceWithoutAStartPose) {
+  std::mt19937 engine(16);
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  Localizer localizer(walls, std::nullopt);
+  const Errors errors = run(localizer, moments);
+  EXPECT_LT(errors.rms_m, 0.05);
+  EXPECT_EQ(feed(localizer, moments.back()).health.state, LocalizationState::Localized);
+}
+
+TEST(Localizer, AMirroredDrawingIsNeverBelieved) {
+  std::mt19937 engine(17);
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  mapping::Walls mirrored = walls;
+  for (auto& wall : mirrored) {
+    wall.segment.a.x_m = 20.0 - wall.segment.a.x_m;
+    wall.segment.b.x_m = 20.0 - wall.segment.b.x_m;
+  }
+  Localizer localizer(mirrored, InitialPose{moments.front().truth});
+  std::size_t believed = 0;
+  PoseEstimate last;
+  for (const auto& m : moments) {
+    last = feed(localizer, m);
+    believed += last.health.state == LocalizationState::Localized ? 1 : 0;
+  }
+  EXPECT_EQ(last.health.state, LocalizationState::Lost) << last.health.reason;
+  EXPECT_LT(20 * believed, moments.size());
+}
+
+TEST(Localizer, AKidnappingIsNoticedWithinTwoSecondsAndMended) {
+  std::mt19937 engine(18);
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto before = test::drive(walls, {{2.0, 1.2}, {7.0, 1.2}, {11.0, 1.2}}, bad_wheels(), engine);
+  auto after = test::drive(walls, {{14.4, 8.6}, {14.0, 4.5}, {14.5, 1.0}, {11.0, 1.2}, {7.0, 1.2}},
+                           bad_wheels(), engine);
+  Localizer localizer(walls, InitialPose{before.front().truth});
+  PoseEstimate last;
+  for (const auto& m : before) last = feed(localizer, m);
+  ASSERT_EQ(last.health.state, LocalizationState::Localized) << last.health.reason;
+  const OdometryReading carried_on = before.back().odometry;  // the wheels feel nothing of the lift
+  const Transform2<Odom, Odom> shift =
+      carried_on.odom_from_base * after.front().odometry.odom_from_base.inverse();
+  double noticed_s = 1e9;
+  for (auto& m : after) {
+    const Duration later = carried_on.stamp - after.front().odometry.stamp + std::chrono::milliseconds(100);
+    test::DriveMoment now = m;
+    now.odometry = {m.odometry.stamp + later, shift * m.odometry.odom_from_base};
+    now.scan.stamp = now.odometry.stamp;
+    last = feed(localizer, now);
+    if (last.health.state == LocalizationState::Lost) {
+      noticed_s = std::min(noticed_s, to_seconds(now.odometry.stamp - carried_on.stamp));
+    }
+  }
+  EXPECT_LT(noticed_s, 2.0);
+  EXPECT_EQ(last.health.state, LocalizationState::Localized) << last.health.reason;
+  EXPECT_LT(distance_m(last.map_from_base.translation(), after.back().truth.translation()), 0.2);
 }
 
 }  // namespace
