@@ -9,7 +9,8 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   using namespace madori::mapping;
   // Honest headers of large pictures only cost time: the size limit has its own unit test.
   const auto header = read_image_header({data, size});
-  if (header && header->width_px * header->height_px > 1'000'000) return 0;
+  if (header && static_cast<double>(header->width_px) * static_cast<double>(header->height_px) > 1e6)
+    return 0;
   static const madori::fuzz::MemoryFile file(".png");
   file.write(data, size);
   try {

@@ -5,13 +5,14 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <regex>
+#include <string_view>
 
 #include "core/result.hpp"
 
@@ -122,12 +123,25 @@ void add_feature(const OGRFeature& feature, std::map<std::string, std::size_t>& 
   Collector(content, like).add(*geometry);
 }
 
-std::string header_of(const std::filesystem::path& file) {
+/// Refuses what GDAL would read half (no EOF at the end) or never end on (zero bytes), and returns the first
+/// 256 KiB, which hold the header.
+std::string checked_header(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::string text(1U << 18U, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
+  if (!stream) throw Error(file.string(), "cannot be read", "check its permissions");
+  std::string header, tail;
+  std::string chunk(1U << 18U, '\0');
+  while (stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || stream.gcount() > 0) {
+    const std::string_view text(chunk.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.find('\0') != std::string_view::npos)
+      throw Error(file.string(), "is a binary DXF or damaged", "save it again as ASCII DXF (R2000 or newer)");
+    if (header.empty()) header = text;
+    tail += text.substr(text.size() - std::min<std::size_t>(text.size(), 64));
+    tail.erase(0, tail.size() - std::min<std::size_t>(tail.size(), 64));
+  }
+  tail.erase(tail.find_last_not_of(" \t\r\n\x1A") + 1);
+  if (!tail.ends_with("EOF"))
+    throw Error(file.string(), "is no DXF or is cut off", "copy it again, or save it again as ASCII DXF");
+  return header;
 }
 
 }  // namespace
@@ -138,7 +152,7 @@ double DxfLine::length() const {
 
 DxfContent read_dxf_lines(const std::filesystem::path& file) {
   DxfContent content;
-  read_header_units(header_of(file), content.units);
+  read_header_units(checked_header(file), content.units);
   const Dataset dataset = open(file);
   CPLPushErrorHandler(CPLQuietErrorHandler);
   std::map<std::string, std::size_t> layers;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "core/result.hpp"
 #include "mapping/drawing/vector/dxf_layers.hpp"
@@ -111,6 +113,25 @@ TEST(LoadDxf, RubbishIsRefused) {
   const test::TemporaryFolder folder;
   EXPECT_THROW((void)load_dxf(folder.write("a.dxf", "no drawing at all"), {}), Error);
   EXPECT_THROW((void)load_dxf(folder.write("b.dxf", ""), {}), Error);
+}
+
+/// GDAL reads half a file without a word, and never ends on some with zero bytes.
+TEST(LoadDxf, HalfAFileAndZeroBytesAreRefused) {
+  const test::TemporaryFolder folder;
+  std::ifstream stream(kFactory / "factory.dxf", std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+  ASSERT_GT(whole.size(), 100'000U);
+  const auto reason = [&](const std::string& text) -> std::string {
+    try {
+      (void)load_dxf(folder.write("a.dxf", text), {});
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(reason(whole.substr(0, whole.size() - 1000)), HasSubstr("cut off"));
+  EXPECT_THAT(reason(whole.substr(0, 150'000) + '\0' + whole.substr(150'000)), HasSubstr("binary DXF"));
+  EXPECT_EQ(reason(whole + "\r\n"), "");
 }
 
 /// Three plans from elsewhere: inches although the header says millimetres, an EXTMIN of 1e10, German layers.
