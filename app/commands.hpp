@@ -8,13 +8,16 @@ class App;
 namespace madori::app {
 
 void add_demo(CLI::App& app);
-void add_import(CLI::App& app);
 void add_localize(CLI::App& app);
+void add_export(CLI::App& app);
+void add_import(CLI::App& app);
 void add_relocalize(CLI::App& app);
 void add_route(CLI::App& app);
 void add_order(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_run(CLI::App& app);
+void add_scale(CLI::App& app);
+void add_tiles(CLI::App& app);
 void add_version(CLI::App& app);
 
 }  // namespace madori::app

@@ -9,13 +9,16 @@ int main(int argc, char** argv) {
   CLI::App app("Madori: a factory vehicle drives from the drawing of the factory", "madori");
   app.require_subcommand(1);
   madori::app::add_demo(app);
-  madori::app::add_import(app);
   madori::app::add_localize(app);
+  madori::app::add_export(app);
+  madori::app::add_import(app);
   madori::app::add_relocalize(app);
   madori::app::add_route(app);
   madori::app::add_order(app);
   madori::app::add_replay(app);
   madori::app::add_run(app);
+  madori::app::add_scale(app);
+  madori::app::add_tiles(app);
   madori::app::add_version(app);
   try {
     app.parse(argc, argv);

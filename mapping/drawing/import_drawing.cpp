@@ -10,9 +10,8 @@
 #include "core/result.hpp"
 #include "mapping/drawing/import_picture.hpp"
 #include "mapping/site/site_transaction.hpp"
-#include "mapping/wall_map/occupancy_map.hpp"
-#include "mapping/wall_map/point_map.hpp"
 #include "mapping/wall_map/wall.hpp"
+#include "mapping/wall_map/wall_files.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -180,18 +179,15 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
   const Walls walls = to_map(found.walls, plan.picture.height_px, unit);
 
   stages.begin("points", 0.85);
-  const PointMap points = make_point_map(walls, options.point_spacing_m.value_or(scaled ? 0.02 : 1.0),
-                                         options.voxel_m.value_or(scaled ? 0.05 : 2.0));
-  save_pcd(change.staged("walls.pcd"), points);
+  WallFileOptions files = scaled ? WallFileOptions() : WallFileOptions::unscaled();
+  files.point_spacing = options.point_spacing_m.value_or(files.point_spacing);
+  files.voxel = options.voxel_m.value_or(files.voxel);
+  files.cell = options.cell_m.value_or(files.cell);
+  const PointMap points =
+      stage_wall_files(change, walls, plan.picture.width_px * unit, plan.picture.height_px * unit, files);
   stages.end(points.points.size());
 
   stages.begin("save", 0.9);
-  const OccupancyMap grid =
-      make_occupancy_map(walls, plan.picture.width_px * unit, plan.picture.height_px * unit,
-                         options.cell_m.value_or(scaled ? 0.05 : 2.0));
-  change.write("map.pgm", grid.pgm);
-  change.write("map.yaml", grid.yaml);
-  change.write("walls.csv", walls_csv(walls));
   change.write("site.yaml", site_yaml(report.site));
   change.write(drawing_name, file_content(options.drawing));
   remove_old_drawing(options, drawing_name, change);

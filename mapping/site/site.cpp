@@ -32,6 +32,8 @@ ScaleRecord read_scale(StrictYaml yaml) {
   record.residual_m = yaml.number_or("residual_m", 0.0, 0.0, 1e6);
   record.date = yaml.text_or("date", "");
   if (const YAML::Node inputs = yaml.raw("inputs")) record.inputs = inputs.as<std::vector<std::string>>();
+  if (const YAML::Node residuals = yaml.raw("residuals_m"))
+    record.residuals_m = residuals.as<std::vector<double>>();
   yaml.refuse_unknown_keys();
   return record;
 }
@@ -81,7 +83,10 @@ void emit_scale(YAML::Emitter& out, const ScaleRecord& scale) {
   out << YAML::Key << "relative_uncertainty" << YAML::Value << scale.relative_uncertainty;
   out << YAML::Key << "residual_m" << YAML::Value << scale.residual_m;
   out << YAML::Key << "date" << YAML::Value << scale.date;
-  out << YAML::Key << "inputs" << YAML::Value << scale.inputs << YAML::EndMap;
+  out << YAML::Key << "inputs" << YAML::Value << scale.inputs;
+  if (!scale.residuals_m.empty())
+    out << YAML::Key << "residuals_m" << YAML::Value << YAML::Flow << scale.residuals_m;
+  out << YAML::EndMap;
 }
 
 void emit_vehicle(YAML::Emitter& out, const VehicleRecord& v) {
