@@ -16,6 +16,7 @@ namespace {
 constexpr int kReach = 2;       // pixels between the two sides of an edge: spans the blur of a scan
 constexpr int kRowStep = 5;     // every fifth row is sample enough
 constexpr int kNoiseStep = 16;  // ... and far fewer for the noise
+constexpr int kSharedRows = 4;
 constexpr double kLeastContrast = 16;
 constexpr double kNearBest = 0.96;  // thresholds that cross almost as many edges form the plateau
 using Levels = std::array<double, 257>;
@@ -75,6 +76,21 @@ double best_threshold(const GrayImage& image, const Paper& paper) {
   return std::min(0.5 * static_cast<double>(low + high), 250 - 2 * noise);
 }
 
+/// Dark for the paper around it. The paper is smooth: a few rows share one row of thresholds.
+void compare_with_paper(const GrayImage& image, const Paper& paper, double share, GrayImage& ink) {
+  const cv::Mat grey = cv_view(image);
+  cv::Mat out = cv_view(ink), thresholds;
+  std::vector<float> levels(static_cast<std::size_t>(image.width_px));
+  for (int v = 0; v < image.height_px; ++v) {
+    if (v % kSharedRows == 0) {
+      paper.row(v + kSharedRows / 2, levels);
+      cv::Mat(1, image.width_px, CV_32FC1, levels.data()).convertTo(thresholds, CV_8U, share);
+    }
+    cv::Mat row = out.row(v);
+    cv::compare(grey.row(v), thresholds, row, cv::CMP_LE);
+  }
+}
+
 }  // namespace
 
 Binarized binarize(const GrayImage& image, std::optional<double> threshold) {
@@ -86,15 +102,7 @@ Binarized binarize(const GrayImage& image, std::optional<double> threshold) {
     cv::threshold(cv_view(image), ink, std::floor(level), 255, cv::THRESH_BINARY_INV);
     return result;
   }
-  std::vector<float> levels(static_cast<std::size_t>(image.width_px));
-  const auto share = static_cast<float>(result.threshold / 255);
-  for (int v = 0; v < image.height_px; ++v) {
-    paper.row(v, levels);
-    const std::uint8_t* grey = &image.pixels[static_cast<std::size_t>(v) * levels.size()];
-    std::uint8_t* out = &result.ink.pixels[static_cast<std::size_t>(v) * levels.size()];
-    for (std::size_t u = 0; u < levels.size(); ++u)
-      out[u] = static_cast<std::uint8_t>(-static_cast<int>(static_cast<float>(grey[u]) <= levels[u] * share));
-  }
+  compare_with_paper(image, paper, result.threshold / 255, result.ink);
   return result;
 }
 

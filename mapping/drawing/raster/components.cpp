@@ -97,7 +97,6 @@ void Components::connect_rows() {
 void Components::describe() {
   constexpr Component kNone{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), 0, 0};
   std::fill(components_.begin(), components_.end(), kNone);
-  std::vector<std::array<double, 5>> sums(components_.size());  // u, v, uu, uv, vv
   for (const Run& run : runs_) {
     Component& c = components_[static_cast<std::size_t>(run.component)];
     c.left = std::min(c.left, run.first);
@@ -105,6 +104,13 @@ void Components::describe() {
     c.top = std::min(c.top, run.v);
     c.bottom = run.v;
     c.area_px += run.length();
+  }
+  if (touch_ == 1) describe_axes();
+}
+
+void Components::describe_axes() {
+  std::vector<std::array<double, 5>> sums(components_.size());  // u, v, uu, uv, vv
+  for (const Run& run : runs_) {
     const double n = run.length(), u = 0.5 * (run.first + run.last) + 0.5, v = run.v + 0.5;
     auto& sum = sums[static_cast<std::size_t>(run.component)];
     const std::array<double, 5> more{n * u, n * v, n * (u * u + n * n / 12), n * u * v,

@@ -35,7 +35,7 @@ struct Component {
 /// All marks of a drawing as runs: memory follows the ink, not the picture.
 class Components {
  public:
-  /// 8-connected marks of ink; with `of_paper` the 4-connected areas of paper instead.
+  /// 8-connected marks of ink; with `of_paper` the 4-connected areas of paper instead, which have no axes.
   explicit Components(const GrayImage& ink, bool of_paper = false);
 
   [[nodiscard]] const std::vector<Component>& all() const { return components_; }
@@ -48,6 +48,7 @@ class Components {
  private:
   void connect_rows();
   void describe();
+  void describe_axes();
   [[nodiscard]] std::span<const Run> row(int v) const;
 
   std::vector<Run> runs_;

@@ -10,15 +10,17 @@ namespace madori::mapping {
 namespace {
 
 constexpr int kBlock = 32;
+constexpr int kSampleStep = 4;
 constexpr double kPaperShare = 0.90;    // the bright end of a block: robust against a few glints
 constexpr double kDarkestPaper = 0.55;  // of the common level; darker areas are fills, not shadows
 constexpr double kEvenWithin = 10;      // grey levels
 
 float bright_end(const GrayImage& image, int u0, int v0) {
-  std::uint8_t samples[(kBlock / 2) * (kBlock / 2)];
+  std::uint8_t samples[(kBlock / kSampleStep) * (kBlock / kSampleStep)];
   std::size_t n = 0;
-  for (int v = v0; v < std::min(v0 + kBlock, image.height_px); v += 2)
-    for (int u = u0; u < std::min(u0 + kBlock, image.width_px); u += 2) samples[n++] = image.at(u, v);
+  for (int v = v0; v < std::min(v0 + kBlock, image.height_px); v += kSampleStep)
+    for (int u = u0; u < std::min(u0 + kBlock, image.width_px); u += kSampleStep)
+      samples[n++] = image.at(u, v);
   const auto rank = static_cast<std::ptrdiff_t>(kPaperShare * static_cast<double>(n - 1));
   std::nth_element(samples, samples + rank, samples + n);
   return samples[rank];

@@ -26,7 +26,7 @@ struct Strokes {
   double solid_from_px = 0;
 };
 
-/// A disc-like opening (box, then diamond) of the ink.
+/// An opening of the ink by a disc (a box, then diamonds), grown back a little further within the ink.
 [[nodiscard]] Strokes split_strokes(const GrayImage& ink, double solid_from_px);
 
 }  // namespace madori::mapping
