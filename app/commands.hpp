@@ -18,6 +18,7 @@ void add_replay(CLI::App& app);
 void add_run(CLI::App& app);
 void add_scale(CLI::App& app);
 void add_tiles(CLI::App& app);
+void add_sim(CLI::App& app);
 void add_version(CLI::App& app);
 
 }  // namespace madori::app

@@ -44,9 +44,16 @@ double Vlp16Model::azimuth_rad(std::uint64_t firing) const {
   return (turns - std::floor(turns)) * 2.0 * kPi;
 }
 
+void Vlp16Model::choose_firings() {
+  const auto every = static_cast<std::uint64_t>(spec_.keep_every_firing);
+  kept_.clear();
+  for (std::size_t f = 0; f < firings(); ++f)
+    if ((packet_ * firings() + f) % every == 0) kept_.push_back(f);
+}
+
 void Vlp16Model::aim(const View& view) {
-  // Eight firings a group; 12 firings of dual-return mode fill the second group by half.
-  const std::size_t groups = (firings() + kGroup - 1) / kGroup;
+  // Eight firings a group; the last group is filled up with its last firing.
+  const std::size_t groups = (kept_.size() + kGroup - 1) / kGroup;
   beams_.reset(groups * vlp16::kChannels * kGroup);
   const double channel_rad = 2.304e-6 * spec_.rate_hz * 2.0 * kPi;
   struct Laser {
@@ -58,7 +65,7 @@ void Vlp16Model::aim(const View& view) {
     lasers[c] = {std::cos(elevation), std::sin(elevation), std::cos(step), std::sin(step)};
   }
   for (std::size_t f = 0; f < groups * kGroup; ++f) {
-    const std::uint64_t firing = packet_ * firings() + std::min(f, firings() - 1);
+    const std::uint64_t firing = packet_ * firings() + kept_[std::min(f, kept_.size() - 1)];
     const Duration time(static_cast<std::int64_t>(firing) * kFiringNs);
     const SensorPose from = sensor_pose(view.world, view.track.at(time), mounting_);
     const double azimuth = azimuth_rad(firing), ca = std::cos(azimuth), sa = std::sin(azimuth);
@@ -74,14 +81,11 @@ void Vlp16Model::fill(vlp16::DataPacket& packet) const {
   Random random(seed_, kStream, packet_);
   const EchoOptions options{static_cast<float>(spec_.noise_m), spec_.dropout, 0.4F,
                             static_cast<float>(spec_.range_max_m)};
-  for (std::size_t f = 0; f < firings(); ++f) {
-    const std::uint64_t firing = packet_ * firings() + f;
-    const bool kept = firing % static_cast<std::uint64_t>(spec_.keep_every_firing) == 0;
+  for (std::size_t k = 0; k < kept_.size(); ++k) {
+    const std::size_t f = kept_[k];
     const std::size_t block = spec_.dual_return ? f / 2 * 2 : f / 2;
     for (std::size_t c = 0; c < vlp16::kChannels; ++c) {
-      const std::uint64_t bits = random.next();
-      if (!kept) continue;
-      const Echoes echoes = echoes_of(beams_.hit(place(f, c)), options, bits);
+      const Echoes echoes = echoes_of(beams_.hit(place(k, c)), options, random.next());
       const std::size_t index = f % 2 * vlp16::kChannels + c;
       packet.blocks[block].returns[index] = encode_echo(spec_.dual_return ? echoes.last : echoes.strongest);
       if (spec_.dual_return) packet.blocks[block + 1].returns[index] = encode_echo(echoes.strongest);
@@ -90,6 +94,7 @@ void Vlp16Model::fill(vlp16::DataPacket& packet) const {
 }
 
 vlp16::DataPacket Vlp16Model::measure(const View& view) {
+  choose_firings();
   aim(view);
   beams_.cast(view.world.rays(), view.bodies, static_cast<float>(spec_.range_max_m));
   vlp16::DataPacket packet;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "sensors/vlp16/packet.hpp"
 #include "simulation/lidar/echo.hpp"
 #include "simulation/lidar/view.hpp"
@@ -22,6 +24,8 @@ class Vlp16Model {
  private:
   [[nodiscard]] std::size_t firings() const { return spec_.dual_return ? 12 : 24; }
   [[nodiscard]] double azimuth_rad(std::uint64_t firing) const;
+  /// Which firings of the next packet are measured (Vlp16Spec::keep_every_firing).
+  void choose_firings();
   void aim(const View& view);
   void fill(sensors::vlp16::DataPacket& packet) const;
 
@@ -30,6 +34,7 @@ class Vlp16Model {
   std::uint64_t seed_;
   Duration hour_offset_;
   std::uint64_t packet_ = 0;
+  std::vector<std::size_t> kept_;  ///< within the packet
   BeamBatch beams_;
 };
 

@@ -1,0 +1,147 @@
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/commands.hpp"
+#include "app/json_output.hpp"
+#include "app/trajectory_file.hpp"
+#include "core/result.hpp"
+#include "simulation/devices/live_run.hpp"
+
+namespace madori::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SimArguments {
+  std::string site, scenario, devices, truth_file, json_file;
+  simulation::LiveOptions live;
+  simulation::DeviceHubOptions hub;
+  std::uint16_t truth_port = 0;
+  std::optional<std::uint64_t> seed;
+};
+
+std::atomic<bool> stop_requested = false;  // NOLINT: a signal handler reaches nothing else
+
+void request_stop(int /*signal*/) {
+  stop_requested = true;
+}
+
+simulation::FactorySetup setup_of(const SimArguments& arguments) {
+  const fs::path own = fs::path(arguments.site) / "scenario.yaml";
+  if (arguments.scenario.empty() && !fs::exists(own))
+    throw Error(own.string(), "there is no such file",
+                "name a scenario: --scenario data/scenarios/empty.yaml");
+  auto setup =
+      simulation::load_setup(arguments.site, arguments.scenario.empty() ? own : fs::path(arguments.scenario));
+  if (arguments.seed) setup.seed = setup.scenario.seed = *arguments.seed;
+  setup.epoch = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+  return setup;
+}
+
+void print_devices(const simulation::Factory& factory, const simulation::DeviceHub& hub,
+                   const SimArguments& arguments, std::uint16_t truth_port) {
+  const auto has = [&](simulation::Device device) { return factory.mounting(device).has_value(); };
+  if (has(simulation::Device::Vlp16))
+    std::printf("vlp16  udp  %s:%u\n", arguments.hub.host.c_str(), arguments.hub.vlp16_port);
+  if (has(simulation::Device::Lms1xx))
+    std::printf("lms1xx tcp  %s:%u (CoLa %s)\n", arguments.hub.host.c_str(), hub.lms_port(),
+                arguments.hub.binary_lms ? "B" : "A");
+  if (has(simulation::Device::S300)) std::printf("s300   pty  %s\n", hub.s300_link().c_str());
+  std::printf("drive  pty  %s\n", hub.drive_link().c_str());
+  std::printf("truth  ws   ws://127.0.0.1:%u\n", truth_port);
+  std::fflush(stdout);
+}
+
+nlohmann::json summary(const simulation::Factory& factory, const simulation::LiveReport& report,
+                       const simulation::HubCounters& sent) {
+  nlohmann::json collisions = nlohmann::json::array();
+  for (const auto& c : factory.collisions())
+    collisions.push_back({{"time_s", to_seconds(c.stamp)},
+                          {"what", c.what},
+                          {"speed_mps", c.speed_mps},
+                          {"x_m", c.map_from_base.x_m()},
+                          {"y_m", c.map_from_base.y_m()}});
+  return {{"simulated_s", report.simulated_s},
+          {"wall_s", report.wall_s},
+          {"lag_s", report.lag_s},
+          {"distance_m", factory.distance_driven_m()},
+          {"vlp16_packets", sent.vlp16_packets},
+          {"vlp16_refused", sent.vlp16_refused},
+          {"lms1xx_telegrams", sent.lms_telegrams},
+          {"s300_telegrams", sent.s300_telegrams},
+          {"drive_frames", sent.drive_frames},
+          {"drive_bytes_received", sent.drive_bytes_received},
+          {"collisions", collisions}};
+}
+
+void print_summary(const nlohmann::json& s) {
+  std::printf("%.1f s simulated in %.1f s, %.2f m driven, %zu collisions\n", s["simulated_s"].get<double>(),
+              s["wall_s"].get<double>(), s["distance_m"].get<double>(), s["collisions"].size());
+  for (const auto& c : s["collisions"])
+    std::printf("  with %s at %.2f m/s at (%.2f, %.2f)\n", c["what"].get<std::string>().c_str(),
+                c["speed_mps"].get<double>(), c["x_m"].get<double>(), c["y_m"].get<double>());
+  if (s["lag_s"].get<double>() > 0.0)
+    std::printf("this machine could not keep up: %.1f s were given up\n", s["lag_s"].get<double>());
+}
+
+void simulate(SimArguments arguments) {
+  const simulation::FactorySetup setup = setup_of(arguments);
+  const fs::path folder =
+      arguments.devices.empty() ? fs::path(arguments.site) / "devices" : fs::path(arguments.devices);
+  fs::create_directories(folder);
+  arguments.hub.folder = folder;
+  arguments.hub.binary_lms = setup.scenario.lms1xx.binary;
+  if (arguments.live.duration_s <= 0.0) arguments.live.duration_s = setup.scenario.duration_s;
+  simulation::Factory factory(setup);
+  simulation::DeviceHub hub(arguments.hub);
+  simulation::TruthServer truth(arguments.truth_port);
+  std::ofstream tum;
+  if (!arguments.truth_file.empty()) {
+    tum.open(arguments.truth_file);
+    if (!tum) throw Error(arguments.truth_file, "cannot be written", "check the path and its permissions");
+    tum << "# timestamp x y z qx qy qz qw, Map frame\n";
+  }
+  print_devices(factory, hub, arguments, truth.port());
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  const auto report =
+      run_live(factory, hub, truth, arguments.live, stop_requested, [&](const simulation::GroundTruth& t) {
+        if (tum.is_open()) tum << tum_line(t.stamp, t.map_from_base);
+      });
+  const nlohmann::json result = summary(factory, report, hub.counters());
+  if (arguments.json_file != "-") print_summary(result);
+  write_json(arguments.json_file, result);
+  if (tum.is_open() && !tum.flush())
+    throw Error(arguments.truth_file, "could not be written to its end", "make room on the disk");
+}
+
+}  // namespace
+
+void add_sim(CLI::App& app) {
+  auto arguments = std::make_shared<SimArguments>();
+  auto* sim = app.add_subcommand("sim", "run a virtual factory whose devices speak on real sockets");
+  sim->add_option("site", arguments->site, "site folder")->required();
+  sim->add_option("--scenario", arguments->scenario, "scenario file (default: scenario.yaml of the site)");
+  sim->add_option("--speed", arguments->live.speed, "simulated seconds a second")
+      ->check(CLI::Range(0.01, 1000.0));
+  sim->add_option("--duration", arguments->live.duration_s, "simulated seconds, then stop")
+      ->check(CLI::Range(0.0, 1e7));
+  sim->add_option("--truth", arguments->truth_file, "write the ground truth as TUM");
+  sim->add_option("--truth-port", arguments->truth_port, "WebSocket port of the ground truth (0: any)");
+  sim->add_option("--lidar-port", arguments->hub.vlp16_port, "UDP port that the VLP-16 sends to")
+      ->check(CLI::Range(1, 65535));
+  sim->add_option("--lms-port", arguments->hub.lms_port, "TCP port of the LMS1xx (0: any)");
+  sim->add_option("--devices", arguments->devices, "folder for the serial ports (default: SITE/devices)");
+  sim->add_option("--seed", arguments->seed, "instead of the scenario's");
+  sim->add_option("--json", arguments->json_file, "summary as JSON; - is stdout");
+  sim->callback([arguments] { simulate(*arguments); });
+}
+
+}  // namespace madori::app
