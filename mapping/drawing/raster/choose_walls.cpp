@@ -16,7 +16,7 @@ namespace madori::mapping {
 namespace {
 
 constexpr double kWidestShare = 0.025;  // of the drawing: further apart are no two faces of a wall
-constexpr double kThickestWall_m = 1.2;
+constexpr double kThickestWall = 1.2;   // metres
 
 void reject_where(DrawnLines& drawn, const std::vector<bool>& which, RejectReason reason) {
   for (std::size_t i = 0; i < drawn.size(); ++i)
@@ -35,7 +35,7 @@ void reject_outer_faces(DrawnLines& drawn, const std::vector<Strip>& strips, con
 WallStyle choose_walls(DrawnLines& drawn, const GrayImage& ink, const Components& marks,
                        const CleanedMarks& cleaned, const DetectionOptions& options) {
   double widest = kWidestShare * std::max(ink.width_px, ink.height_px);
-  if (options.m_per_px) widest = std::min(widest, kThickestWall_m / *options.m_per_px);
+  if (options.m_per_px) widest = std::min(widest, kThickestWall / *options.m_per_px);
   const auto strips = find_strips(drawn, ink, widest);
   const WallStyle style = measure_style(drawn, strips, cleaned.pen_px);
   const auto evidence = weigh_lines(drawn, strips, style);

@@ -58,7 +58,8 @@ double Paper::at(int u, int v) const {
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const int x1 = std::min(x0 + 1, columns_ - 1), y1 = std::min(y0 + 1, rows_ - 1);
   const auto block = [&](int column, int row) {
-    return static_cast<double>(blocks_[static_cast<std::size_t>(row * columns_ + column)]);
+    return static_cast<double>(blocks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                                       static_cast<std::size_t>(column)]);
   };
   const double above = std::lerp(block(x0, y0), block(x1, y0), x - x0);
   const double below = std::lerp(block(x0, y1), block(x1, y1), x - x0);
@@ -69,8 +70,8 @@ void Paper::row(int v, std::vector<float>& out) const {
   const double y = std::clamp((v + 0.5) / kBlock - 0.5, 0.0, rows_ - 1.0);
   const int y0 = static_cast<int>(y), y1 = std::min(y0 + 1, rows_ - 1);
   const auto part = static_cast<float>(y - y0);
-  const float* above = &blocks_[static_cast<std::size_t>(y0 * columns_)];
-  const float* below = &blocks_[static_cast<std::size_t>(y1 * columns_)];
+  const float* above = &blocks_[static_cast<std::size_t>(y0) * static_cast<std::size_t>(columns_)];
+  const float* below = &blocks_[static_cast<std::size_t>(y1) * static_cast<std::size_t>(columns_)];
   const int width = static_cast<int>(out.size());
   for (int column = -1; column < columns_; ++column) {  // between the middles of two blocks
     const int left = std::max(column, 0), right = std::min(column + 1, columns_ - 1);

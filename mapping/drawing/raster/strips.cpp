@@ -62,9 +62,11 @@ double ink_between(const GrayImage& ink, const FittedLine& axis, const Strip& st
   int inked = 0;
   for (int block = 0; block < blocks; ++block) {
     bool dark = false;
-    for (double step = 0.5; step < kBlock * width && !dark; step += 1) {
-      const double along = strip.from_px + strip.length_px() * block / blocks + step;
-      for (double across = 0.5 * width - half; across <= 0.5 * width + half + 0.01 && !dark; across += 1) {
+    const int steps = static_cast<int>(std::ceil(kBlock * width - 0.5));
+    for (int step = 0; step < steps && !dark; ++step) {
+      const double along = strip.from_px + strip.length_px() * block / blocks + step + 0.5;
+      for (int k = 0; k <= static_cast<int>(2 * half + 0.01) && !dark; ++k) {
+        const double across = 0.5 * width - half + k;
         const double side = off > 0 ? across : -across;
         const int u = static_cast<int>(axis.middle_u + along * axis.direction_u - side * axis.direction_v);
         const int v = static_cast<int>(axis.middle_v + along * axis.direction_v + side * axis.direction_u);
@@ -76,6 +78,56 @@ double ink_between(const GrayImage& ink, const FittedLine& axis, const Strip& st
   return static_cast<double>(inked) / blocks;
 }
 
+/// The strips on one side of one line: at every sample the nearest neighbour, neighbours in a row joined.
+class SideWalk {
+ public:
+  SideWalk(std::size_t line, bool left, double widest_px) : line_(line), left_(left), widest_px_(widest_px) {}
+
+  std::vector<Strip> run(const std::vector<Neighbour>& neighbours, double length) {
+    const int samples = static_cast<int>(length / kStep);
+    for (int i = 0; i < samples; ++i) {
+      const double at = (i + 0.5) * kStep;
+      const Neighbour* nearest = nearest_at(neighbours, at);
+      if (nearest != current_) {
+        close(at - 0.5 * kStep);
+        current_ = nearest;
+      }
+      if (current_ == nullptr) continue;
+      width_sum_ += std::abs(current_->off(at));
+      ++samples_;
+    }
+    close(length);
+    return strips_;
+  }
+
+ private:
+  [[nodiscard]] const Neighbour* nearest_at(const std::vector<Neighbour>& neighbours, double at) const {
+    const Neighbour* nearest = nullptr;
+    for (const Neighbour& n : neighbours) {
+      if (at < n.from || at > n.to) continue;
+      const double off = n.off(at);
+      if ((off < 0) != left_ || std::abs(off) < kNarrowest || std::abs(off) > widest_px_) continue;
+      if (nearest == nullptr || std::abs(off) < std::abs(nearest->off(at))) nearest = &n;
+    }
+    return nearest;
+  }
+  void close(double at) {
+    if (current_ != nullptr && at - since_ >= 2 * kStep)
+      strips_.push_back({line_, current_->line, width_sum_ / samples_, since_, at, 0});
+    since_ = at;
+    width_sum_ = 0;
+    samples_ = 0;
+  }
+
+  std::size_t line_;
+  bool left_;
+  double widest_px_;
+  const Neighbour* current_ = nullptr;
+  double since_ = 0, width_sum_ = 0;
+  int samples_ = 0;
+  std::vector<Strip> strips_;
+};
+
 }  // namespace
 
 std::vector<Strip> find_strips(const DrawnLines& lines, const GrayImage& ink, double widest_px) {
@@ -83,43 +135,16 @@ std::vector<Strip> find_strips(const DrawnLines& lines, const GrayImage& ink, do
   std::vector<Strip> strips;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const auto neighbours = neighbours_of(i, lines, index, widest_px);
+    if (neighbours.empty()) continue;
     FittedLine axis = line_through(lines[i].segment);
     axis.middle_u = lines[i].segment.u1;  // positions count from the first end
     axis.middle_v = lines[i].segment.v1;
     for (const bool left : {false, true}) {
-      const Neighbour* current = nullptr;
-      double since = 0, width = 0;
-      int samples = 0;
-      const double length = lines[i].length_px();
-      const auto close = [&](double at) {
-        if (current != nullptr && at - since >= 2 * kStep) {
-          Strip strip{i, current->line, width / samples, since, at, 0};
-          strip.ink_share = ink_between(ink, axis, strip, left ? -strip.width_px : strip.width_px,
-                                        lines[i].solid_face ? 0 : lines[i].stroke_px);
-          strips.push_back(strip);
-        }
-        since = at;
-        width = 0;
-        samples = 0;
-      };
-      for (double at = 0.5 * kStep; at < length; at += kStep) {
-        const Neighbour* nearest = nullptr;
-        for (const Neighbour& n : neighbours) {
-          if (at < n.from || at > n.to) continue;
-          const double off = n.off(at);
-          if ((off < 0) != left || std::abs(off) < kNarrowest || std::abs(off) > widest_px) continue;
-          if (nearest == nullptr || std::abs(off) < std::abs(nearest->off(at))) nearest = &n;
-        }
-        if (nearest != current) {
-          close(at - 0.5 * kStep);
-          current = nearest;
-        }
-        if (current != nullptr) {
-          width += std::abs(current->off(at));
-          ++samples;
-        }
+      for (Strip& strip : SideWalk(i, left, widest_px).run(neighbours, lines[i].length_px())) {
+        strip.ink_share = ink_between(ink, axis, strip, left ? -strip.width_px : strip.width_px,
+                                      lines[i].solid_face ? 0 : lines[i].stroke_px);
+        strips.push_back(strip);
       }
-      close(length);
     }
   }
   return strips;
