@@ -23,7 +23,12 @@ struct GlobalOptions {
   double through_wall_nats = 3.0;  ///< against a pose, for each effective beam through a wall
   double same_m = 0.4;             ///< poses nearer than both are one hypothesis
   double same_rad = 0.15;
-  SegmentIcpOptions icp;
+  SegmentIcpOptions icp = [] {
+    SegmentIcpOptions near;  // candidates are near: a wide start would only draw them to the wall beside
+    near.first_scale_m = 0.5;
+    near.coarse_points = 180;
+    return near;
+  }();
 };
 
 /// A place where the vehicle may be.

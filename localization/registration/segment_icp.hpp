@@ -8,16 +8,16 @@ namespace madori::localization {
 
 struct SegmentIcpOptions {
   int max_iterations = 30;
-  /// Scale of the Geman-McClure loss: starts wide, so that walls half a metre off still pull, and shrinks by
+  /// Scale of the Geman-McClure loss: starts wide, so that walls a metre off still pull, and shrinks by
   /// `scale_factor` an iteration down to the sensor's noise, so that furniture beside a wall lets go.
-  double first_scale_m = 0.5;
+  double first_scale_m = 1.2;
   double last_scale_m = 0.06;
   double scale_factor = 0.55;
   double inlier_distance_m = 0.15;
   double min_normal_cosine = 0.7;  ///< points whose known normal differs more from the wall's are left out
   double step_limit_m = 2e-4;      ///< converged below both
   double step_limit_rad = 4e-5;
-  int coarse_points = 180;  ///< while the loss is wide, about this many of the points do
+  int coarse_points = 90;  ///< while the loss is wide, about this many of the points do
   /// A pull towards the initial pose along unseen directions (bare corridor): information in counts, m^2.
   double prior_information = 1e-6;
 };

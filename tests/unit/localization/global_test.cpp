@@ -7,6 +7,7 @@
 
 #include "localization/global/circular_match.hpp"
 #include "localization/global/global_localizer.hpp"
+#include "tests/support/hall_trials.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -174,6 +175,25 @@ TEST(GlobalWithTwins, AFewScansResolveWhatOneLeavesOpen) {
   }
   EXPECT_EQ(answer.state, GlobalState::Found);
   EXPECT_TRUE(right(answer, truth));
+}
+
+TEST(AbsoluteLocalization, BeatsThePapersTables) {
+  const mapping::Walls walls = test::laboratory_hall();
+  const GlobalLocalizer global(walls);
+  const auto run = [&](double sigma_m, double clutter) {
+    test::TrialSettings settings;
+    settings.poses = 30;
+    settings.sigma_m = sigma_m;
+    settings.clutter = clutter;
+    return test::run_trials(walls, global, settings, 77, [](auto&& locate) { locate(); });
+  };
+  for (const double sigma : {0.0, 0.1, 0.2, 0.3}) {
+    const test::TrialResult r = run(sigma, 0.0);
+    EXPECT_EQ(r.right, 30) << sigma;
+    EXPECT_EQ(r.wrong_sure, 0) << sigma;
+    EXPECT_LT(r.e_psr_mean_m, 0.01 + 0.85 * sigma) << sigma;
+  }
+  EXPECT_EQ(run(0.01, 0.15).right, 30);
 }
 
 TEST(ScanNoise, IsToldFromTheScanItself) {
