@@ -96,6 +96,36 @@ std::vector<Pose> largest_distinct(const Particles& poses, const std::vector<std
   return chosen;
 }
 
+/// The hypotheses by falling likelihood, none like one before.
+std::vector<Hypothesis> distinct(std::vector<Hypothesis> all, double same_m, double same_rad) {
+  std::sort(all.begin(), all.end(),
+            [](const Hypothesis& a, const Hypothesis& b) { return a.log_likelihood > b.log_likelihood; });
+  std::vector<Hypothesis> kept;
+  for (const Hypothesis& h : all)
+    if (std::none_of(kept.begin(), kept.end(), [&](const Hypothesis& k) {
+          return same_place(k.fit.map_from_base, h.fit.map_from_base, same_m, same_rad);
+        }))
+      kept.push_back(h);
+  return kept;
+}
+
+/// Starts beside the likeliest hypotheses: a wall has two faces, and a scan that lies on the wrong ones is a
+/// local optimum as far off as the wall is thick.
+std::vector<Pose> other_faces(const std::vector<Hypothesis>& hypotheses) {
+  constexpr std::size_t kHypotheses = 3;
+  constexpr int kDirections = 8;
+  std::vector<Pose> starts;
+  for (std::size_t i = 0; i < std::min(kHypotheses, hypotheses.size()); ++i)
+    for (const double thickness_m : {0.15, 0.3})
+      for (int k = 0; k < kDirections; ++k) {
+        const Pose& pose = hypotheses[i].fit.map_from_base;
+        const double angle = 2.0 * kPi * k / kDirections;
+        starts.emplace_back(pose.x_m() + thickness_m * std::cos(angle),
+                            pose.y_m() + thickness_m * std::sin(angle), pose.yaw_rad());
+      }
+  return starts;
+}
+
 }  // namespace
 
 const char* to_string(GlobalState state) {
@@ -173,29 +203,31 @@ void GlobalLocalizer::weigh(const ScanPoints& points, double noise_m,
   }
 }
 
-std::vector<Hypothesis> GlobalLocalizer::refine(const ScanPoints& points,
-                                                const std::vector<Pose>& poses) const {
-  const double noise = scan_noise_m(points);
-  SegmentIcpOptions icp = options_.icp;
-  icp.last_scale_m = std::max(icp.last_scale_m, 1.5 * noise);
-  icp.inlier_distance_m = std::max(icp.inlier_distance_m, 2.5 * noise);
+std::vector<Hypothesis> GlobalLocalizer::registered(const ScanPoints& points, double noise_m,
+                                                    const std::vector<Pose>& poses,
+                                                    SegmentIcpOptions icp) const {
+  icp.last_scale_m = std::max(icp.last_scale_m, 1.5 * noise_m);
+  icp.inlier_distance_m = std::max(icp.inlier_distance_m, 2.5 * noise_m);
   std::vector<Hypothesis> all;
   for (const Pose& pose : poses) {
     const RegistrationResult fit = segment_icp(points, grid_, pose, icp);
     if (fit.map_from_base.is_finite()) all.push_back({fit});
   }
-  if (all.empty()) return all;
-  weigh(points, noise, all);
+  if (!all.empty()) weigh(points, noise_m, all);
+  return all;
+}
+
+std::vector<Hypothesis> GlobalLocalizer::refine(const ScanPoints& points,
+                                                const std::vector<Pose>& poses) const {
+  const double noise = scan_noise_m(points);
   const double same_m = std::max(options_.same_m, noise);
-  std::sort(all.begin(), all.end(),
-            [](const Hypothesis& a, const Hypothesis& b) { return a.log_likelihood > b.log_likelihood; });
-  std::vector<Hypothesis> distinct;
-  for (const Hypothesis& h : all)
-    if (std::none_of(distinct.begin(), distinct.end(), [&](const Hypothesis& d) {
-          return same_place(d.fit.map_from_base, h.fit.map_from_base, same_m, options_.same_rad);
-        }))
-      distinct.push_back(h);
-  return distinct;
+  std::vector<Hypothesis> best =
+      distinct(registered(points, noise, poses, options_.icp), same_m, options_.same_rad);
+  SegmentIcpOptions narrow = options_.icp;
+  narrow.first_scale_m = 0.15;
+  const std::vector<Hypothesis> beside = registered(points, noise, other_faces(best), narrow);
+  best.insert(best.end(), beside.begin(), beside.end());
+  return distinct(std::move(best), same_m, options_.same_rad);
 }
 
 GlobalAnswer GlobalLocalizer::answer(std::vector<Hypothesis> hypotheses) const {
@@ -223,6 +255,9 @@ GlobalAnswer GlobalLocalizer::answer(std::vector<Hypothesis> hypotheses) const {
   } else if (best.fit.inlier_fraction < options_.well_explained && lead < options_.clear_nats) {
     answer.state = GlobalState::Ambiguous;
     answer.reason = "much of what is seen is not drawn, and no place stands out";
+  } else if (best.through_walls > options_.doubtful_through) {
+    answer.state = GlobalState::Ambiguous;
+    answer.reason = "the likeliest place would have the lidar look through some drawn walls";
   } else {
     answer.state = GlobalState::Found;
   }

@@ -40,9 +40,9 @@ class NdtMap {
 };
 
 struct NdtOptions {
-  int max_iterations = 30;     ///< a level
-  double step_limit_m = 1e-3;  ///< cell borders make the score rough below this
-  double step_limit_rad = 2e-4;
+  int max_iterations = 30;  ///< a level
+  double step_limit_m = 1e-4;
+  double step_limit_rad = 1e-5;
 };
 
 /// Newton's method on the score of the NDT, level by level (Biber and Strasser, section V).
