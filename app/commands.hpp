@@ -8,6 +8,7 @@ class App;
 namespace madori::app {
 
 void add_demo(CLI::App& app);
+void add_evaluate(CLI::App& app);
 void add_localize(CLI::App& app);
 void add_export(CLI::App& app);
 void add_import(CLI::App& app);

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   CLI::App app("Madori: a factory vehicle drives from the drawing of the factory", "madori");
   app.require_subcommand(1);
   madori::app::add_demo(app);
+  madori::app::add_evaluate(app);
   madori::app::add_localize(app);
   madori::app::add_export(app);
   madori::app::add_import(app);
