@@ -93,7 +93,9 @@ double median_interval_s(const std::vector<StampedPose>& poses) {
 json spread(const std::vector<double>& v) {
   const double m = mean(v);
   const double variance = mean(squares(v)) - m * m;
-  return {{"mean", m}, {"std", std::sqrt(std::max(0.0, variance))}, {"max", *std::max_element(v.begin(), v.end())}};
+  return {{"mean", m},
+          {"std", std::sqrt(std::max(0.0, variance))},
+          {"max", *std::max_element(v.begin(), v.end())}};
 }
 
 json position_json(const std::vector<double>& v) {
@@ -137,8 +139,8 @@ json score_against_truth(std::vector<StampedPose> estimate, std::vector<StampedP
                          const ScoreOptions& options) {
   const std::vector<StampedPose> poses = in_order(std::move(estimate));
   const std::vector<StampedPose> stations = in_order(std::move(truth));
-  const bool denser = poses.size() > 1 &&
-                      (stations.size() < 2 || median_interval_s(poses) < median_interval_s(stations));
+  const bool denser =
+      poses.size() > 1 && (stations.size() < 2 || median_interval_s(poses) < median_interval_s(stations));
   std::vector<double> metres;
   std::vector<double> degrees;
   std::size_t good = 0;
@@ -199,19 +201,22 @@ json score_against_relations(std::vector<StampedPose> estimate, const std::vecto
 
 std::string score_text(const json& s) {
   if (s.at("mode") == "relations") {
-    return std::to_string(s.at("matched").get<int>()) + " of " + std::to_string(s.at("relations").get<int>()) +
-           " relations scored; translation " + number(s.at("translation_m").at("mean"), "%.4f") + " +- " +
+    return std::to_string(s.at("matched").get<int>()) + " of " +
+           std::to_string(s.at("relations").get<int>()) + " relations scored; translation " +
+           number(s.at("translation_m").at("mean"), "%.4f") + " +- " +
            number(s.at("translation_m").at("std"), "%.4f m") + ", rotation " +
            number(s.at("rotation_deg").at("mean"), "%.3f") + " +- " +
            number(s.at("rotation_deg").at("std"), "%.3f deg");
   }
   const json& p = s.at("position_m");
-  return std::to_string(s.at("matched").get<int>()) + " of " + std::to_string(s.at("truth_poses").get<int>()) +
-         " poses matched; position median " + number(p.at("median"), "%.3f") + " p95 " +
-         number(p.at("p95"), "%.3f") + " rmse " + number(p.at("rmse"), "%.4f") + " max " +
-         number(p.at("max"), "%.3f m") + ", heading mean " + number(s.at("heading_deg").at("mean"), "%.2f deg") +
-         ", " + number(100.0 * s.at("within").at("share").get<double>(), "%.1f %%") + " within " +
-         number(s.at("within").at("metres"), "%.1f m") + " and " + number(s.at("within").at("degrees"), "%.0f deg");
+  return std::to_string(s.at("matched").get<int>()) + " of " +
+         std::to_string(s.at("truth_poses").get<int>()) + " poses matched; position median " +
+         number(p.at("median"), "%.3f") + " p95 " + number(p.at("p95"), "%.3f") + " rmse " +
+         number(p.at("rmse"), "%.4f") + " max " + number(p.at("max"), "%.3f m") + ", heading mean " +
+         number(s.at("heading_deg").at("mean"), "%.2f deg") + ", " +
+         number(100.0 * s.at("within").at("share").get<double>(), "%.1f %%") + " within " +
+         number(s.at("within").at("metres"), "%.1f m") + " and " +
+         number(s.at("within").at("degrees"), "%.0f deg");
 }
 
 }  // namespace madori::app

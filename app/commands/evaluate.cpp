@@ -39,7 +39,8 @@ void evaluate(const EvaluateArguments& arguments) {
 
 void add_evaluate(CLI::App& app) {
   auto arguments = std::make_shared<EvaluateArguments>();
-  CLI::App* command = app.add_subcommand("evaluate", "score a trajectory against a truth or measured relations");
+  CLI::App* command =
+      app.add_subcommand("evaluate", "score a trajectory against a truth or measured relations");
   command->add_option("--trajectory", arguments->trajectory, "estimate (TUM)")
       ->required()
       ->check(CLI::ExistingFile);

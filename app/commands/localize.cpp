@@ -13,6 +13,7 @@
 #include "app/log_options.hpp"
 #include "app/log_player.hpp"
 #include "app/trajectory_file.hpp"
+#include "app/trajectory_plot.hpp"
 #include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
@@ -28,6 +29,7 @@ struct LocalizeArguments {
   std::string out;
   std::string json_file;
   std::string health_file;
+  std::string plot;
   bool global = false;
   unsigned seed = 1;
 };
@@ -61,13 +63,19 @@ void localize(const LocalizeArguments& arguments) {
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   std::string trajectory = "# timestamp x y z qx qy qz qw, Map frame\n";
   HealthLog health;
+  std::vector<PoseEstimate> estimates;
   const PlayedLog played = play_log(*log, localizer, [&](const PoseEstimate& e) {
     trajectory += tum_line(e.stamp, e.map_from_base);
     health.add(e);
+    estimates.push_back(e);
   });
   mapping::write_file_atomically(arguments.out, trajectory);
   if (!arguments.health_file.empty()) {
     mapping::write_file_atomically(arguments.health_file, health.csv());
+  }
+  if (!arguments.plot.empty()) {
+    const std::vector<std::uint8_t> png = trajectory_plot(walls, estimates);
+    mapping::write_file_atomically(arguments.plot, std::string(png.begin(), png.end()));
   }
   const nlohmann::json result = {{"scans", played.scans},
                                  {"odometry_records", played.odometry_records},
@@ -101,6 +109,7 @@ void add_localize(CLI::App& app) {
   CLI::Option* global = command->add_flag("--global", arguments->global, "the start is not known: find it");
   initial->excludes(global);
   command->add_option("--out", arguments->out, "trajectory to write (TUM), a pose a record")->required();
+  command->add_option("--plot", arguments->plot, "picture of the way on the drawing to write (PNG)");
   command->add_option("--health", arguments->health_file,
                       "table of the health at every record to write (CSV)");
   command->add_option("--json", arguments->json_file, "figures; - for stdout");

@@ -58,16 +58,19 @@ TEST(IntelDrawing, FollowsTheLogOnALocallyWrongDrawing) {
   EXPECT_LT(score["position_m"]["p95"].get<double>(), 0.6);
   EXPECT_LT(score["heading_deg"]["mean"].get<double>(), 1.8);
   EXPECT_GT(score["within"]["share"].get<double>(), 0.9);
-  const nlohmann::json pairs = score_against_relations(run.trajectory, load_relations(kIntel / "intel.relations"));
+  const nlohmann::json pairs =
+      score_against_relations(run.trajectory, load_relations(kIntel / "intel.relations"));
   EXPECT_LT(pairs["translation_m"]["mean"].get<double>(), 0.2);
-  EXPECT_EQ(run.estimates.back().health.state, LocalizationState::Localized) << run.estimates.back().health.reason;
+  EXPECT_EQ(run.estimates.back().health.state, LocalizationState::Localized)
+      << run.estimates.back().health.reason;
 }
 
 TEST(IntelDrawing, TheMirroredDrawingIsNotBelieved) {
   if (!std::filesystem::exists(kIntel / "intel.log")) GTEST_SKIP() << "no log at " << kIntel;
   const LocalizedRun run = localize("layout_mirrored.png", kStart);
   std::size_t believed = 0;
-  for (const PoseEstimate& e : run.estimates) believed += e.health.state == LocalizationState::Localized ? 1 : 0;
+  for (const PoseEstimate& e : run.estimates)
+    believed += e.health.state == LocalizationState::Localized ? 1 : 0;
   EXPECT_LT(20 * believed, run.estimates.size());
   EXPECT_EQ(run.estimates.back().health.state, LocalizationState::Lost);
 }

@@ -56,7 +56,8 @@ TEST(TrajectoryScore, AKnownOffsetIsItsError) {
   std::mt19937 engine(2);
   const auto truth = wander(engine, 50, 1.0);
   auto shifted = truth;
-  for (auto& [stamp, pose] : shifted) pose = {pose.x_m() + 0.3, pose.y_m() - 0.4, pose.yaw_rad() + to_rad(5.0)};
+  for (auto& [stamp, pose] : shifted)
+    pose = {pose.x_m() + 0.3, pose.y_m() - 0.4, pose.yaw_rad() + to_rad(5.0)};
   const json score = score_against_truth(shifted, truth);
   EXPECT_NEAR(score["position_m"]["median"].get<double>(), 0.5, 1e-9);
   EXPECT_NEAR(score["heading_deg"]["mean"].get<double>(), 5.0, 1e-9);
@@ -75,8 +76,9 @@ TEST(TrajectoryScore, NothingMatchedIsAnError) {
 json outside(const TemporaryFolder& folder, const std::string& options) {
   const std::filesystem::path out = folder.path() / "outside.json";
   const std::string script = std::string(MADORI_SHARED_DATA) + "/../score/trajectory.py";
-  const std::string command = "/usr/bin/python3 " + script + " --estimate " + (folder.path() / "e.tum").string() +
-                              options + " --json " + out.string() + " > /dev/null";
+  const std::string command = "/usr/bin/python3 " + script + " --estimate " +
+                              (folder.path() / "e.tum").string() + options + " --json " + out.string() +
+                              " > /dev/null";
   if (std::system(command.c_str()) != 0) return {};  // NOLINT(cert-env33-c,concurrency-mt-unsafe)
   std::ifstream stream(out);
   return json::parse(stream);
