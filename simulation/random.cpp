@@ -31,10 +31,10 @@ std::array<float, kQuantiles + 1> make_table() {
 }  // namespace
 
 float normal_from_bits(std::uint32_t bits) {
-  static const auto kTable = make_table();
+  static const auto table = make_table();
   const std::uint32_t index = bits >> 19U;  // 13 bits
   const float fraction = static_cast<float>(bits & 0x7FFFFU) * 0x1p-19F;
-  return kTable[index] + fraction * (kTable[index + 1] - kTable[index]);
+  return table[index] + fraction * (table[index + 1] - table[index]);
 }
 
 }  // namespace madori::simulation

@@ -12,7 +12,7 @@ namespace vlp16 = sensors::vlp16;
 
 constexpr std::uint64_t kStream = 0x16;
 constexpr std::int64_t kFiringNs = 55'296;
-constexpr std::int64_t kLastChannelNs = 15 * 2'304;
+constexpr std::int64_t kLastChannelNs = 34'560;  ///< 15 channels of 2.304 us
 constexpr std::int64_t kHourUs = 3'600'000'000;
 constexpr std::size_t kGroup = RayPacket::kLanes;  ///< firings whose beams of one channel are cast together
 
