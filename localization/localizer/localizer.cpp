@@ -105,7 +105,7 @@ MatchResult Localizer::match_from(const Transform2<Map, Base>& anchor, const Sur
   SearchWindow window;
   window.sigma_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
   window.sigma_rad = std::sqrt(covariance(2, 2));
-  window.half_m = std::clamp(3.0 * window.sigma_m, std::min(1.0, 0.15 + 2.0 * step.path_m), 1.0);
+  window.half_m = std::clamp(3.0 * window.sigma_m, std::min(0.3, 0.15 + 2.0 * step.path_m), 1.0);
   window.half_rad = std::clamp(3.0 * window.sigma_rad, 0.05, 0.8);
   ExtraPull pull;
   if (drawing_ && drawing_->model().sigma_m < options_.exact_drawing_m) {
@@ -122,7 +122,12 @@ MatchResult Localizer::match_from(const Transform2<Map, Base>& anchor, const Sur
   const LocalMap whole = memory_.whole_map(prediction.translation());
   const MatchResult far =
       whole.refine(scan, whole.search(scan, prediction, window).map_from_base, prior, pull);
-  return far.inlier_share > near.inlier_share + 0.05 ? far : near;
+  // The farther from what the wheels say, the clearer the scan must speak.
+  const Transform2<Base, Base> off = prediction.inverse() * far.map_from_base;
+  const double metres = std::hypot(off.x_m(), off.y_m()) / window.sigma_m;
+  const double turns = off.yaw_rad() / window.sigma_rad;
+  const double margin = 0.05 + 0.03 * std::log1p(metres * metres + turns * turns);
+  return far.inlier_share > near.inlier_share + margin ? far : near;
 }
 
 void Localizer::start(SurfaceScan scan) {
