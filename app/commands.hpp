@@ -7,6 +7,10 @@ class App;
 /// Every sub-command of `madori` adds itself; its callback throws Error on failure (exit 1).
 namespace madori::app {
 
+struct SocketOptions;
+/// The options that name the vehicle's devices, the same for every command.
+void add_device_options(CLI::App& command, SocketOptions& devices);
+
 void add_demo(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_localize(CLI::App& app);
@@ -20,6 +24,8 @@ void add_run(CLI::App& app);
 void add_scale(CLI::App& app);
 void add_tiles(CLI::App& app);
 void add_sim(CLI::App& app);
+void add_doctor(CLI::App& app);
+void add_record(CLI::App& app);
 void add_version(CLI::App& app);
 
 }  // namespace madori::app

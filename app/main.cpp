@@ -21,6 +21,8 @@ int main(int argc, char** argv) {
   madori::app::add_scale(app);
   madori::app::add_sim(app);
   madori::app::add_tiles(app);
+  madori::app::add_doctor(app);
+  madori::app::add_record(app);
   madori::app::add_version(app);
   try {
     app.parse(argc, argv);

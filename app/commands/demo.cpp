@@ -1,3 +1,5 @@
+#include <spdlog/spdlog.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -8,9 +10,12 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/demo/demo_run.hpp"
 #include "app/import_report.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
+#include "core/result.hpp"
+#include "mapping/site/site.hpp"
 #include "mapping/site/strict_yaml.hpp"
 
 namespace madori::app {
@@ -18,10 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// One order each: into the lift, through the automatic door to a goods-in bay, and on to its neighbour.
+const std::vector<int> kStations{19, 21, 20};
+
 struct DemoArguments {
   std::string site = "demo";
   std::string data = MADORI_DATA_DIR;
   std::string json_file;
+  bool import_only = false;
 };
 
 /// The scale as an operator finds it: one dimension line of the drawing, both its ends in pixels.
@@ -45,8 +54,15 @@ void copy_routes(const fs::path& sample, const fs::path& site) {
   fs::copy(sample / "routes_scan", site / "routes");
 }
 
-void run(const DemoArguments& arguments) {
-  const fs::path sample = fs::path(arguments.data) / "sample_factory";
+/// The vehicle's lidar: the import knows nothing of vehicles.
+void mount_lidar(const fs::path& folder) {
+  mapping::Site site = mapping::load_site(folder);
+  if (!site.sensors.empty()) return;
+  site.sensors.push_back({"top", "vlp16", 0.3, 0.0, 1.2, 0.0});
+  mapping::save_site(folder, site);
+}
+
+mapping::ImportReport import_sample(const DemoArguments& arguments, const fs::path& sample) {
   mapping::ImportOptions options;
   options.drawing = sample / "factory_scan.png";
   options.site = arguments.site;
@@ -55,11 +71,64 @@ void run(const DemoArguments& arguments) {
   options.force = fs::exists(options.site / "site.yaml");
   scale_by_one_dimension(sample, options);
   const mapping::Progress progress = terminal_progress();
-  const auto report = mapping::import_drawing(options, progress);
+  auto report = mapping::import_drawing(options, progress);
   if (progress) progress("done", 1.0);
   copy_routes(sample, options.site);
+  mount_lidar(options.site);
+  return report;
+}
+
+void print_deliveries(const DemoResult& result) {
+  std::printf("localized after %.1f s, without being told where it stands\n\n", result.localized_after_s);
+  std::printf("order  to                     time      way   waited  stop error\n");
+  int number = 0;
+  for (const DemoDelivery& d : result.deliveries)
+    std::printf("%5d  %2d %-16s %6.1f s %6.1f m %6.1f s %9.3f m%s\n", ++number, d.node, d.name.c_str(),
+                d.time_s, d.way_m, d.waited_s, d.goal_error_m, d.delivered ? "" : "  NOT DELIVERED");
+  std::printf("\ntrue distance from the route: mean %.3f m, most %.3f m; collisions: %zu; %.0f s in all\n",
+              result.route_mean_m, result.route_max_m, result.collisions, result.wall_s);
+}
+
+nlohmann::json deliveries_json(const DemoResult& result) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const DemoDelivery& d : result.deliveries)
+    list.push_back({{"node", d.node},
+                    {"name", d.name},
+                    {"delivered", d.delivered},
+                    {"time_s", d.time_s},
+                    {"way_m", d.way_m},
+                    {"waited_s", d.waited_s},
+                    {"goal_error_m", d.goal_error_m}});
+  return {{"deliveries", list},
+          {"localized_after_s", result.localized_after_s},
+          {"route_mean_m", result.route_mean_m},
+          {"route_max_m", result.route_max_m},
+          {"collisions", result.collisions},
+          {"wall_s", result.wall_s}};
+}
+
+void run(const DemoArguments& arguments) {
+  const fs::path data(arguments.data);
+  const auto report = import_sample(arguments, data / "sample_factory");
   if (arguments.json_file != "-") print_import_summary(report, arguments.site);
-  write_json(arguments.json_file, import_json(report));
+  nlohmann::json figures = import_json(report);
+  if (!arguments.import_only) {
+    spdlog::set_level(spdlog::level::warn);
+    const auto result = run_demo({arguments.site, data / "scenarios/demo.yaml", kStations});
+    const fs::path picture = fs::path(arguments.site) / "demo.png";
+    draw_demo(arguments.site, result, picture);
+    if (arguments.json_file != "-") {
+      print_deliveries(result);
+      std::printf("look at   %s\nrecording %s/runs/demo\n", picture.c_str(), arguments.site.c_str());
+    }
+    figures["demo"] = deliveries_json(result);
+    write_json(arguments.json_file, figures);
+    if (!result.all_delivered())
+      throw Error(arguments.site, "not every order was delivered",
+                  "see events in " + arguments.site + "/madori.db");
+    return;
+  }
+  write_json(arguments.json_file, figures);
 }
 
 }  // namespace
@@ -70,6 +139,7 @@ void add_demo(CLI::App& app) {
   command->add_option("--site", arguments->site, "the site folder to make")->capture_default_str();
   command->add_option("--data", arguments->data, "folder that holds sample_factory")->capture_default_str();
   command->add_option("--json", arguments->json_file, "write the figures to a file; - for stdout");
+  command->add_flag("--import-only", arguments->import_only, "make the site, drive nothing");
   command->callback([arguments] { run(*arguments); });
 }
 

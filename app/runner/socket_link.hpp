@@ -29,6 +29,7 @@ class SocketLink final : public VehicleLink {
   void collect(CycleInput& input) override;
   void send(const CycleOutput& output) override;
   [[nodiscard]] std::string problem() const override;
+  [[nodiscard]] std::uint16_t lidar_port() const { return lidar_->data_port(); }
 
  private:
   WheelGeometry wheels_;

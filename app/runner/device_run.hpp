@@ -1,0 +1,22 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+
+#include "app/runner/socket_link.hpp"
+
+namespace madori::app {
+
+struct DeviceRunOptions {
+  std::filesystem::path site;
+  SocketOptions devices;
+  bool resume = false;  ///< the operator has looked around: drive at once
+  bool record = true;
+  double duration_s = 0.0;  ///< 0: until interrupted
+};
+
+/// Drives the vehicle of a site on its real devices until SIGINT, SIGTERM, or the duration is over. Returns
+/// the folder of the recording, empty where none was made.
+std::filesystem::path run_on_devices(const DeviceRunOptions& options);
+
+}  // namespace madori::app

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "simulation/devices/device_hub.hpp"
+#include "simulation/devices/truth_server.hpp"
+#include "simulation/factory.hpp"
+
+namespace madori::app {
+
+/// The virtual factory in real time on a thread of its own, its devices on real sockets.
+class LiveFactory {
+ public:
+  /// The lidar sends to `lidar_port` of this machine; the drive's serial port is `folder`/drive.
+  LiveFactory(const simulation::FactorySetup& setup, std::uint16_t lidar_port,
+              const std::filesystem::path& folder);
+  ~LiveFactory();
+  LiveFactory(const LiveFactory&) = delete;
+  LiveFactory& operator=(const LiveFactory&) = delete;
+
+  /// Where the vehicle really is: for figures and pictures, never for driving.
+  [[nodiscard]] simulation::GroundTruth truth() const;
+  [[nodiscard]] std::vector<simulation::Collision> collisions() const;
+
+ private:
+  simulation::Factory factory_;
+  simulation::DeviceHub hub_;
+  simulation::TruthServer truth_server_;
+  mutable std::mutex mutex_;
+  simulation::GroundTruth truth_;
+  std::vector<simulation::Collision> collisions_;
+  std::atomic<bool> stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace madori::app
