@@ -22,6 +22,7 @@ std::vector<T> at_most(const std::vector<T>& all, std::size_t most) {
 std::vector<Point2<Map>> near(const PointMap& map, const std::vector<Point2<Base>>& scan, const Pose& pose,
                               double reach_m) {
   std::vector<Point2<Map>> placed;
+  placed.reserve(scan.size());
   for (const Point2<Base>& p : scan) placed.push_back(pose * p);
   const PointMap scan_map(placed);
   std::vector<Point2<Map>> result;
@@ -83,6 +84,7 @@ Pose maximization(const Sums& s, double& sigma2) {
 RegistrationResult cpd(const ScanPoints& points, const PointMap& map, const Pose& initial,
                        const CpdOptions& options) {
   std::vector<Point2<Base>> all;
+  all.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) all.push_back(points.point(i));
   const std::vector<Point2<Base>> y = at_most(all, options.most_scan);
   if (y.empty() || map.empty()) return point_fit(points, map, initial);
