@@ -334,7 +334,8 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
   anchor_stamp_ = stamp;
   update_covariance(matched);
   since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
-  if (drawing_ && !evidence_.searching && evidence_.blind_scans >= options_.health.blind_scans &&
+  if (drawing_ && drawing_->model().sigma_m < options_.exact_drawing_m && !evidence_.searching &&
+      evidence_.blind_scans >= options_.health.blind_scans &&
       judge(evidence_with_time(stamp), options_.health).state == LocalizationState::Lost && drawing_fits()) {
     start_search();
     start(std::move(scan));
