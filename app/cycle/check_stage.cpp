@@ -5,7 +5,7 @@
 namespace madori::app {
 namespace {
 
-constexpr double kDetourWithin_m = 4.0;  ///< what is further away may be gone when the vehicle gets there
+constexpr double kDetourWithinM = 4.0;  ///< what is further away may be gone when the vehicle gets there
 
 /// Confirmed columns around the vehicle, Map frame: their corners and centres.
 std::vector<Point2<Map>> obstacle_points(const CycleState& state) {
@@ -62,7 +62,7 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
   const bool due = way.check.blocked() && !way.by_mover && way.blocked_since && !way.detour_pending &&
                    to_seconds(input.now - *way.blocked_since) >= config.detour_after_s &&
                    to_seconds(input.now - way.asked_detour) >= config.detour_again_s;
-  const bool near = way.stop_along_m - way.along_m < kDetourWithin_m;
+  const bool near = way.stop_along_m - way.along_m < kDetourWithinM;
   const bool going = drives(state.mode) || state.mode == Mode::Waiting;
   if (!due || !near || !going || is_at_door(config, way.check.where)) return;
   way.asked_detour = input.now;

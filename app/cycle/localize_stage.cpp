@@ -5,7 +5,7 @@
 namespace madori::app {
 namespace {
 
-constexpr double kTrack_s = 0.5;
+constexpr double kTrackS = 0.5;
 
 /// Where the wheels were at a moment, between the readings around it.
 Transform2<Odom, Base> odometry_at(const std::deque<OdometryReading>& track, Stamp moment) {
@@ -62,7 +62,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     const OdometryReading& reading = state.odometry.reading();
     if (!state.track.empty() && reading.stamp <= state.track.back().stamp) continue;
     state.track.push_back(reading);
-    while (to_seconds(reading.stamp - state.track.front().stamp) > kTrack_s) state.track.pop_front();
+    while (to_seconds(reading.stamp - state.track.front().stamp) > kTrackS) state.track.pop_front();
     state.pose = state.localization->on_odometry(reading);
   }
   for (const auto& cloud : input.clouds) {

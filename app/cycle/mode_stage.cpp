@@ -5,9 +5,9 @@ namespace {
 
 using control::wire::DriveState;
 
-constexpr double kStandsBefore_m =
+constexpr double kStandsBeforeM =
     0.12;  ///< nearer than this to the stopping point the vehicle counts as blocked
-constexpr double kWorthGoing_m = 0.5;  ///< less free way than this is not worth a start
+constexpr double kWorthGoingM = 0.5;  ///< less free way than this is not worth a start
 
 bool is_stopped_by_drive(const CycleState& state) {
   return state.drive.emergency_stop || state.drive.bumper || state.drive.state == DriveState::EmergencyStop ||
@@ -24,7 +24,7 @@ bool is_clear(const CycleState& state, const CycleInput& input, const CycleConfi
   const Navigation& way = state.way;
   const bool sees = !is_silent(state.lidar_heard, input.now, config.lidar_silent_s) && !state.protective_stop;
   const bool has_way = !way.path.empty() && !way.arrived && way.turn_free;
-  const bool room = way.stop_along_m - way.along_m > kWorthGoing_m;
+  const bool room = way.stop_along_m - way.along_m > kWorthGoingM;
   const bool lasting = !way.blocked_since || room;
   const bool settled = !way.free_since || to_seconds(input.now - *way.free_since) >= config.clear_for_s;
   return sees && has_way && room && lasting && settled;
@@ -34,7 +34,7 @@ bool is_blocked(const CycleState& state, const CycleInput& input, const CycleCon
   const Navigation& way = state.way;
   return way.path.empty() || way.arrived || !way.turn_free || state.protective_stop ||
          is_silent(state.lidar_heard, input.now, config.lidar_silent_s) ||
-         way.stop_along_m - way.along_m < kStandsBefore_m;
+         way.stop_along_m - way.along_m < kStandsBeforeM;
 }
 
 std::optional<ModeEvent> event_of(OperatorWord word) {

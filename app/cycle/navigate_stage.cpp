@@ -10,8 +10,8 @@
 namespace madori::app {
 namespace {
 
-constexpr double kAtNode_m = 0.15;      ///< nearer than this the vehicle counts as standing on the node
-constexpr double kOnLeg_m = 0.5;        ///< nearer than this the vehicle counts as standing on the leg
+constexpr double kAtNodeM = 0.15;       ///< nearer than this the vehicle counts as standing on the node
+constexpr double kOnLegM = 0.5;         ///< nearer than this the vehicle counts as standing on the leg
 constexpr std::size_t kCandidates = 6;  ///< nodes that are tried as the first of a route
 
 bool crosses_wall(const planning::WallGrid& walls, const Segment2<Map>& way) {
@@ -27,9 +27,9 @@ std::set<std::size_t> ends_of_own_legs(const CycleConfig& config, const Point2<M
   const auto& nodes = config.routes.nodes();
   std::set<std::size_t> ends;
   for (const auto& leg : config.routes.legs()) {
-    if (distance_m(nodes[leg.from].position, here) < kAtNode_m) ends.insert(leg.from);
+    if (distance_m(nodes[leg.from].position, here) < kAtNodeM) ends.insert(leg.from);
     const Segment2<Map> way{nodes[leg.from].position, nodes[leg.to].position};
-    if (distance_m(way, here) < kOnLeg_m && !blocked.contains({leg.from, leg.to})) ends.insert(leg.to);
+    if (distance_m(way, here) < kOnLegM && !blocked.contains({leg.from, leg.to})) ends.insert(leg.to);
   }
   return ends;
 }
@@ -80,7 +80,7 @@ std::optional<planning::Route> best_route(const CycleConfig& config, const Point
 Path path_over(const CycleConfig& config, const planning::Route& route, const Transform2<Map, Base>& pose) {
   const Point2<Map> here = pose.translation();
   auto way = way_corners(config.routes, route);
-  if (way.size() == 1 || distance_m(way.front().position, here) > kAtNode_m)
+  if (way.size() == 1 || distance_m(way.front().position, here) > kAtNodeM)
     way.insert(way.begin(), {here, way.front().speed_limit_mps});
   else
     way.front().position = here;

@@ -9,7 +9,7 @@
 namespace madori::app {
 namespace {
 
-constexpr double kVlp16Elevation_rad = to_rad(15.0);
+constexpr double kVlp16ElevationRad = to_rad(15.0);
 
 const mapping::SensorRecord& vlp16_of(const mapping::Site& site, const std::filesystem::path& folder) {
   const auto found = std::find_if(site.sensors.begin(), site.sensors.end(),
@@ -42,7 +42,7 @@ SiteForDriving load_for_driving(const std::filesystem::path& folder) {
   config.routes = planning::load_routes(folder / "routes");
   take_vehicle(loaded.site.vehicle, config);
   const auto& lidar = vlp16_of(loaded.site, folder);
-  config.lidar = {lidar.x_m, lidar.y_m, lidar.z_m, -kVlp16Elevation_rad, kVlp16Elevation_rad};
+  config.lidar = {lidar.x_m, lidar.y_m, lidar.z_m, -kVlp16ElevationRad, kVlp16ElevationRad};
   config.lidar_yaw_rad = to_rad(lidar.yaw_deg);
   std::vector<Segment2<Map>> segments;
   for (const auto& wall : loaded.walls) segments.push_back(wall.segment);

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMoving_mps = 0.01;
+constexpr double kMovingMps = 0.01;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -83,7 +83,7 @@ class Observer {
       result_.route_max_m = *std::max_element(off_route_m_.begin(), off_route_m_.end());
     }
     for (const auto& collision : factory_.collisions())
-      result_.collisions += collision.speed_mps >= kMoving_mps;
+      result_.collisions += collision.speed_mps >= kMovingMps;
     result_.wall_s = seconds_since(started_);
   }
 

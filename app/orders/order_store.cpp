@@ -10,7 +10,7 @@ namespace madori::app {
 namespace {
 
 constexpr int kFormat = 1;
-constexpr int kBusy_ms = 5000;
+constexpr int kBusyMs = 5000;
 
 constexpr std::array kSetUp{
     "PRAGMA journal_mode=WAL",
@@ -128,7 +128,7 @@ void OrderStore::Close::operator()(sqlite3* database) const {
 }
 
 OrderStore::OrderStore(const std::filesystem::path& file) : database_(open(file)), file_(file.string()) {
-  sqlite3_busy_timeout(database_.get(), kBusy_ms);
+  sqlite3_busy_timeout(database_.get(), kBusyMs);
   for (const char* sql : kSetUp) Statement(database_.get(), sql).run();
   const auto format = [&] {
     Statement version(database_.get(), "PRAGMA user_version");

@@ -8,12 +8,12 @@
 namespace madori::app {
 namespace {
 
-constexpr double kSamePlace_m = 0.3;
-constexpr double kSamePlace_rad = 0.1;
+constexpr double kSamePlaceM = 0.3;
+constexpr double kSamePlaceRad = 0.1;
 
 bool is_same_place(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b) {
-  return distance_m(a.translation(), b.translation()) < kSamePlace_m &&
-         std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < kSamePlace_rad;
+  return distance_m(a.translation(), b.translation()) < kSamePlaceM &&
+         std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < kSamePlaceRad;
 }
 
 /// What the wheels add to the uncertainty while the vehicle moves by `moved`, Map frame.

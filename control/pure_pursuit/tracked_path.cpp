@@ -9,8 +9,8 @@
 namespace madori::control {
 namespace {
 
-constexpr double kSamePoint_m = 1e-6;
-constexpr double kSearchAhead_m = 2.0;
+constexpr double kSamePointM = 1e-6;
+constexpr double kSearchAheadM = 2.0;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void TrackedPath::find_pieces() {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double step_m = i == 0 ? 0.0 : distance_m(points[i - 1].position, points[i].position);
     along_m_.push_back(i == 0 ? 0.0 : along_m_.back() + step_m);
-    if (i > 0 && step_m < kSamePoint_m) {
+    if (i > 0 && step_m < kSamePointM) {
       pieces_.push_back({first, i});
       first = i;
     }
@@ -71,7 +71,7 @@ PathPlace TrackedPath::locate(const PathPiece& piece, std::size_t hint,
   const Point2<Map> here = map_from_base.translation();
   std::size_t best = std::clamp(hint, piece.first, piece.end - 1);
   double best_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = best; i + 1 < piece.end && along_m_[i] <= along_m_[hint] + kSearchAhead_m; ++i) {
+  for (std::size_t i = best; i + 1 < piece.end && along_m_[i] <= along_m_[hint] + kSearchAheadM; ++i) {
     const double away_m =
         distance_m(Segment2<Map>{path_.points[i].position, path_.points[i + 1].position}, here);
     if (away_m < best_m) {

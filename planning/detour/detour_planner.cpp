@@ -8,18 +8,18 @@ namespace {
 
 /// Points of the route at which a way through the free space may come back, nearest first.
 std::vector<std::size_t> rejoin_points(const DetourRequest& request, const CheckOptions& check) {
-  constexpr double kFirst_m = 0.4;
-  constexpr double kStep_m = 1.0;
+  constexpr double kFirstM = 0.4;
+  constexpr double kStepM = 1.0;
   constexpr std::size_t kMost = 3;
   std::vector<std::size_t> points;
-  double wanted_m = check.vehicle.rear_m + check.ends_margin_m + kFirst_m;
+  double wanted_m = check.vehicle.rear_m + check.ends_margin_m + kFirstM;
   double passed_m = 0.0;
   const auto& path = request.path.points;
   for (std::size_t i = request.check.last_blocked + 1; i < path.size() && points.size() < kMost; ++i) {
     passed_m += distance_m(path[i - 1].position, path[i].position);
     if (passed_m < wanted_m && i + 1 != path.size()) continue;
     points.push_back(i);
-    wanted_m = passed_m + kStep_m;
+    wanted_m = passed_m + kStepM;
   }
   return points;
 }

@@ -10,7 +10,7 @@
 namespace madori::planning {
 namespace {
 
-constexpr double kSamePoint_m = 1e-6;
+constexpr double kSamePointM = 1e-6;
 
 /// From 0 to 1 with level ends and bounded curvature.
 double smooth_step(double t) {
@@ -23,7 +23,7 @@ std::vector<double> distances(const Path& path, std::size_t from) {
   std::vector<double> along_m{0.0};
   for (std::size_t i = from + 1; i < path.points.size(); ++i) {
     const double step_m = distance_m(path.points[i - 1].position, path.points[i].position);
-    if (step_m < kSamePoint_m) break;
+    if (step_m < kSamePointM) break;
     along_m.push_back(along_m.back() + step_m);
   }
   return along_m;
@@ -79,7 +79,7 @@ void renew_headings(Path& path, std::size_t first, std::size_t last) {
   }
   for (std::size_t i = first + 1; i < last; ++i) {
     const double way_m = distance_m(points[i - 1].position, points[i + 1].position);
-    if (way_m > kSamePoint_m)
+    if (way_m > kSamePointM)
       points[i].curvature_per_m = wrap_angle(points[i + 1].heading_rad - points[i - 1].heading_rad) / way_m;
   }
 }
@@ -88,8 +88,10 @@ Result<Detour> side_detour(const Path& path, std::size_t from, const PathCheck& 
                            const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
                            const CheckOptions& options, const SideDetourOptions& detour) {
   const auto along_m = distances(path, from);
-  for (double offset_m = detour.first_offset_m; offset_m <= detour.furthest_m + 1e-9;
-       offset_m += detour.offset_step_m) {
+  const int offsets =
+      1 + static_cast<int>((detour.furthest_m - detour.first_offset_m) / detour.offset_step_m + 1e-9);
+  for (int i = 0; i < offsets; ++i) {
+    const double offset_m = detour.first_offset_m + i * detour.offset_step_m;
     const auto around = stretch(along_m, from, check, offset_m, options, detour);
     if (!around) break;
     for (const double side : {1.0, -1.0}) {

@@ -18,7 +18,7 @@ bool is_floor(const GroundPlane& plane, const GroundOptions& options) {
 /// Least squares over the points within `band_m` of `plane`; nothing where they lie on one line.
 GroundPlane refit(const std::vector<CloudPoint>& points, const GroundPlane& plane, double band_m,
                   double reach_m) {
-  constexpr double kLeastSpread_m2 = 0.02;
+  constexpr double kLeastSpreadM2 = 0.02;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   int count = 0;
@@ -37,7 +37,7 @@ GroundPlane refit(const std::vector<CloudPoint>& points, const GroundPlane& plan
   const Eigen::Matrix2d spread = covariance.topLeftCorner<2, 2>();
   const double trace = spread.trace();
   const double least = trace / 2.0 - std::sqrt(std::max(0.0, trace * trace / 4.0 - spread.determinant()));
-  if (!(least > kLeastSpread_m2)) return {};
+  if (!(least > kLeastSpreadM2)) return {};
   const Eigen::Vector2d slope = spread.inverse() * covariance.topRightCorner<2, 1>();
   return {mean.z() - slope.dot(mean.head<2>()), slope.x(), slope.y(), count};
 }

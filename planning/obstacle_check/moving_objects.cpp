@@ -122,8 +122,8 @@ std::vector<Mover<Odom>> MovingObjects::movers() const {
 PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, double speed_mps,
                        const std::vector<Mover<Map>>& movers, const CheckOptions& check,
                        const MoverOptions& options) {
-  constexpr double kTimeStep_s = 0.1;
-  constexpr double kSlowest_mps = 0.3;  // a standing vehicle is judged by what it would do
+  constexpr double kTimeStepS = 0.1;
+  constexpr double kSlowestMps = 0.3;  // a standing vehicle is judged by what it would do
   PathCheck result;
   double along_m = 0.0;
   double previous_m = 0.0;
@@ -136,13 +136,14 @@ PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, doubl
     const PathPoint& point = path.points[i];
     const Transform2<Base, Map> base_from_map =
         Transform2<Map, Base>(point.position.x_m, point.position.y_m, point.heading_rad).inverse();
-    const double there_s = along_m / std::max(speed_mps, kSlowest_mps);
+    const double there_s = along_m / std::max(speed_mps, kSlowestMps);
     const double begin_s = std::max(0.0, there_s - options.window_s);
     const double end_s = std::min(options.foresight_s, there_s + options.window_s);
     for (const Mover<Map>& m : movers) {
       const VehicleOutline zone =
           check.vehicle.grown(m.radius_m + options.margin_m, m.radius_m + options.margin_m);
-      for (double t = begin_s; t <= end_s; t += kTimeStep_s) {
+      for (int step = 0; begin_s + step * kTimeStepS <= end_s; ++step) {
+        const double t = begin_s + step * kTimeStepS;
         const Point2<Map> then{m.at.x_m + m.vx_mps * t, m.at.y_m + m.vy_mps * t};
         if (!zone.contains(base_from_map * then)) continue;
         result.free_m = previous_m;

@@ -7,7 +7,7 @@
 namespace madori::planning {
 namespace {
 
-constexpr double kViewSlack_m = 0.03;
+constexpr double kViewSlackM = 0.03;
 
 std::pair<std::int32_t, std::int32_t> cell_of(const Column& c) {
   return {c.cell_y, c.cell_x};
@@ -84,7 +84,7 @@ void confirm(std::vector<Column>& columns, const std::vector<std::int32_t>& slot
 
 bool SensorView::sees(const Point2<Base>& place, double low_m, double high_m) const {
   const double away_m = std::hypot(place.x_m - x_m, place.y_m - y_m);
-  return high_m >= z_m + away_m * std::tan(min_elevation_rad) + kViewSlack_m &&
+  return high_m >= z_m + away_m * std::tan(min_elevation_rad) + kViewSlackM &&
          low_m <= z_m + away_m * std::tan(max_elevation_rad);
 }
 

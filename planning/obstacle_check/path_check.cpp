@@ -10,7 +10,7 @@
 namespace madori::planning {
 namespace {
 
-constexpr double kSamePoint_m = 1e-6;
+constexpr double kSamePointM = 1e-6;
 
 /// What one placement of the vehicle meets.
 struct Contact {
@@ -82,12 +82,12 @@ Transform2<Map, Base> placed(const PathPoint& point, double heading_rad) {
 template <class Visit>
 bool any_heading(const Path& path, std::size_t i, double turn_step_rad, Visit&& visit) {
   const PathPoint& point = path.points[i];
-  const bool turns = i > 0 && distance_m(path.points[i - 1].position, point.position) < kSamePoint_m;
+  const bool turns = i > 0 && distance_m(path.points[i - 1].position, point.position) < kSamePointM;
   if (!turns) return visit(placed(point, point.heading_rad));
-  constexpr double kEitherWay_rad =
+  constexpr double kEitherWayRad =
       3.0;  // nearly about: noise decides which way it turns, so both must be free
   double turn = wrap_angle(point.heading_rad - path.points[i - 1].heading_rad);
-  if (std::abs(turn) > kEitherWay_rad) turn = 2.0 * kPi;
+  if (std::abs(turn) > kEitherWayRad) turn = 2.0 * kPi;
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / turn_step_rad)));
   for (int k = 1; k <= steps; ++k)
     if (visit(placed(point, path.points[i - 1].heading_rad + turn * k / steps))) return true;
@@ -114,7 +114,7 @@ PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
   for (std::size_t i = from; i < end; ++i) {
     const double here_m = along_m[i - from];
     const bool turns =
-        i > 0 && distance_m(path.points[i - 1].position, path.points[i].position) < kSamePoint_m;
+        i > 0 && distance_m(path.points[i - 1].position, path.points[i].position) < kSamePointM;
     if (here_m < checked_m + options.step_m && !turns && i + 1 != end) continue;
     const double previous_m = std::max(0.0, checked_m);
     checked_m = here_m;

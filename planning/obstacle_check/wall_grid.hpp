@@ -28,7 +28,7 @@ class WallGrid {
   }
 
  private:
-  static constexpr double kCell_m = 1.0;
+  static constexpr double kCellM = 1.0;
   struct Cell {
     const std::uint32_t* first;
     const std::uint32_t* last;

@@ -11,7 +11,7 @@
 namespace madori::planning {
 namespace {
 
-constexpr double kSameSpot_m = 0.05;
+constexpr double kSameSpotM = 0.05;
 
 std::string leg_name(const RouteGraph& graph, const RouteLeg& leg) {
   return "leg " + std::to_string(graph.nodes()[leg.from].id) + " -> " +
@@ -67,7 +67,7 @@ void check_reachability(const RouteGraph& graph, const RouteCheckOptions& option
 void check_spots(const RouteGraph& graph, const RouteCheckOptions& options,
                  std::vector<RouteFinding>& findings) {
   for (const RouteLeg& leg : graph.legs())
-    if (leg.length_m < kSameSpot_m && !is_second_direction(graph, leg))
+    if (leg.length_m < kSameSpotM && !is_second_direction(graph, leg))
       findings.push_back({Severity::Warning, options.path_file, graph.nodes()[leg.to].line,
                           leg_name(graph, leg) + " is only " + metres(leg.length_m) + " long"});
 }

@@ -15,7 +15,7 @@
 namespace madori::planning {
 namespace {
 
-constexpr double kFarthest_m = 1e6;
+constexpr double kFarthestM = 1e6;
 
 /// Collects the faults of one file.
 class Findings {
@@ -114,8 +114,8 @@ std::optional<RouteNode> read_node(const CsvRow& csv, const std::map<std::string
   const auto id = csv_integer(row.text("ID"));
   if (!id || *id < 0) row.fail("ID \"" + row.text("ID") + "\" must be a whole number from 0");
   node.id = id.value_or(0);
-  node.position.x_m = row.number("x", -kFarthest_m, kFarthest_m).value_or(0.0);
-  node.position.y_m = row.number("y", -kFarthest_m, kFarthest_m).value_or(0.0);
+  node.position.x_m = row.number("x", -kFarthestM, kFarthestM).value_or(0.0);
+  node.position.y_m = row.number("y", -kFarthestM, kFarthestM).value_or(0.0);
   node.name = row.text("name");
   node.station = read_station(row);
   if (const auto heading = row.optional_number("heading_deg", -360.0, 360.0))

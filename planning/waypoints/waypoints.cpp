@@ -9,9 +9,9 @@
 namespace madori::planning {
 namespace {
 
-constexpr double kSamePoint_m = 1e-6;
-constexpr double kStraight_rad = 1e-6;
-constexpr double kDifferentHeading_rad = to_rad(0.1);
+constexpr double kSamePointM = 1e-6;
+constexpr double kStraightRad = 1e-6;
+constexpr double kDifferentHeadingRad = to_rad(0.1);
 
 /// A straight or circular piece; the heading turns by curvature * length.
 struct Stroke {
@@ -36,7 +36,7 @@ PathPoint point_at(const Stroke& s, double along_m) {
 std::vector<WayCorner> without_repetitions(const std::vector<WayCorner>& way) {
   std::vector<WayCorner> distinct;
   for (const WayCorner& corner : way)
-    if (distinct.empty() || distance_m(distinct.back().position, corner.position) > kSamePoint_m)
+    if (distinct.empty() || distance_m(distinct.back().position, corner.position) > kSamePointM)
       distinct.push_back(corner);
   return distinct;
 }
@@ -65,7 +65,7 @@ std::vector<Stroke> strokes_of(const std::vector<WayCorner>& way, const Waypoint
     const bool last = i + 2 == way.size();
     const double turn =
         last ? 0.0 : wrap_angle(heading_between(way[i + 1].position, way[i + 2].position) - heading);
-    const bool corner = std::abs(turn) > kStraight_rad;
+    const bool corner = std::abs(turn) > kStraightRad;
     const double next_m = last ? 0.0 : distance_m(way[i + 1].position, way[i + 2].position);
     const double cut_m = corner ? tangent_length(turn, 0.5 * std::min(leg_m, next_m), options) : 0.0;
     const Stroke whole{way[i].position, heading, leg_m, 0.0, speed, turns_before};
@@ -87,10 +87,10 @@ std::vector<Stroke> strokes_of(const std::vector<WayCorner>& way, const Waypoint
 void sample(const Stroke* first, const Stroke* end, double spacing_m, Path& path) {
   double total_m = 0.0;
   for (const Stroke* s = first; s != end; ++s) total_m += s->length_m;
-  const auto pieces = std::max(1.0, std::round(total_m / spacing_m));
+  const int pieces = std::max(1, static_cast<int>(std::lround(total_m / spacing_m)));
   const Stroke* stroke = first;
   double passed_m = 0.0;
-  for (double i = 0; i <= pieces; ++i) {
+  for (int i = 0; i <= pieces; ++i) {
     const double along_m = total_m * i / pieces;
     while (stroke + 1 != end && along_m > passed_m + stroke->length_m) passed_m += (stroke++)->length_m;
     path.points.push_back(point_at(*stroke, std::min(along_m - passed_m, stroke->length_m)));
@@ -112,7 +112,7 @@ Result<Path> make_waypoints(const std::vector<WayCorner>& corners, const Waypoin
     first = end;
   }
   if (final_heading_rad &&
-      std::abs(wrap_angle(*final_heading_rad - path.points.back().heading_rad)) > kDifferentHeading_rad) {
+      std::abs(wrap_angle(*final_heading_rad - path.points.back().heading_rad)) > kDifferentHeadingRad) {
     PathPoint last = path.points.back();
     last.heading_rad = wrap_angle(*final_heading_rad);
     last.curvature_per_m = 0.0;
@@ -129,7 +129,7 @@ std::string waypoints_csv(const Path& path) {
   const Point2<Map>* previous = nullptr;
   int id = 0;
   for (const PathPoint& point : path.points) {
-    if (previous == nullptr || distance_m(*previous, point.position) > kSamePoint_m)
+    if (previous == nullptr || distance_m(*previous, point.position) > kSamePointM)
       out << id++ << ',' << point.position.x_m << ',' << point.position.y_m << '\n';
     previous = &point.position;
   }

@@ -101,7 +101,7 @@ TEST(OrderStore, KilledAtRandomMomentsItLosesNothingAndCountsNothingTwice) {
   const auto file = folder.path() / "madori.db";
   std::mt19937 random(42);
   std::int64_t reported = 0;
-  constexpr int kKills = 12;  // tests/end_to_end/kill_orders.py does 200 with the whole program
+  constexpr int kKills = 12;  // a kill costs 0.3 s of real fsyncs
   for (int i = 0; i < kKills; ++i) {
     std::array<int, 2> ends{};
     ASSERT_EQ(::pipe(ends.data()), 0);
