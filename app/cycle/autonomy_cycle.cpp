@@ -12,6 +12,21 @@ CycleState::CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> so
   pose.health = {LocalizationState::Lost, "no scan yet"};
 }
 
+namespace {
+
+/// Whether the drive shall be enabled. It arms itself on a command without enable only: one that came back
+/// while all commands were enabled (its link opened late, it restarted) is given such a one every 10 steps.
+bool enables(CycleState& state, bool may_move) {
+  constexpr int kStepsToRun = 10;
+  const auto drive = state.drive.state;
+  const bool idle = drive == control::wire::DriveState::Idle;
+  const bool wanted = may_move && (idle || drive == control::wire::DriveState::Running);
+  state.unarmed_steps = wanted && idle && state.unarmed_steps < kStepsToRun ? state.unarmed_steps + 1 : 0;
+  return wanted && (!idle || state.unarmed_steps > 0);
+}
+
+}  // namespace
+
 StepResult step(CycleState state, const CycleInput& input, const CycleConfig& config) {
   CycleOutput output;
   const double step_s = state.previous ? to_seconds(input.now - *state.previous) : 0.0;
@@ -34,9 +49,7 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
                                       config.limits);
   state.limits = limited.state;
   output.command = limited.command;
-  const auto drive = state.drive.state;
-  output.enable =
-      may_move && (drive == control::wire::DriveState::Idle || drive == control::wire::DriveState::Running);
+  output.enable = enables(state, may_move);
   const Standstill now = standstill_of(state, input, config);
   if (now.cause != state.standstill.cause) {
     state.standstill = now;

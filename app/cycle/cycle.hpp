@@ -147,6 +147,7 @@ struct CycleState {
   Stamp jog_heard{};
   Navigation way;
   control::LimitState limits;
+  int unarmed_steps = 0;  ///< enabled in a row while the drive stayed idle
 };
 
 struct StepResult {
