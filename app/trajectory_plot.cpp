@@ -19,8 +19,8 @@ constexpr std::array<mapping::PaletteColour, 7> kColours{{{255, 255, 255},  // p
 constexpr std::uint8_t kWall = 1;
 constexpr std::uint8_t kFirstState = 2;
 constexpr std::uint8_t kTick = 6;
-constexpr double kMargin_m = 1.0;
-constexpr double kJump_m = 2.0;  // a pose this far from its forerunner was found anew: no line between them
+constexpr double kMarginM = 1.0;
+constexpr double kJumpM = 2.0;  // a pose this far from its forerunner was found anew: no line between them
 
 /// A sheet of palette indices over a piece of the Map.
 class Sheet {
@@ -31,8 +31,8 @@ class Sheet {
       include(wall.segment.b);
     }
     for (const PoseEstimate& e : estimates) include(e.map_from_base.translation());
-    const double wide = high_.x_m - low_.x_m + 2.0 * kMargin_m;
-    const double tall = high_.y_m - low_.y_m + 2.0 * kMargin_m;
+    const double wide = high_.x_m - low_.x_m + 2.0 * kMarginM;
+    const double tall = high_.y_m - low_.y_m + 2.0 * kMarginM;
     px_per_m_ = widest_px / std::max(wide, tall);
     width_ = std::max(1, static_cast<int>(wide * px_per_m_));
     height_ = std::max(1, static_cast<int>(tall * px_per_m_));
@@ -58,8 +58,8 @@ class Sheet {
     high_ = {std::max(high_.x_m, p.x_m), std::max(high_.y_m, p.y_m)};
   }
   void dot(const Point2<Map>& p, std::uint8_t colour, int thick) {
-    const int u = static_cast<int>((p.x_m - low_.x_m + kMargin_m) * px_per_m_);
-    const int v = height_ - 1 - static_cast<int>((p.y_m - low_.y_m + kMargin_m) * px_per_m_);
+    const int u = static_cast<int>((p.x_m - low_.x_m + kMarginM) * px_per_m_);
+    const int v = height_ - 1 - static_cast<int>((p.y_m - low_.y_m + kMarginM) * px_per_m_);
     for (int y = v; y < v + thick; ++y)
       for (int x = u; x < u + thick; ++x)
         if (x >= 0 && y >= 0 && x < width_ && y < height_)
@@ -86,7 +86,7 @@ std::vector<std::uint8_t> trajectory_plot(const mapping::Walls& walls,
     const Transform2<Map, Base>& pose = estimates[i].map_from_base;
     const Point2<Map> before = estimates[i - 1].map_from_base.translation();
     const double moved_m = distance_m(before, pose.translation());
-    if (moved_m > kJump_m) continue;
+    if (moved_m > kJumpM) continue;
     since_tick_m += moved_m;
     if (since_tick_m > 1.0) {
       sheet.line(pose.translation(), pose * Point2<Base>{0.3, 0.0}, kTick, 1);

@@ -9,9 +9,9 @@ namespace madori::localization {
 namespace {
 
 /// Errors of a drawing persist along a wall: its pieces within two metres are one observation.
-constexpr double kShare = kVoxel_m / 2.0;
-constexpr double kClutterWidth_m = 2.0 * WallIndex::kRadius_m;
-constexpr double kBeyond_m = 0.3;  // a surface may overshoot a drawn wall's end by this
+constexpr double kShare = kVoxelM / 2.0;
+constexpr double kClutterWidthM = 2.0 * WallIndex::kRadiusM;
+constexpr double kBeyondM = 0.3;  // a surface may overshoot a drawn wall's end by this
 
 Transform2<Map, Map> about(const Point2<Map>& centre, double dx, double dy, double turn) {
   const Transform2<Map, Map> rotation(0.0, 0.0, turn);
@@ -39,7 +39,7 @@ int turned_direction(const CloudSurface& p, const Transform2<Map, Map>& by) {
 struct Mixture {
   Mixture(const DrawingModel& model, double sigma) : sigma_m(sigma) {
     const double inliers = std::clamp(model.inliers, 0.05, 0.98);
-    peak = inliers / (1.0 - inliers) * kClutterWidth_m / (sigma * std::sqrt(2.0 * kPi));
+    peak = inliers / (1.0 - inliers) * kClutterWidthM / (sigma * std::sqrt(2.0 * kPi));
   }
   /// Odds of wall against clutter.
   [[nodiscard]] double odds(double distance_m) const {
@@ -61,7 +61,7 @@ void for_each_hit(const WallIndex& index, const MemoryCloud& cloud, const Transf
   for (const CloudSurface& p : cloud) {
     const Point2<Map> q = correction * Point2<Map>{p.x_m, p.y_m};
     const WallIndex::Hit hit = index.nearest(q.x_m, q.y_m, turned_direction(p, correction));
-    if (hit.wall >= 0 && hit.beyond_m <= kBeyond_m) {
+    if (hit.wall >= 0 && hit.beyond_m <= kBeyondM) {
       visit(p, q, hit);
     }
   }
@@ -119,10 +119,10 @@ Transform2<Map, Map> DrawingFit::refine(const MemoryCloud& cloud, const Point2<M
 std::vector<Transform2<Map, Map>> DrawingFit::coarse(const MemoryCloud& cloud, const Point2<Map>& centre,
                                                      const AlignmentWindow& window) const {
   static const auto blur = [] {
-    constexpr float kBlur_cm = 22.0F;
+    constexpr float kBlurCm = 22.0F;
     std::array<float, 256> t{};
     for (std::size_t i = 0; i < 255; ++i) {
-      const float z = static_cast<float>(i) / kBlur_cm;
+      const float z = static_cast<float>(i) / kBlurCm;
       t[i] = std::exp(-0.5F * z * z);
     }
     return t;
@@ -132,13 +132,13 @@ std::vector<Transform2<Map, Map>> DrawingFit::coarse(const MemoryCloud& cloud, c
     Transform2<Map, Map> correction;
   };
   std::vector<Found> found;
-  constexpr double kStep_m = 0.2;
-  constexpr double kStep_rad = 0.03;
-  const int reach = static_cast<int>(std::ceil(window.half_m / kStep_m));
-  const int turns = static_cast<int>(std::ceil(window.half_rad / kStep_rad));
+  constexpr double kStepM = 0.2;
+  constexpr double kStepRad = 0.03;
+  const int reach = static_cast<int>(std::ceil(window.half_m / kStepM));
+  const int turns = static_cast<int>(std::ceil(window.half_rad / kStepRad));
   const std::size_t stride = cloud.size() / 500 + 1;
   for (int r = -turns; r <= turns; ++r) {
-    const auto turned = about(centre, 0.0, 0.0, r * kStep_rad);
+    const auto turned = about(centre, 0.0, 0.0, r * kStepRad);
     std::vector<CloudSurface> sample;
     for (std::size_t i = 0; i < cloud.size(); i += stride) {
       const Point2<Map> q = turned * Point2<Map>{cloud[i].x_m, cloud[i].y_m};
@@ -148,9 +148,9 @@ std::vector<Transform2<Map, Map>> DrawingFit::coarse(const MemoryCloud& cloud, c
       for (int x = -reach; x <= reach; ++x) {
         double score = 0.0;
         for (const CloudSurface& p : sample) {
-          score += p.weight * blur[index_.centimetres(p.x_m + x * kStep_m, p.y_m + y * kStep_m, p.direction)];
+          score += p.weight * blur[index_.centimetres(p.x_m + x * kStepM, p.y_m + y * kStepM, p.direction)];
         }
-        found.push_back({score, about(centre, x * kStep_m, y * kStep_m, r * kStep_rad)});
+        found.push_back({score, about(centre, x * kStepM, y * kStepM, r * kStepRad)});
       }
     }
   }
@@ -192,11 +192,11 @@ double DrawingFit::walls_seen(const MemoryCloud& cloud) {
 
 void DrawingFit::learn(const MemoryCloud& cloud) {
   constexpr double kPriorCount = 10.0;  // walls' worth of belief in the first guess
-  constexpr double kPriorSigma_m = 0.2;
+  constexpr double kPriorSigmaM = 0.2;
   const double all = kPriorCount + walls_seen(cloud);
   for (int round = 0; round < 5; ++round) {
     const Mixture mixture(model_, model_.sigma_m);
-    double squares = kPriorCount * kPriorSigma_m * kPriorSigma_m;
+    double squares = kPriorCount * kPriorSigmaM * kPriorSigmaM;
     double count = 0.0;
     for_each_hit(index_, cloud, {}, [&](const CloudSurface& p, const auto&, const auto& hit) {
       const double share = p.weight * kShare * mixture.is_wall(hit.distance_m);
@@ -241,9 +241,9 @@ void for_each_surface(const WallIndex& index, const SurfaceScan& scan, const Tra
     const double nx = pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y;
     const double ny = pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y;
     WallIndex::Hit hit = index.nearest(q.x_m, q.y_m, WallIndex::direction_of(nx, ny));
-    if (hit.beyond_m > kBeyond_m) hit.wall = -1;
+    if (hit.beyond_m > kBeyondM) hit.wall = -1;
     const double gap = std::hypot(p.x_m - scan.points[i - 1].x_m, p.y_m - scan.points[i - 1].y_m);
-    visit(q, hit, std::min(kVoxel_m, gap));
+    visit(q, hit, std::min(kVoxelM, gap));
   }
 }
 
@@ -266,7 +266,7 @@ void DrawingFit::pull(const SurfaceScan& scan, const Transform2<Map, Base>& pose
   const Mixture mixture(model_, model_.sigma_m);
   for_each_surface(index_, scan, pose, [&](const Point2<Map>& q, const WallIndex::Hit& hit, double length) {
     if (hit.wall < 0) return;
-    const double information = length / kVoxel_m * kShare * mixture.is_wall(hit.distance_m) / variance;
+    const double information = length / kVoxelM * kShare * mixture.is_wall(hit.distance_m) / variance;
     const Eigen::Vector3d j = jacobian(hit, q, pose.translation());
     hessian += information * j * j.transpose();
     gradient += information * hit.distance_m * j;

@@ -21,8 +21,8 @@ int facing_of(double normal_x, double normal_y) {
 
 std::uint64_t key_of(const CloudSurface& p, double dx = 0.0, double dy = 0.0) {
   constexpr std::int64_t kOffset = 1 << 24;
-  const auto ix = static_cast<std::int64_t>(std::floor((p.x_m + dx) / kVoxel_m)) + kOffset;
-  const auto iy = static_cast<std::int64_t>(std::floor((p.y_m + dy) / kVoxel_m)) + kOffset;
+  const auto ix = static_cast<std::int64_t>(std::floor((p.x_m + dx) / kVoxelM)) + kOffset;
+  const auto iy = static_cast<std::int64_t>(std::floor((p.y_m + dy) / kVoxelM)) + kOffset;
   return (static_cast<std::uint64_t>(ix) << 32U) | (static_cast<std::uint64_t>(iy) << 4U) |
          static_cast<std::uint64_t>(facing_of(p.normal_x, p.normal_y));
 }
@@ -59,7 +59,7 @@ double straightness(const CloudSurface& p, const Voxels& voxels) {
   constexpr int kSteps = 5;
   int found = 0;
   for (int i = -kSteps; i <= kSteps; ++i) {
-    const double t = i * kVoxel_m;
+    const double t = i * kVoxelM;
     found += i != 0 && voxels.contains(key_of(p, -p.normal_y * t, p.normal_x * t)) ? 1 : 0;
   }
   return found / (2.0 * kSteps);

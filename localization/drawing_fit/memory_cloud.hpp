@@ -19,7 +19,7 @@ struct CloudSurface {
 };
 using MemoryCloud = std::vector<CloudSurface>;
 
-inline constexpr double kVoxel_m = 0.2;
+inline constexpr double kVoxelM = 0.2;
 
 /// The surfaces with a known normal of the keyframes from `first` on. Deterministic: ordered by voxel.
 [[nodiscard]] MemoryCloud memory_cloud(const Memory& memory, std::size_t first = 0);

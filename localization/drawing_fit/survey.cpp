@@ -7,13 +7,13 @@
 namespace madori::localization {
 namespace {
 
-constexpr double kStep_rad = to_rad(4.0);
+constexpr double kStepRad = to_rad(4.0);
 constexpr int kTurns = 90;
-constexpr double kMargin_m = 3.0;  // the memory may reach this far beyond the drawing
-constexpr double kWork = 6e7;      // looks at the tables that one survey may take
+constexpr double kMarginM = 3.0;  // the memory may reach this far beyond the drawing
+constexpr double kWork = 6e7;     // looks at the tables that one survey may take
 constexpr std::size_t kRefined = 8;
-constexpr double kOther_m = 1.5;  // a place this far, or turned by this much, is another place
-constexpr double kOther_rad = to_rad(15.0);
+constexpr double kOtherM = 1.5;  // a place this far, or turned by this much, is another place
+constexpr double kOtherRad = to_rad(15.0);
 
 struct Box {
   double x1 = 1e9, y1 = 1e9, x2 = -1e9, y2 = -1e9;
@@ -66,17 +66,17 @@ std::vector<Candidate> candidates(const WallIndex& index, const MemoryCloud& clo
     drawing.add(wall.segment.a.x_m, wall.segment.a.y_m);
     drawing.add(wall.segment.b.x_m, wall.segment.b.y_m);
   }
-  const double area = (drawing.x2 - drawing.x1 + kMargin_m) * (drawing.y2 - drawing.y1 + kMargin_m);
+  const double area = (drawing.x2 - drawing.x1 + kMarginM) * (drawing.y2 - drawing.y1 + kMarginM);
   const double step = std::max(0.5, std::sqrt(area * kTurns * static_cast<double>(sample.size()) / kWork));
   std::vector<Candidate> best;
   for (int r = 0; r < kTurns; ++r) {
-    const Transform2<Map, Map> turn(0.0, 0.0, r * kStep_rad);
+    const Transform2<Map, Map> turn(0.0, 0.0, r * kStepRad);
     const MemoryCloud turned = moved(sample, turn);
     Box box;
     for (const CloudSurface& p : turned) box.add(p.x_m, p.y_m);
-    for (double y = drawing.y1 - kMargin_m - box.y1; y <= drawing.y2 + kMargin_m - box.y2; y += step) {
-      for (double x = drawing.x1 - kMargin_m - box.x1; x <= drawing.x2 + kMargin_m - box.x2; x += step) {
-        best.push_back({score(index, turned, x, y), Transform2<Map, Map>(x, y, r * kStep_rad)});
+    for (double y = drawing.y1 - kMarginM - box.y1; y <= drawing.y2 + kMarginM - box.y2; y += step) {
+      for (double x = drawing.x1 - kMarginM - box.x1; x <= drawing.x2 + kMarginM - box.x2; x += step) {
+        best.push_back({score(index, turned, x, y), Transform2<Map, Map>(x, y, r * kStepRad)});
       }
     }
     if (best.size() > 4096 || r + 1 == kTurns) {
@@ -130,7 +130,7 @@ Survey survey(const DrawingFit& fit, const MemoryCloud& cloud) {
     centre.y_m += p.y_m / static_cast<double>(cloud.size());
   }
   const auto is_other = [&](const Transform2<Map, Map>& t) {
-    return distance_m(t * centre, centre) > kOther_m || std::abs(t.yaw_rad()) > kOther_rad;
+    return distance_m(t * centre, centre) > kOtherM || std::abs(t.yaw_rad()) > kOtherRad;
   };
   result.here_nats = fit.settle(cloud, {}).likelihood;
   const Candidate other = best_place(fit, cloud, is_other);

@@ -8,9 +8,9 @@
 namespace madori::localization {
 namespace {
 
-constexpr double kCell_m = 0.1;
-constexpr double kHalfWidth_rad = to_rad(30.0);
-constexpr double kBin_rad = kPi / WallIndex::kDirections;
+constexpr double kCellM = 0.1;
+constexpr double kHalfWidthRad = to_rad(30.0);
+constexpr double kBinRad = kPi / WallIndex::kDirections;
 
 /// Of two undirected lines.
 double angle_between(double a_rad, double b_rad) {
@@ -20,19 +20,19 @@ double angle_between(double a_rad, double b_rad) {
 }  // namespace
 
 WallIndex::WallIndex(const mapping::Walls& walls)
-    : walls_(walls), frame_(mapping::GridFrame::around(walls, kRadius_m, kCell_m)) {
+    : walls_(walls), frame_(mapping::GridFrame::around(walls, kRadiusM, kCellM)) {
   for (int k = 0; k < kDirections; ++k) {
     Table& table = tables_[static_cast<std::size_t>(k)];
     table.wall.assign(frame_.cells(), kNone);
     table.centimetres.assign(frame_.cells(), kFar);
-    std::vector<float> nearest(frame_.cells(), static_cast<float>(kRadius_m * kRadius_m));
+    std::vector<float> nearest(frame_.cells(), static_cast<float>(kRadiusM * kRadiusM));
     for (std::size_t i = 0; i < walls_.size(); ++i) {
       const Segment2<Map>& s = walls_[i].segment;
       const double normal = std::atan2(s.b.x_m - s.a.x_m, -(s.b.y_m - s.a.y_m));
-      if (s.length_m() <= 0.0 || angle_between(normal, (k + 0.5) * kBin_rad) > kHalfWidth_rad) {
+      if (s.length_m() <= 0.0 || angle_between(normal, (k + 0.5) * kBinRad) > kHalfWidthRad) {
         continue;
       }
-      mapping::for_each_cell_near(frame_, s, kRadius_m, [&](std::size_t cell, double d2) {
+      mapping::for_each_cell_near(frame_, s, kRadiusM, [&](std::size_t cell, double d2) {
         if (static_cast<float>(d2) < nearest[cell]) {
           nearest[cell] = static_cast<float>(d2);
           table.wall[cell] = static_cast<std::uint32_t>(i);
@@ -48,7 +48,7 @@ int WallIndex::direction_of(double normal_x, double normal_y) {
   if (angle < 0.0) {
     angle += kPi;
   }
-  return std::clamp(static_cast<int>(angle / kBin_rad), 0, kDirections - 1);
+  return std::clamp(static_cast<int>(angle / kBinRad), 0, kDirections - 1);
 }
 
 WallIndex::Hit WallIndex::nearest(double x_m, double y_m, int direction) const {

@@ -14,8 +14,8 @@ namespace madori::localization {
 /// each.
 class WallIndex {
  public:
-  static constexpr double kRadius_m = 1.5;  ///< farther from every wall, a surface belongs to none
-  static constexpr int kDirections = 8;     ///< over half a turn
+  static constexpr double kRadiusM = 1.5;  ///< farther from every wall, a surface belongs to none
+  static constexpr int kDirections = 8;    ///< over half a turn
 
   struct Hit {
     int wall = -1;            ///< position in the walls given, -1 for none

@@ -113,15 +113,14 @@ MatchResult Localizer::match_from(const Transform2<Map, Base>& anchor, const Sur
       drawing_->pull(scan, pose, hessian, gradient);
     };
   }
-  const MatchResult near = map.refine(scan, map.search(scan, prediction, window).map_from_base, prior, pull);
+  MatchResult near = map.refine(scan, map.search(scan, prediction, window).map_from_base, prior, pull);
   if (near.inlier_share > options_.sure_inliers) {
     return near;
   }
   window.half_m = 0.5 + 0.5 * std::min(2.0, step.path_m);
   window.half_rad = 0.8;
   const LocalMap whole = memory_.whole_map(prediction.translation());
-  const MatchResult far =
-      whole.refine(scan, whole.search(scan, prediction, window).map_from_base, prior, pull);
+  MatchResult far = whole.refine(scan, whole.search(scan, prediction, window).map_from_base, prior, pull);
   // The farther from what the wheels say, the clearer the scan must speak.
   const Transform2<Base, Base> off = prediction.inverse() * far.map_from_base;
   const double metres = std::hypot(off.x_m(), off.y_m()) / window.sigma_m;

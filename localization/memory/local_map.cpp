@@ -8,11 +8,11 @@
 namespace madori::localization {
 namespace {
 
-constexpr double kCell_m = 0.2;
+constexpr double kCellM = 0.2;
 constexpr double kSameDirection = 0.7;  // cosine of the angle between normals of the same surface
 /// Sigma of one residual. Range noise is a third of it; the rest stands for what neighbouring beams share
 /// (mixed pixels, the surface's own roughness), so that the information is not overrated.
-constexpr double kResidualSigma_m = 0.08;
+constexpr double kResidualSigmaM = 0.08;
 
 SurfacePoint moved(const Transform2<Map, Base>& pose, const SurfacePoint& p) {
   const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
@@ -61,13 +61,12 @@ void LocalMap::build_index() {
     low = {std::min(low.x_m, e.point.x_m), std::min(low.y_m, e.point.y_m)};
     high = {std::max(high.x_m, e.point.x_m), std::max(high.y_m, e.point.y_m)};
   }
-  origin_ = {low.x_m - kCell_m, low.y_m - kCell_m};
-  width_ = static_cast<int>((high.x_m - origin_.x_m) / kCell_m) + 2;
-  height_ = static_cast<int>((high.y_m - origin_.y_m) / kCell_m) + 2;
+  origin_ = {low.x_m - kCellM, low.y_m - kCellM};
+  width_ = static_cast<int>((high.x_m - origin_.x_m) / kCellM) + 2;
+  height_ = static_cast<int>((high.y_m - origin_.y_m) / kCellM) + 2;
   const auto cell_of = [this](const Entry& e) {
-    return static_cast<std::size_t>((e.point.y_m - origin_.y_m) / kCell_m) *
-               static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>((e.point.x_m - origin_.x_m) / kCell_m);
+    return static_cast<std::size_t>((e.point.y_m - origin_.y_m) / kCellM) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>((e.point.x_m - origin_.x_m) / kCellM);
   };
   cell_begin_.assign(static_cast<std::size_t>(width_) * height_ + 1, 0);
   for (const Entry& p : points_) {
@@ -86,9 +85,9 @@ void LocalMap::build_index() {
 
 const LocalMap::Entry* LocalMap::nearest(double x_m, double y_m, double normal_x, double normal_y,
                                          double reach_m) const {
-  const int cx = static_cast<int>(std::floor((x_m - origin_.x_m) / kCell_m));
-  const int cy = static_cast<int>(std::floor((y_m - origin_.y_m) / kCell_m));
-  const int r = static_cast<int>(std::ceil(reach_m / kCell_m));
+  const int cx = static_cast<int>(std::floor((x_m - origin_.x_m) / kCellM));
+  const int cy = static_cast<int>(std::floor((y_m - origin_.y_m) / kCellM));
+  const int r = static_cast<int>(std::ceil(reach_m / kCellM));
   const bool directed = normal_x != 0.0 || normal_y != 0.0;
   const Entry* best = nullptr;
   double best_sq = reach_m * reach_m;
@@ -139,7 +138,7 @@ struct NormalEquations {
   void add(double residual, const Eigen::Vector3d& jacobian, double kernel_m, double trust) {
     const double ratio = residual / kernel_m;
     const double weight = 1.0 / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio));  // Geman-McClure
-    const double information = trust * weight / (kResidualSigma_m * kResidualSigma_m);
+    const double information = trust * weight / (kResidualSigmaM * kResidualSigmaM);
     trust_sum += trust;
     hessian += information * jacobian * jacobian.transpose();
     gradient += information * residual * jacobian;

@@ -7,7 +7,7 @@ namespace madori::localization {
 namespace {
 
 constexpr int kReach = 4;             // cells that a point is smeared over
-constexpr double kSigma_m = 0.07;     // of the smear: range noise plus the grid's own rounding
+constexpr double kSigmaM = 0.07;      // of the smear: range noise plus the grid's own rounding
 constexpr int kMargin = kReach + 16;  // so that windows may look over the border
 /// Against a score of 0..1. The penalty grows with the logarithm: wheels that slipped are far off at once.
 constexpr double kPenaltyWeight = 0.03;
@@ -16,7 +16,7 @@ std::array<std::uint8_t, (2 * kReach + 1) * (2 * kReach + 1)> smear_kernel() {
   std::array<std::uint8_t, (2 * kReach + 1) * (2 * kReach + 1)> kernel{};
   for (int y = -kReach; y <= kReach; ++y) {
     for (int x = -kReach; x <= kReach; ++x) {
-      const double d = std::hypot(x, y) * ScoreGrid::kResolution_m / kSigma_m;
+      const double d = std::hypot(x, y) * ScoreGrid::kResolutionM / kSigmaM;
       kernel[static_cast<std::size_t>((y + kReach) * (2 * kReach + 1) + x + kReach)] =
           static_cast<std::uint8_t>(std::lround(255.0 * std::exp(-0.5 * d * d)));
     }
@@ -36,9 +36,9 @@ ScoreGrid::ScoreGrid(const std::vector<Mark>& marks) {
     low = {std::min(low.x_m, p.x_m), std::min(low.y_m, p.y_m)};
     high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
   }
-  origin_ = {low.x_m - kMargin * kResolution_m, low.y_m - kMargin * kResolution_m};
-  width_ = static_cast<int>((high.x_m - low.x_m) / kResolution_m) + 2 * kMargin + 1;
-  height_ = static_cast<int>((high.y_m - low.y_m) / kResolution_m) + 2 * kMargin + 1;
+  origin_ = {low.x_m - kMargin * kResolutionM, low.y_m - kMargin * kResolutionM};
+  width_ = static_cast<int>((high.x_m - low.x_m) / kResolutionM) + 2 * kMargin + 1;
+  height_ = static_cast<int>((high.y_m - low.y_m) / kResolutionM) + 2 * kMargin + 1;
   smear(marks);
   for (int level = 1; level < kLevels; ++level) {
     pool(level);
@@ -51,8 +51,8 @@ void ScoreGrid::smear(const std::vector<Mark>& marks) {
   grid.assign(static_cast<std::size_t>(width_) * height_, 0);
   for (const auto& [p, weight] : marks) {
     const auto scale = static_cast<unsigned>(std::lround(256.0 * weight));
-    const int cx = static_cast<int>((p.x_m - origin_.x_m) / kResolution_m);
-    const int cy = static_cast<int>((p.y_m - origin_.y_m) / kResolution_m);
+    const int cx = static_cast<int>((p.x_m - origin_.x_m) / kResolutionM);
+    const int cy = static_cast<int>((p.y_m - origin_.y_m) / kResolutionM);
     const std::uint8_t* k = kernel.data();
     for (int y = cy - kReach; y <= cy + kReach; ++y) {
       std::uint8_t* row = grid.data() + static_cast<std::size_t>(y) * width_ + cx - kReach;
@@ -97,7 +97,7 @@ class BranchAndBound {
   SearchResult run() {
     best_ = {prediction_, -1.0};
     make_rotations();
-    const int reach = static_cast<int>(std::ceil(window_.half_m / ScoreGrid::kResolution_m));
+    const int reach = static_cast<int>(std::ceil(window_.half_m / ScoreGrid::kResolutionM));
     constexpr int kTop = ScoreGrid::kLevels - 1;
     std::vector<Candidate> top;
     for (std::size_t r = 0; r < rotations_.size(); ++r) {
@@ -135,7 +135,7 @@ class BranchAndBound {
                        ranges.end());
       far = std::max(far, ranges[ranges.size() * 3 / 4]);
     }
-    const double step = std::clamp(1.5 * ScoreGrid::kResolution_m / far, 0.005, 0.035);
+    const double step = std::clamp(1.5 * ScoreGrid::kResolutionM / far, 0.005, 0.035);
     const int count = static_cast<int>(std::ceil(window_.half_rad / step));
     for (int i = -count; i <= count; ++i) {
       rotations_.push_back({i * step, {}, {}});
@@ -145,9 +145,9 @@ class BranchAndBound {
       for (const SurfacePoint& p : scan_.points) {
         const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
         rotation.x.push_back(
-            static_cast<int>(std::floor((q.x_m - grid_.origin_.x_m) / ScoreGrid::kResolution_m)));
+            static_cast<int>(std::floor((q.x_m - grid_.origin_.x_m) / ScoreGrid::kResolutionM)));
         rotation.y.push_back(
-            static_cast<int>(std::floor((q.y_m - grid_.origin_.y_m) / ScoreGrid::kResolution_m)));
+            static_cast<int>(std::floor((q.y_m - grid_.origin_.y_m) / ScoreGrid::kResolutionM)));
       }
     }
   }
@@ -156,7 +156,7 @@ class BranchAndBound {
   double penalty(std::size_t r, int x, int y, int level) const {
     const int width = (1 << level) - 1;
     const auto nearest = [width](int v) { return v > 0 ? v : std::min(0, v + width); };
-    const double d = std::hypot(nearest(x), nearest(y)) * ScoreGrid::kResolution_m / window_.sigma_m;
+    const double d = std::hypot(nearest(x), nearest(y)) * ScoreGrid::kResolutionM / window_.sigma_m;
     const double a = rotations_[r].offset_rad / window_.sigma_rad;
     return kPenaltyWeight * std::log1p(d * d + a * a);
   }
@@ -179,7 +179,7 @@ class BranchAndBound {
         return;
       }
       if (level == 0) {
-        const double cell = ScoreGrid::kResolution_m;
+        const double cell = ScoreGrid::kResolutionM;
         best_ = {Transform2<Map, Base>(prediction_.x_m() + c.x * cell, prediction_.y_m() + c.y * cell,
                                        prediction_.yaw_rad() + rotations_[c.rotation].offset_rad),
                  c.bound};

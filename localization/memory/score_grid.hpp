@@ -28,7 +28,7 @@ struct SearchResult {
 /// branch and bound (Olson 2009; Hess et al. 2016, Real-Time Loop Closure in 2D LIDAR SLAM).
 class ScoreGrid {
  public:
-  static constexpr double kResolution_m = 0.05;
+  static constexpr double kResolutionM = 0.05;
   static constexpr int kLevels = 4;  ///< windows of 1, 2, 4, 8 cells
 
   /// A point of the map and its weight, 0..1.
