@@ -22,11 +22,16 @@ void add_run(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "drive the vehicle of a site");
   command->add_option("DIR", options->site, "site folder")->required();
   add_device_options(*command, options->devices);
+  options->hmi = "127.0.0.1:8080";
+  options->panel_folder = MADORI_PANEL_DIR;
+  command->add_option("--hmi", options->hmi, "HOST:PORT of the touch panel; \"off\" for none")
+      ->capture_default_str();
+  command->add_option("--panel-folder", options->panel_folder, "where the built page lies");
   command->add_flag("--resume", options->resume, "the operator has looked around: drive at once");
   command->add_flag("!--no-record", options->record, "do not record the run below DIR/runs");
   command->callback([options] {
     std::puts("Madori is not a safety device: keep a certified scanner and an emergency stop on the drive.");
-    if (!options->resume) std::puts("The vehicle is paused and stays so; --resume lets it drive.");
+    if (!options->resume) std::puts("The vehicle is paused and stays so; press Resume on the panel, or start with --resume.");
     run_on_devices(*options);
   });
 }

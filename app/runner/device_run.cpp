@@ -9,6 +9,7 @@
 
 #include "app/cycle/site_config.hpp"
 #include "app/iso_time.hpp"
+#include "app/panel/panel.hpp"
 #include "app/pose/drawing_pose.hpp"
 #include "app/recording/recorder.hpp"
 #include "app/runner/real_time.hpp"
@@ -37,9 +38,13 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
   if (options.record) {
     folder = options.site / "runs" / run_name();
     recorder = std::make_unique<Recorder>(folder);
-    vehicle.set_tap(
-        [&](const auto& in, const auto& out, const auto& state) { recorder->add(in, out, state); });
   }
+  const auto panel = open_panel(vehicle, options.site, options.hmi, options.panel_folder);
+  if (panel) spdlog::info("panel at {}", panel->address());
+  vehicle.set_tap([&](const auto& in, const auto& out, const auto& state) {
+    if (recorder) recorder->add(in, out, state);
+    if (panel) panel->observe(in, state);
+  });
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
   if (options.resume) {

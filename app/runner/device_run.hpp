@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <string>
 
 #include "app/runner/socket_link.hpp"
 
@@ -12,6 +13,8 @@ struct DeviceRunOptions {
   SocketOptions devices;
   bool resume = false;  ///< the operator has looked around: drive at once
   bool record = true;
+  std::string hmi = "off";            ///< HOST:PORT of the touch panel
+  std::filesystem::path panel_folder;  ///< where the built page lies
   double duration_s = 0.0;  ///< 0: until interrupted
 };
 

@@ -1,0 +1,33 @@
+import { useEffect, useRef } from "preact/hooks";
+import type { ComponentChildren } from "preact";
+import { useText } from "../i18n";
+import { Icon } from "../ui/icon";
+import { FactoryMap } from "./factory_map";
+
+/** A FactoryMap in the page, with zoom buttons. `ready` runs once; what it returns runs at the end. */
+export function MapView(props: { ready: (map: FactoryMap) => void | (() => void); children?: ComponentChildren }) {
+  const t = useText();
+  const target = useRef<HTMLDivElement>(null);
+  const map = useRef<FactoryMap | null>(null);
+  useEffect(() => {
+    if (!target.current) return undefined;
+    const made = new FactoryMap(target.current);
+    map.current = made;
+    const end = props.ready(made);
+    return () => {
+      end?.();
+      made.dispose();
+    };
+    // eslint-disable-next-line -- once
+  }, []);
+  return (
+    <div class="map">
+      <div ref={target} class="map-canvas" role="application" aria-label={t("map.label")} tabIndex={0} />
+      <div class="map-tools">
+        <button class="target" aria-label={t("map.zoom_in")} onClick={() => map.current?.zoom(1)}><Icon name="plus" /></button>
+        <button class="target" aria-label={t("map.zoom_out")} onClick={() => map.current?.zoom(-1)}><Icon name="minus" /></button>
+        {props.children}
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,44 @@
+import { useState } from "preact/hooks";
+import { api, Refused } from "../api";
+import { useText } from "../i18n";
+
+const digits = ["1", "2", "3", "4", "5", "6", "7", "8", "9", "", "0", ""];
+
+/** A number pad large enough for gloves; a keyboard works too. */
+export function LoginPage({ entered }: { entered: () => void }) {
+  const t = useText();
+  const [pin, setPin] = useState("");
+  const [refusal, setRefusal] = useState("");
+  const enter = async () => {
+    try {
+      await api.login(pin);
+      entered();
+    } catch (error) {
+      setPin("");
+      setRefusal(error instanceof Refused && error.status !== 401 ? error.message : t("login.wrong"));
+    }
+  };
+  return (
+    <main class="page login">
+      <form class="card" onSubmit={(event) => { event.preventDefault(); void enter(); }}>
+        <h1>{t("login.title")}</h1>
+        <input class="target wide" type="password" autocomplete="current-password" inputMode="numeric" aria-label={t("login.title")}
+          value={pin} onInput={(event) => setPin(event.currentTarget.value)} />
+        <p role="alert">{refusal}</p>
+        <div class="pad">
+          {digits.map((digit, index) =>
+            digit === "" ? (
+              <span key={index} />
+            ) : (
+              <button key={index} type="button" class="target" onClick={() => setPin(pin + digit)}>{digit}</button>
+            ),
+          )}
+        </div>
+        <div class="buttons">
+          <button type="button" class="target" onClick={() => setPin("")}>{t("login.clear")}</button>
+          <button type="submit" class="target primary" disabled={pin === ""}>{t("login.enter")}</button>
+        </div>
+      </form>
+    </main>
+  );
+}

@@ -1,0 +1,46 @@
+import { useEffect, useState } from "preact/hooks";
+
+/** A value that components can watch. */
+export class Store<T> {
+  private readonly watchers = new Set<(value: T) => void>();
+  constructor(private current: T) {}
+
+  get value(): T {
+    return this.current;
+  }
+  set(value: T): void {
+    this.current = value;
+    for (const watcher of [...this.watchers]) watcher(value);
+  }
+  watch(watcher: (value: T) => void): () => void {
+    this.watchers.add(watcher);
+    return () => this.watchers.delete(watcher);
+  }
+}
+
+export function useStore<T>(store: Store<T>): T {
+  const [value, setValue] = useState(store.value);
+  useEffect(() => {
+    setValue(() => store.value);
+    return store.watch((next) => setValue(() => next));
+  }, [store]);
+  return value;
+}
+
+/** Asks again every `period_ms` while the component is shown; keeps the last answer when one fails. */
+export function usePolled<T>(ask: () => Promise<T>, period_ms: number): { value: T | null; refresh: () => void } {
+  const [value, setValue] = useState<T | null>(null);
+  const [turn, setTurn] = useState(0);
+  useEffect(() => {
+    let shown = true;
+    const once = () => void ask().then((answer) => shown && setValue(() => answer), () => undefined);
+    once();
+    const timer = setInterval(once, period_ms);
+    return () => {
+      shown = false;
+      clearInterval(timer);
+    };
+    // eslint-disable-next-line -- `ask` is a method of api
+  }, [turn, period_ms]);
+  return { value, refresh: () => setTurn((n) => n + 1) };
+}

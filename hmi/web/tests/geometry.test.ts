@@ -1,0 +1,61 @@
+import { describe, expect, it } from "vitest";
+import { EditHistory } from "../src/edit_history";
+import { parseScan } from "../src/live/scan_frame";
+import { distanceToSegment, ellipseRing, footprint, toMap, toPixel } from "../src/map/geometry";
+
+describe("geometry", () => {
+  it("turns map metres into pixels and back, v down", () => {
+    expect(toPixel([1, 2], 100, 0.1)).toEqual([10, 80]);
+    expect(toMap([10, 80], 100, 0.1)).toEqual([1, 2]);
+  });
+
+  it("draws the vehicle with its nose forward", () => {
+    const outline = footprint({ x: 10, y: 5, yaw: Math.PI / 2 }, { length_m: 1, width_m: 0.6, base_to_rear_m: 0.2, max_speed_mps: 1 });
+    const nose = outline[2] ?? [0, 0];
+    expect(nose[0]).toBeCloseTo(10);
+    expect(nose[1]).toBeCloseTo(5.8);
+  });
+
+  it("draws two standard deviations", () => {
+    const ring = ellipseRing([0, 0], [4, 0, 1, 0], 2);
+    expect(Math.max(...ring.map(([x]) => x))).toBeCloseTo(4);
+    expect(Math.max(...ring.map(([, y]) => y))).toBeCloseTo(2);
+  });
+
+  it("measures the distance to a wall, its ends included", () => {
+    expect(distanceToSegment([5, 3], [0, 0, 10, 0])).toBe(3);
+    expect(distanceToSegment([13, 4], [0, 0, 10, 0])).toBe(5);
+    expect(distanceToSegment([3, 4], [0, 0, 0, 0])).toBe(5);
+  });
+});
+
+describe("a scan frame", () => {
+  const frame = new ArrayBuffer(16);
+  const view = new DataView(frame);
+  view.setUint32(0, 0x4d445331);
+  view.setUint32(4, 1, true);
+  view.setFloat32(8, 1.5, true);
+  view.setFloat32(12, -2.25, true);
+
+  it("is read", () => expect([...(parseScan(frame) ?? [])]).toEqual([1.5, -2.25]));
+  it("of the wrong size or kind is nothing", () => {
+    expect(parseScan(frame.slice(0, 12))).toBeNull();
+    expect(parseScan(new ArrayBuffer(4))).toBeNull();
+    expect(parseScan(new ArrayBuffer(16))).toBeNull();
+  });
+});
+
+describe("undo and redo", () => {
+  it("walk back and forth, and a new change forgets what was undone", () => {
+    const history = new EditHistory(1);
+    history.change(2);
+    history.change(3);
+    history.undo();
+    expect([history.value, history.canUndo, history.canRedo]).toEqual([2, true, true]);
+    history.redo();
+    expect(history.value).toBe(3);
+    history.undo();
+    history.change(9);
+    expect([history.value, history.canRedo]).toEqual([9, false]);
+  });
+});

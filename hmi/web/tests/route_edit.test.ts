@@ -1,0 +1,38 @@
+import { describe, expect, it } from "vitest";
+import { draw, nodeAt, remove, setOneWay, type RoutePlan } from "../src/pages/setup/route_edit";
+
+const empty: RoutePlan = { nodes: [], legs: [] };
+
+describe("drawing routes", () => {
+  it("sets points one after the other and joins them both ways", () => {
+    const first = draw(empty, null, [1, 2], 0.5);
+    const second = draw(first.plan, first.node, [5, 2], 0.5);
+    expect(second.plan.nodes.map((n) => [n.id, n.x, n.y])).toEqual([[0, 1, 2], [1, 5, 2]]);
+    expect(second.plan.legs).toEqual([[0, 1], [1, 0]]);
+  });
+
+  it("snaps to a point that is near, and joins it once", () => {
+    let plan = draw(draw(empty, null, [0, 0], 0.5).plan, 0, [4, 0], 0.5).plan;
+    const closed = draw(plan, 1, [0.3, 0.3], 0.5);
+    expect(closed.node).toBe(0);
+    expect(closed.plan.nodes).toHaveLength(2);
+    expect(closed.plan.legs).toHaveLength(2);
+    plan = closed.plan;
+    expect(nodeAt(plan, [4.2, 0.1], 0.5)?.id).toBe(1);
+    expect(nodeAt(plan, [2, 0], 0.5)).toBeUndefined();
+  });
+
+  it("removes a point with its legs, and numbers new ones freshly", () => {
+    const plan = draw(draw(empty, null, [0, 0], 0.5).plan, 0, [4, 0], 0.5).plan;
+    const left = remove(plan, 0);
+    expect(left.legs).toEqual([]);
+    expect(draw(left, null, [9, 9], 0.5).node).toBe(2);
+  });
+
+  it("makes a leg one-way and two-way again", () => {
+    const plan = draw(draw(empty, null, [0, 0], 0.5).plan, 0, [4, 0], 0.5).plan;
+    const oneWay = setOneWay(plan, 0, 1, true);
+    expect(oneWay.legs).toEqual([[0, 1]]);
+    expect(setOneWay(oneWay, 0, 1, false).legs).toEqual([[0, 1], [1, 0]]);
+  });
+});

@@ -1,0 +1,250 @@
+// The server through its real socket.
+#include "hmi/server/server.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "hmi/server/api.hpp"
+#include "mapping/drawing/import_drawing.hpp"
+#include "tests/support/panel_client.hpp"
+#include "tests/support/scripted_vehicle.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace madori::hmi {
+namespace {
+
+using nlohmann::json;
+using test::HttpAnswer;
+using test::HttpCall;
+using ::testing::HasSubstr;
+
+class ServerTest : public testing::Test {
+ protected:
+  explicit ServerTest(bool network = false)
+      : access_(folder_.path() / "pins", network, [] { return std::chrono::steady_clock::time_point(); }) {}
+
+  void SetUp() override {
+    folder_.write("index.html", "<!doctype html><title>Madori</title>");
+    files_.emplace(folder_.path());
+    mapping::ImportOptions options;
+    options.drawing = std::filesystem::path(MADORI_SOURCE_DIR) / "data/sample_factory/factory.dxf";
+    options.site = folder_.path() / "site";
+    mapping::import_drawing(options);
+    editor_.emplace(folder_.path() / "site");
+    context_.emplace(ApiContext{
+        access_, *editor_, vehicle_, job_, [] { return std::string("2026-01-01T00:00:00Z"); }, {}});
+    ServerOptions server;
+    server.port = 0;
+    server.live_rate_hz = 50.0;
+    server.header_timeout_s = 1.0;
+    server_.emplace(server, make_router(*context_), access_, *files_, vehicle_);
+  }
+  [[nodiscard]] HttpAnswer call(const std::string& method, const std::string& target,
+                                const std::string& body = "", const std::string& cookie = "") const {
+    return test::http_call(server_->port(), {method, target, body, "", "same", cookie});
+  }
+  [[nodiscard]] json get(const std::string& target) const { return json::parse(call("GET", target).body); }
+
+  test::TemporaryFolder folder_;
+  test::ScriptedVehicle vehicle_;
+  Access access_;
+  Job job_;
+  std::optional<StaticFiles> files_;
+  std::optional<SiteEditor> editor_;
+  std::optional<ApiContext> context_;
+  std::optional<Server> server_;
+};
+
+TEST_F(ServerTest, ServesThePageAndNothingBesideIt) {
+  EXPECT_THAT(call("GET", "/").body, HasSubstr("Madori"));
+  for (const char* path :
+       {"/pins", "/site/site.yaml", "/../pins", "/%2e%2e/pins", "/etc/passwd", "//etc/passwd"})
+    EXPECT_GE(call("GET", path).status, 400) << path;
+}
+
+TEST_F(ServerTest, RefusesForeignHostsAndOrigins) {
+  const auto port = server_->port();
+  EXPECT_EQ(test::http_call(port, {"GET", "/api/site", "", "evil.example", "", ""}).status, 421);
+  EXPECT_EQ(test::http_call(port, {"POST", "/api/vehicle/start", "{}", "", "http://evil.example", ""}).status,
+            403);
+  EXPECT_EQ(test::http_call(port, {"POST", "/api/vehicle/start", "{}", "", "", ""}).status, 403);
+  EXPECT_TRUE(vehicle_.commands().empty());
+  EXPECT_THROW(test::LiveClient(port, "http://evil.example"), std::exception);
+  EXPECT_THROW(test::LiveClient(port, ""), std::exception);
+}
+
+TEST_F(ServerTest, CommandsAreDoneOrRefusedWithTheReason) {
+  EXPECT_EQ(call("POST", "/api/vehicle/stop", "{}").status, 200);
+  vehicle_.refuse_start();
+  const HttpAnswer refused = call("POST", "/api/vehicle/start", "{}");
+  EXPECT_EQ(refused.status, 409);
+  EXPECT_EQ(json::parse(refused.body)["error"]["code"], "lost");
+  EXPECT_EQ(vehicle_.commands(), (std::vector<Command>{Command::Stop, Command::Start}));
+}
+
+TEST_F(ServerTest, OrdersAreAddedMovedAndCancelled) {
+  EXPECT_EQ(call("POST", "/api/orders", R"({"stations": [3, 5], "repeat": 1})").status, 200);
+  EXPECT_EQ(call("POST", "/api/orders", R"({"stations": [7], "repeat": 5})").status, 200);
+  EXPECT_EQ(get("/api/orders")[1]["repeat"], 5);
+  EXPECT_EQ(call("DELETE", "/api/orders/2").status, 200);
+  EXPECT_EQ(call("DELETE", "/api/orders/2").status, 409);
+  EXPECT_EQ(call("DELETE", "/api/orders/x").status, 422);
+  EXPECT_EQ(call("POST", "/api/orders", R"({"stations": "all"})").status, 400);
+  EXPECT_EQ(call("POST", "/api/orders", "[1").status, 422);
+}
+
+TEST_F(ServerTest, WallsAreSavedOnceAndTheSecondEditorIsTold) {
+  const json before = get("/api/site/walls");
+  json edit{{"revision", before["revision"]}, {"walls", json::array({{0, 0, 10, 0}, {10, 0, 10, 5}})}};
+  EXPECT_EQ(call("PUT", "/api/site/walls", edit.dump()).status, 200);
+  EXPECT_EQ(get("/api/site/walls")["walls"].size(), 2U);
+  EXPECT_EQ(vehicle_.reloads(), 1);
+  const HttpAnswer late = call("PUT", "/api/site/walls", edit.dump());
+  EXPECT_EQ(late.status, 409);
+  EXPECT_EQ(json::parse(late.body)["error"]["code"], "conflict");
+  edit["revision"] = get("/api/site/walls")["revision"];
+  edit["walls"] = json::array();
+  EXPECT_EQ(call("PUT", "/api/site/walls", edit.dump()).status, 422);
+}
+
+TEST_F(ServerTest, PublishedRoutesRoundTripByteForByte) {
+  const std::string tree = "ID,EDA\r\n0,1\r\n1,0 2\r\n2,1\r\n";
+  const std::string path = "ID,x,y\r\n0,0,0\r\n1,1.8,-0.1\r\n2,5.46,-0.61\r\n";
+  EXPECT_EQ(
+      call("POST", "/api/site/routes/csv", json{{"revision", ""}, {"tree", tree}, {"path", path}}.dump())
+          .status,
+      200);
+  EXPECT_EQ(call("GET", "/api/site/routes/tree.csv").body, tree);
+  EXPECT_EQ(call("GET", "/api/site/routes/path.csv").body, path);
+  const HttpAnswer bad = call("POST", "/api/site/routes/csv",
+                              json{{"revision", ""}, {"tree", "ID,EDA\n0,7\n"}, {"path", path}}.dump());
+  EXPECT_EQ(bad.status, 422);
+  EXPECT_THAT(bad.body, HasSubstr("tree.csv"));
+}
+
+TEST_F(ServerTest, DrawnRoutesAreCheckedAndSaved) {
+  json edit{{"revision", get("/api/site/routes")["revision"]},
+            {"nodes", json::array()},
+            {"legs", json::array({{0, 1}, {1, 0}})}};
+  for (int id : {0, 1})
+    edit["nodes"].push_back({{"id", id},
+                             {"x", 30.0 + 4 * id},
+                             {"y", 29.0},
+                             {"name", "P" + std::to_string(id)},
+                             {"station", true},
+                             {"heading_deg", 90.0},
+                             {"speed_mps", nullptr},
+                             {"action", ""}});
+  EXPECT_EQ(call("POST", "/api/site/routes/check", edit.dump()).status, 200);
+  EXPECT_EQ(call("PUT", "/api/site/routes", edit.dump()).status, 200);
+  const json saved = get("/api/site/routes");
+  EXPECT_EQ(saved["nodes"], edit["nodes"]);
+  EXPECT_EQ(saved["legs"], edit["legs"]);
+  edit["legs"] = json::array({{0, 9}});
+  EXPECT_EQ(call("POST", "/api/site/routes/check", edit.dump()).status, 422);
+}
+
+TEST_F(ServerTest, LiveSendsStateAndScan) {
+  LiveState live;
+  live.state = "driving";
+  live.scan = {{1.5, -2.25}, {3.0, 4.0}};
+  vehicle_.show(live);
+  test::LiveClient client(server_->port(), "same");
+  EXPECT_EQ(json::parse(client.receive_text())["live"]["state"], "driving");
+  const std::string frame = client.receive_binary();
+  ASSERT_EQ(frame.size(), 8U + 16U);
+  EXPECT_EQ(frame.substr(0, 4), "MDS1");
+  float y = 0;
+  std::memcpy(&y, frame.data() + 12, 4);
+  EXPECT_FLOAT_EQ(y, -2.25F);
+}
+
+TEST_F(ServerTest, AJogEndsWhenTheBrowserFallsSilentOrVanishes) {
+  for (const bool vanish : {false, true}) {
+    test::LiveClient client(server_->port(), "same");
+    const std::size_t before = vehicle_.jogs().size();
+    client.send(R"({"jog": {"linear": 0.3, "angular": 0}})");
+    while (vehicle_.jogs().size() == before) std::this_thread::yield();
+    EXPECT_DOUBLE_EQ(vehicle_.jogs().back().linear_mps, 0.3);
+    if (vanish) client.drop();
+    while (vehicle_.jogs().back() != VelocityCommand{}) std::this_thread::yield();
+  }
+}
+
+TEST_F(ServerTest, NonsenseOnTheLiveSocketIsToldAndMovesNothing) {
+  test::LiveClient client(server_->port(), "same");
+  client.send("{\"jog\": {\"linear\": 99, \"angular\": 0}}");
+  std::string refused;
+  while (refused.find("refused") == std::string::npos) refused = client.receive_text();
+  EXPECT_THAT(refused, HasSubstr("bad-message"));
+  EXPECT_TRUE(vehicle_.jogs().empty());
+}
+
+TEST_F(ServerTest, BrokenHttpIsDropped) {
+  for (const char* bytes :
+       {"\r\n\r\n", "GET / HTTP/9.9\r\n\r\n", "GARBAGE\r\n\r\n", "GET /\0 HTTP/1.1\r\n\r\n"})
+    EXPECT_EQ(test::raw_call(server_->port(), bytes).find("HTTP/1.1 200"), std::string::npos) << bytes;
+  std::string huge = "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nX: ";
+  huge.append(100'000, 'x');
+  EXPECT_EQ(test::raw_call(server_->port(), huge).find("HTTP/1.1 200"), std::string::npos);
+  EXPECT_EQ(call("GET", "/api/site").status, 200);
+}
+
+TEST_F(ServerTest, AnUploadThatIsTooLargeIsRefusedBeforeItIsRead) {
+  const std::string header =
+      "POST /api/site/drawing?name=a.png HTTP/1.1\r\nHost: 127.0.0.1\r\nOrigin: "
+      "http://127.0.0.1\r\nContent-Length: 1073741824\r\n\r\n";
+  EXPECT_THAT(test::raw_call(server_->port(), header), HasSubstr("HTTP/1.1 413"));
+}
+
+TEST_F(ServerTest, ADrawingIsImportedWhileThePanelWatches) {
+  const auto file = std::filesystem::path(MADORI_SOURCE_DIR) / "data/sample_factory/factory.dxf";
+  std::ifstream stream(file, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  ASSERT_EQ(call("POST", "/api/site/drawing?name=..%2Fhall%20B.dxf", content).status, 200);
+  json job;
+  do job = get("/api/job");
+  while (job["running"] == true);
+  EXPECT_EQ(job["error"], "");
+  EXPECT_EQ(get("/api/site")["name"], "hall B");
+  ASSERT_EQ(call("POST", "/api/site/drawing?name=bad.png", "no image").status, 200);
+  do job = get("/api/job");
+  while (job["running"] == true);
+  EXPECT_NE(job["error"], "");
+  EXPECT_EQ(get("/api/site")["name"], "hall B");
+}
+
+class NetworkServerTest : public ServerTest {
+ protected:
+  NetworkServerTest() : ServerTest(true) {
+    access_.set_pin(Role::Operator, "1111");
+    access_.set_pin(Role::Integrator, "2222");
+  }
+};
+
+TEST_F(NetworkServerTest, WithoutAPinNothingButThePageIsServed) {
+  EXPECT_EQ(call("GET", "/").status, 200);
+  for (const char* path : {"/api/site", "/api/orders", "/api/site/walls", "/api/recordings", "/api/events"})
+    EXPECT_EQ(call("GET", path).status, 401) << path;
+  EXPECT_EQ(call("POST", "/api/vehicle/start", "{}").status, 401);
+  EXPECT_THROW(test::LiveClient(server_->port(), "same"), std::exception);
+}
+
+TEST_F(NetworkServerTest, RolesOpenWhatTheyMay) {
+  EXPECT_EQ(call("POST", "/api/session", R"({"pin": "9999"})").status, 401);
+  EXPECT_EQ(call("POST", "/api/session", R"({"pin": 9999})").status, 400);
+  const HttpAnswer login = call("POST", "/api/session", R"({"pin": "1111"})");
+  ASSERT_EQ(login.status, 200);
+  EXPECT_EQ(json::parse(login.body)["role"], "operator");
+  EXPECT_EQ(call("POST", "/api/vehicle/start", "{}", login.cookie).status, 200);
+  EXPECT_EQ(call("PUT", "/api/site/walls", "{}", login.cookie).status, 403);
+  EXPECT_EQ(call("DELETE", "/api/session", "", login.cookie).status, 200);
+  EXPECT_EQ(call("GET", "/api/site", "", login.cookie).status, 401);
+}
+
+}  // namespace
+}  // namespace madori::hmi
