@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <utility>
 
 #include "core/result.hpp"
 #include "mapping/drawing/import_picture.hpp"
@@ -79,8 +80,12 @@ Walls to_map(const std::vector<PixelSegment>& segments, int height_px, double m_
 
 /// One colour from edge to edge, as an empty page or a failed scan has it.
 void refuse_blank(const ImportOptions& options, const GrayImage& picture) {
-  const auto [darkest, brightest] = std::ranges::minmax(picture.pixels);
-  if (brightest - darkest > 8) return;
+  std::uint8_t darkest = 255, brightest = 0;
+  for (const std::uint8_t value : picture.pixels) {
+    darkest = std::min(darkest, value);
+    brightest = std::max(brightest, value);
+    if (brightest - darkest > 8) return;  // any drawing shows that long before its end
+  }
   throw Error(options.drawing.string(),
               std::string("is all ") + (darkest > 128 ? "white" : "black") + ", no wall was found",
               "scan or export it again, or choose another --page");
@@ -135,8 +140,9 @@ Site make_site(const ImportOptions& options, const Plan& plan, const std::string
 }
 
 std::string file_content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return std::move(content).str();
 }
 
 /// The files of an older import that this one does not write again.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -15,7 +16,7 @@ namespace {
 constexpr int kFooter = 64;
 constexpr int kFooterWidth = 800;  // its words need that much
 constexpr int kFractionBits = 4;
-constexpr int kSmallest_px = 900;
+constexpr int kSmallest = 900;
 
 /// The picture's colours: sixteen shades of each family. Few colours keep the file small and quick to pack.
 constexpr int kShades = 16;
@@ -68,22 +69,32 @@ class Layer {
   }
   cv::Mat& sheet() { return sheet_; }
 
-  void lay(Family family) {
-    for (int v = 0; v < picture_.rows; ++v) {
-      auto* below = picture_.ptr<std::uint8_t>(v);
-      const auto* ink = sheet_.ptr<std::uint8_t>(v);
-      for (int u = 0; u < picture_.cols; ++u)
-        if (ink[u] >= 256 / kShades)
-          below[u] = static_cast<std::uint8_t>(family * kShades + ink[u] * kShades / 256);
-    }
-    sheet_ = 0;
-  }
+  void lay(Family family) { lay(family, 0); }
+  void lay_footer(Family family) { lay(family, picture_.rows - kFooter); }
 
  private:
   [[nodiscard]] cv::Point at(double u, double v) const {
     const double fine = zoom_ * (1 << kFractionBits);
     const double half = 0.5 * (1 << kFractionBits);
     return {static_cast<int>(std::lround(u * fine - half)), static_cast<int>(std::lround(v * fine - half))};
+  }
+
+  /// From row `top` on, where all that was drawn must lie.
+  void lay(Family family, int top) {
+    for (int v = top; v < picture_.rows; ++v) {
+      auto* below = picture_.ptr<std::uint8_t>(v);
+      auto* ink = sheet_.ptr<std::uint8_t>(v);
+      for (int u = 0; u < picture_.cols;) {
+        std::uint64_t eight = 0;
+        if (u + 8 <= picture_.cols && (std::memcpy(&eight, ink + u, 8), eight == 0)) {
+          u += 8;
+          continue;
+        }
+        if (ink[u] >= 256 / kShades)
+          below[u] = static_cast<std::uint8_t>(family * kShades + ink[u] * kShades / 256);
+        ink[u++] = 0;
+      }
+    }
   }
 
   cv::Mat& picture_;
@@ -114,9 +125,9 @@ void draw_footer(Layer& layer, double zoom, std::optional<double> m_per_px) {
   cv::Mat& sheet = layer.sheet();
   const int base = sheet.rows - kFooter / 2;
   cv::line(sheet, {20, base}, {60, base}, 255, 4, cv::LINE_AA);
-  layer.lay(Wall);
+  layer.lay_footer(Wall);
   cv::line(sheet, {150, base}, {190, base}, 255, 2, cv::LINE_AA);
-  layer.lay(Rejected);
+  layer.lay_footer(Rejected);
   write_text(sheet, "wall", 70, base + 7);
   write_text(sheet, "not a wall", 200, base + 7);
   if (m_per_px) {
@@ -128,7 +139,7 @@ void draw_footer(Layer& layer, double zoom, std::optional<double> m_per_px) {
   } else {
     write_text(sheet, "unscaled: no length is known yet", std::max(340, sheet.cols - 420), base + 7);
   }
-  layer.lay(Ink);
+  layer.lay_footer(Ink);
 }
 
 }  // namespace
@@ -138,7 +149,7 @@ std::vector<std::uint8_t> import_picture(const GrayImage& drawing, std::span<con
                                          std::optional<double> m_per_px, int widest_px) {
   const int longer = std::max(drawing.width_px, drawing.height_px);
   const int shrink = (longer + widest_px - 1) / widest_px;
-  const int enlarge = std::max(1, kSmallest_px / longer);
+  const int enlarge = std::max(1, kSmallest / longer);
   const double zoom = static_cast<double>(enlarge) / shrink;
   cv::Mat picture = pale(drawing, shrink, enlarge);
   Layer layer(picture, zoom);

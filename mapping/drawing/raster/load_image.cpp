@@ -7,8 +7,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 
 #include "core/result.hpp"
+#include "mapping/drawing/raster/grey_png.hpp"
 #include "mapping/drawing/raster/image_header.hpp"
 #include "mapping/drawing/raster/quiet_stderr.hpp"
 
@@ -99,6 +101,10 @@ void compose_row(const cv::Mat& row, std::uint8_t* out) {
 GrayImage load_image(const fs::path& file) {
   const auto bytes = read_bytes(file);
   const ImageHeader header = checked_header(file, bytes);
+  if (header.format == ImageFormat::Png)
+    if (auto pixels = decode_grey_png(bytes))
+      return {static_cast<int>(header.width_px), static_cast<int>(header.height_px), std::move(*pixels),
+              header.dpi};
   const cv::Mat picture = decode(file, bytes, header.format);
   GrayImage image{picture.cols, picture.rows, {}, header.dpi};
   image.pixels.resize(picture.total());

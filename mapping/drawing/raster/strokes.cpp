@@ -12,18 +12,33 @@ namespace {
 constexpr int kLongestRun = 64;
 constexpr double kLeastSolid = 4, kMostSolid = 8;  // pixels
 constexpr double kLeastPens = 2, kMostPens = 4;
-constexpr int kColumnStep = 19;  // a sample of the columns is enough, and a column walk is slow on memory
+constexpr int kColumnStep = 19;  // a sample of the columns is enough
+constexpr int kBand = 128;       // rows that the cache holds at a time
 
-void count_down(const GrayImage& ink, int u, RunLengths& runs) {
-  int length = 0;
-  for (int v = 0; v < ink.height_px; ++v) {
-    if (ink.at(u, v) != 0) {
-      ++length;
-      continue;
+/// Ink down a column: its length and the row after it.
+struct Stretch {
+  int length = 0, end = 0;
+};
+
+/// Runs down every so many columns, out of the runs across.
+void count_down(const GrayImage& ink, const Components& marks, RunLengths& runs) {
+  std::vector<Stretch> columns(static_cast<std::size_t>(ink.width_px / kColumnStep) + 1);
+  const auto count = [&](const Stretch& stretch) {
+    if (stretch.length > 0 && stretch.length <= kLongestRun && stretch.end < ink.height_px)
+      runs[static_cast<std::size_t>(stretch.length)] += kColumnStep;
+  };
+  for (const Run& run : marks.runs()) {
+    for (int i = (run.first + kColumnStep - 1) / kColumnStep; i * kColumnStep <= run.last; ++i) {
+      Stretch& stretch = columns[static_cast<std::size_t>(i)];
+      if (stretch.end != run.v) {
+        count(stretch);
+        stretch.length = 0;
+      }
+      ++stretch.length;
+      stretch.end = run.v + 1;
     }
-    if (length > 0 && length <= kLongestRun) runs[static_cast<std::size_t>(length)] += kColumnStep;
-    length = 0;
   }
+  for (const Stretch& stretch : columns) count(stretch);
 }
 
 cv::Mat box_of(int radius) {
@@ -44,7 +59,7 @@ RunLengths run_lengths(const GrayImage& ink, const Components& marks) {
   RunLengths runs(kLongestRun + 2, 0);
   for (const Run& run : marks.runs())
     if (run.length() <= kLongestRun) runs[static_cast<std::size_t>(run.length())] += 1;
-  for (int u = 0; u < ink.width_px; u += kColumnStep) count_down(ink, u, runs);
+  count_down(ink, marks, runs);
   return runs;
 }
 
@@ -66,17 +81,21 @@ double solid_from_px(const RunLengths& runs, double pen_px) {
 }
 
 Strokes split_strokes(const GrayImage& ink, double solid_from_px) {
-  Strokes strokes{blank_like(ink), blank_like(ink), solid_from_px};
-  cv::Mat solid = cv_view(strokes.solid), thin = cv_view(strokes.thin);
+  Strokes strokes{blank_like(ink), ink, solid_from_px};
   const cv::Mat all = cv_view(ink);
+  cv::Mat solid = cv_view(strokes.solid), thin = cv_view(strokes.thin), part;
   const int radius = std::max(1, static_cast<int>((strokes.solid_from_px - 1) / 2));
-  all.copyTo(solid);
-  shrink(solid, radius);
-  if (cv::countNonZero(solid) > 0) {
-    cv::dilate(solid, solid, box_of(radius + 2));  // two more: the ragged rim belongs to the fill
-    cv::bitwise_and(solid, all, solid);
+  const int grown = radius + 2;  // two more: the ragged rim belongs to the fill
+  for (int v = 0; v < ink.height_px; v += kBand) {
+    const cv::Range rows(v, std::min(v + kBand, ink.height_px));
+    const int top = std::max(0, v - radius - grown);
+    all.rowRange(top, std::min(rows.end + radius + grown, ink.height_px)).copyTo(part);
+    shrink(part, radius);
+    if (cv::countNonZero(part) == 0) continue;
+    cv::dilate(part, part, box_of(grown));
+    cv::bitwise_and(part.rowRange(v - top, rows.end - top), all.rowRange(rows), solid.rowRange(rows));
+    cv::subtract(all.rowRange(rows), solid.rowRange(rows), thin.rowRange(rows));
   }
-  cv::subtract(all, solid, thin);
   return strokes;
 }
 

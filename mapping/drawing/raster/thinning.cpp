@@ -57,34 +57,79 @@ std::vector<std::size_t> ink_pixels(const GrayImage& ink) {
   return found;
 }
 
+/// One picture while it is thinned: deletions of a half step happen at once, after all were decided.
+class Thinner {
+ public:
+  explicit Thinner(GrayImage& ink)
+      : pixels_(ink.pixels), alive_(ink_pixels(ink)), around_(steps_around(ink.width_px)) {
+    for (const std::size_t at : alive_) pixels_[at] = kInk;
+  }
+
+  /// Deletes what goes in this half step and returns whether anything did.
+  bool half_step(const std::array<bool, 256>& table) {
+    const auto& asked = candidates();
+    std::swap(gone_before_, gone_);
+    gone_.clear();
+    for (const std::size_t at : asked) {
+      if (pixels_[at] != kInk || !table[neighbours(at)]) continue;
+      gone_.push_back(at);
+      pixels_[at] = kGoing;
+    }
+    for (const std::size_t at : gone_) pixels_[at] = 0;
+    return !gone_.empty();
+  }
+
+  void leave(std::uint8_t value) {
+    for (const std::size_t at : alive_)
+      if (pixels_[at] != 0) pixels_[at] = value;
+  }
+
+ private:
+  static constexpr std::uint8_t kInk = 255, kGoing = 1;
+  static constexpr std::size_t kFew = 8;  // below this share of all ink the neighbours of what went are fewer
+
+  static std::array<std::size_t, 8> steps_around(int width_px) {
+    const auto width = static_cast<std::size_t>(width_px), back = ~std::size_t{0};  // -1, modulo its range
+    return {0 - width, 1 - width, 1, width + 1, width, width - 1, back, back - width};
+  }
+  [[nodiscard]] unsigned neighbours(std::size_t at) const {
+    unsigned bits = 0;
+    for (unsigned i = 0; i < 8; ++i) bits |= (pixels_[at + around_[i]] != 0 ? 1U : 0U) << i;
+    return bits;
+  }
+  /// Only what lost a neighbour since the same half step before can go now: in late rounds these are few.
+  const std::vector<std::size_t>& candidates() {
+    const std::size_t changes = gone_.size() + gone_before_.size();
+    if (++half_steps_ <= 2 || changes * kFew > alive_.size()) {
+      std::erase_if(alive_, [&](std::size_t at) { return pixels_[at] == 0; });
+      return alive_;
+    }
+    near_.clear();
+    for (const auto* gone : {&gone_, &gone_before_})
+      for (const std::size_t at : *gone)
+        for (const std::size_t step : around_)
+          if (pixels_[at + step] != 0) near_.push_back(at + step);
+    return near_;
+  }
+
+  std::vector<std::uint8_t>& pixels_;
+  std::vector<std::size_t> alive_, near_, gone_, gone_before_;
+  std::array<std::size_t, 8> around_;
+  int half_steps_ = 0;
+};
+
 }  // namespace
 
-void thin(GrayImage& ink) {
+void thin(GrayImage& ink, std::uint8_t value) {
   if (ink.empty()) return;
   static constexpr auto kTable = make_table();
   clear_border(ink);
-  std::vector<std::size_t> alive = ink_pixels(ink), gone;
-  const auto width = static_cast<std::ptrdiff_t>(ink.width_px);
-  const std::array<std::ptrdiff_t, 8> around{-width, -width + 1, 1,  width + 1,
-                                             width,  width - 1,  -1, -width - 1};
-  const auto neighbours = [&](std::size_t at) {
-    unsigned bits = 0;
-    for (unsigned i = 0; i < 8; ++i)
-      bits |= (ink.pixels[at + static_cast<std::size_t>(around[i])] != 0 ? 1U : 0U) << i;
-    return bits;
-  };
+  Thinner thinner(ink);
   for (bool changed = true; changed;) {
-    changed = false;
-    for (const auto& table : kTable) {
-      gone.clear();
-      for (const std::size_t at : alive)
-        if (table[neighbours(at)]) gone.push_back(at);
-      for (const std::size_t at : gone) ink.pixels[at] = 0;
-      if (gone.empty()) continue;
-      changed = true;
-      std::erase_if(alive, [&](std::size_t at) { return ink.pixels[at] == 0; });
-    }
+    changed = thinner.half_step(kTable[0]);
+    changed = thinner.half_step(kTable[1]) || changed;
   }
+  thinner.leave(value);
 }
 
 }  // namespace madori::mapping
