@@ -42,11 +42,11 @@ const std::string kFactory = std::string(MADORI_SOURCE_DIR) + "/data/sample_fact
 
 INSTANTIATE_TEST_SUITE_P(Drawings, DrawingWalls,
                          ::testing::Values(Case{"factory", kFactory + "factory_scan.png",
-                                                kFactory + "true_walls_scan_px.csv", 0.025, 0.97},
-                                           shared("office", 0.00846, 0.92), shared("clinic", 0.02692, 0.70),
-                                           shared("hotel_L1", 0.05568, 0.57),
-                                           shared("mlstruct_7db30954", 0.00474825, 0.97),
-                                           shared("mlstruct_8888a588", 0.00272847, 0.95)),
+                                                kFactory + "true_walls_scan_px.csv", 0.025, 0.98},
+                                           shared("office", 0.00846, 0.97), shared("clinic", 0.02692, 0.77),
+                                           shared("hotel_L1", 0.05568, 0.59),
+                                           shared("mlstruct_7db30954", 0.00474825, 0.99),
+                                           shared("mlstruct_8888a588", 0.00272847, 0.99)),
                          [](const auto& test) { return test.param.name; });
 
 /// The lines of this layout are what a later localization matches against: its four outer and inner sides,

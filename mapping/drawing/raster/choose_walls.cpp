@@ -27,7 +27,9 @@ void reject_outer_faces(DrawnLines& drawn, const std::vector<Strip>& strips, con
                         const GrayImage& ink) {
   auto spare = spare_faces(drawn, strips, style);
   for (std::size_t i = 0; i < drawn.size(); ++i) spare[i] = spare[i] && !drawn[i].rejected;
-  reject_where(drawn, faces_outside(drawn, spare, ink), RejectReason::Other);
+  const auto outside = faces_outside(drawn, spare, ink);
+  reject_where(drawn, outside, RejectReason::Other);
+  reject_where(drawn, cladding(drawn, outside, strips, style), RejectReason::Other);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace {
 constexpr int kCoarse = 1200;         // pixels of the coarse picture's longer side
 constexpr double kEnclosed = 0.35;    // of the ink's box: less is no closed building
 constexpr double kTwoSided = 1.3;     // of a line's length is paired: it has walls on both sides
+constexpr double kBehind = 0.8;       // of the length of cladding: a line along so much of it is the wall
 constexpr double kSampleShare = 0.8;  // of a line's samples that see the outside
 
 /// 0 = ink, 255 = reached from the border of the picture, 128 = paper inside.
@@ -110,6 +111,26 @@ std::vector<bool> spare_faces(const DrawnLines& lines, const std::vector<Strip>&
   for (std::size_t i = 0; i < lines.size(); ++i)
     spare[i] = lines[i].solid_face || behind[i] > 0.5 * lines[i].length_px();
   return spare;
+}
+
+std::vector<bool> cladding(const DrawnLines& lines, const std::vector<bool>& outside,
+                           const std::vector<Strip>& strips, const WallStyle& style) {
+  std::vector<double> lost(lines.size(), 0), hidden(lines.size(), 0);
+  const double widest = std::max(style.widest_empty_px, style.widest_filled_px);
+  for (const Strip& strip : strips) {
+    if (strip.width_px > widest || lines[strip.line].rejected) continue;
+    if (outside[strip.partner] && lines[strip.line].solid_face && lines[strip.partner].solid_face)
+      lost[strip.line] += strip.length_px();
+    if (!lines[strip.partner].rejected &&
+        lines[strip.partner].length_px() > kBehind * lines[strip.line].length_px())
+      hidden[strip.line] += strip.length_px();
+  }
+  std::vector<bool> clad(lines.size(), false);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double enough = kBehind * lines[i].length_px();
+    clad[i] = lost[i] > enough && hidden[i] > enough && looks_out(i, lines);
+  }
+  return clad;
 }
 
 }  // namespace madori::mapping

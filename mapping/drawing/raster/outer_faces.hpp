@@ -21,4 +21,9 @@ namespace madori::mapping {
 [[nodiscard]] std::vector<bool> spare_faces(const DrawnLines& lines, const std::vector<Strip>& strips,
                                             const WallStyle& style);
 
+/// The inner faces of cladding: a wall that has lost its other face to `outside` and has behind it, about as
+/// long, the line that a vehicle inside sees instead.
+[[nodiscard]] std::vector<bool> cladding(const DrawnLines& lines, const std::vector<bool>& outside,
+                                         const std::vector<Strip>& strips, const WallStyle& style);
+
 }  // namespace madori::mapping

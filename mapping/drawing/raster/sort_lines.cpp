@@ -29,6 +29,10 @@ constexpr double kPenFillFactor = 3;
 constexpr double kHeavyStub = 3;
 constexpr double kFinePenFactor = 2.5;
 constexpr double kEndReach = 1.5;
+constexpr double kLonelySolid = 5, kLonelyPen = 20;  // shorter ones need a wall that they continue
+constexpr double kDoorway = 20, kHallway = 40;       // gaps that a wall may have
+constexpr double kGoesOnFrom = 5, kGoesOnOff = 0.4;
+constexpr double kGoesOnTurn = 0.05;                          // radians
 constexpr double kCleanBelow = 0.15, kClutteredAbove = 0.35;  // share of lines that nothing explains
 
 bool passes(const PixelSegment& s, double u, double v, double reach) {
@@ -89,6 +93,7 @@ class Sorter {
         wall_[i] = changed = true;
       }
     }
+    if (filled_style_) drop_lonely_pieces();
     return wall_;
   }
 
@@ -116,8 +121,7 @@ class Sorter {
   }
   /// Two pen lines with something between are furniture more often than the two faces of a solid fill are.
   [[nodiscard]] double filled_from(std::size_t i) const {
-    const bool heavy = style_.pens_differ && thin_pen(i) == 1;
-    return lines_[i].solid_face || heavy ? filled_from_ : kPenFillFactor * filled_from_;
+    return lines_[i].solid_face || heavy(i) ? filled_from_ : kPenFillFactor * filled_from_;
   }
   /// Lines thinner than the pen of the walls must be longer: draughtsmen draw furniture with a finer one.
   [[nodiscard]] double thin_pen(std::size_t i) const {
@@ -126,12 +130,16 @@ class Sorter {
                ? kFinePenFactor
                : 1;
   }
+  /// Drawn with the pen of the walls, where much else is drawn with a finer one.
+  [[nodiscard]] bool heavy(std::size_t i) const { return style_.pens_differ && thin_pen(i) == 1; }
   [[nodiscard]] bool stands_alone(std::size_t i) const {
     const double length = units_[i].length;
     const Evidence& e = units_[i].evidence;
     const double width = std::max(e.width_px, 0.4 * t_) * thin_pen(i);
-    if (e.filled_px >= filled_from(i) * e.width_px && e.filled_px >= kPairedShare * length) return true;
-    if (e.paired_px >= paired_from_ * width && e.paired_px >= kPairedShare * length) return true;
+    const bool own = evidence_[i].paired_px > 0;
+    if (own && e.filled_px >= filled_from(i) * e.width_px && e.filled_px >= kPairedShare * length)
+      return true;
+    if (own && e.paired_px >= paired_from_ * width && e.paired_px >= kPairedShare * length) return true;
     return !filled_style_ && length >= long_from_ * t_ * thin_pen(i);
   }
   [[nodiscard]] bool hangs_on_walls(std::size_t i) const {
@@ -139,20 +147,67 @@ class Sorter {
     const double length = units_[i].length;
     const Evidence& e = units_[i].evidence;
     const double width = std::max(e.width_px, 0.4 * t_) * thin_pen(i);
-    const bool filled = e.filled_px >= kPairedShare * length && length >= 0.4 * filled_from(i) * e.width_px;
-    const bool paired =
-        e.paired_px >= kPairedShare * length &&
-        length >= (style_.pens_differ && thin_pen(i) == 1 ? kHeavyStub : 0.5 * paired_from_) * width;
+    const bool own = evidence_[i].paired_px > 0;
+    const bool filled =
+        own && e.filled_px >= kPairedShare * length && length >= 0.4 * filled_from(i) * e.width_px;
+    const bool paired = own && e.paired_px >= kPairedShare * length &&
+                        length >= (heavy(i) ? kHeavyStub : 0.5 * paired_from_) * width;
     const bool cap = length <= std::max(style_.widest_empty_px, style_.widest_filled_px);
     const bool held = length >= (filled_style_ ? kLongFrom : held_from_) * t_ * thin_pen(i);
+    if (own && filled_style_ && length >= kLonelySolid * t_ && e.paired_px >= kPairedShare * length &&
+        goes_on(i, kDoorway * t_))
+      return true;
     if (!filled && !paired && !cap && !held) return false;
     const double reach = cap ? 0.3 * t_ + 2 : kEndReach * t_;
+    if (cap && !filled && !paired && !held) return ends_wall(i, reach);
     const int ends = (meets_wall(i, s.u1, s.v1, reach) ? 1 : 0) + (meets_wall(i, s.u2, s.v2, reach) ? 1 : 0);
-    const bool heavy = style_.pens_differ && thin_pen(i) == 1;
-    if (filled || paired) return ends >= (filled || heavy || !filled_style_ ? 1 : 2);
+    if (filled || paired) return ends >= (filled || heavy(i) || !filled_style_ ? 1 : 2);
     if (ends == 0 && !held) return false;
     return ends == 2 ||
            ((ends == 1 || carries_wall(i)) && length >= (filled_style_ ? kLongFrom : 1.5 * held_from_) * t_);
+  }
+  /// Beside filled walls, short pieces that no other wall continues are furniture: a wall cut by doors goes
+  /// on behind them, a cupboard does not.
+  void drop_lonely_pieces() {
+    std::vector<bool> lonely(lines_.size(), false);
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (!lines_[i].solid_face && heavy(i)) continue;
+      const double shortest = (lines_[i].solid_face ? kLonelySolid : kLonelyPen) * t_;
+      lonely[i] = wall_[i] && units_[i].length < shortest && !goes_on(i, kHallway * t_);
+    }
+    for (std::size_t i = 0; i < lines_.size(); ++i) wall_[i] = wall_[i] && !lonely[i];
+  }
+  /// A wall on the same straight line begins within this distance of an end.
+  [[nodiscard]] bool goes_on(std::size_t self, double within) const {
+    const FittedLine axis = line_through(lines_[self].segment);
+    const double half = 0.5 * lines_[self].length_px();
+    bool met = false;
+    index_.near(lines_[self].segment, within, [&](std::size_t j) {
+      if (met || j == self || !wall_[j] || lines_[j].length_px() < kGoesOnFrom * t_ ||
+          angle_between(lines_[self].angle_rad(), lines_[j].angle_rad()) > kGoesOnTurn)
+        return;
+      const PixelSegment& s = lines_[j].segment;
+      const double a = axis.along(s.u1, s.v1), b = axis.along(s.u2, s.v2);
+      const double gap = std::max(std::min(a, b), -std::max(a, b)) - half;
+      const double off = std::min(std::abs(axis.across(s.u1, s.v1)), std::abs(axis.across(s.u2, s.v2)));
+      met = gap > -kGoesOnOff * t_ && gap < within && off < kGoesOnOff * t_;
+    });
+    return met;
+  }
+  /// Both ends of this short line are at the ends of wall faces that it does not run along: it closes a wall.
+  [[nodiscard]] bool ends_wall(std::size_t self, double reach) const {
+    const PixelSegment& own = lines_[self].segment;
+    const auto at_end = [&](double u, double v) {
+      bool met = false;
+      index_.near(u, v, reach, [&](std::size_t j) {
+        const PixelSegment& s = lines_[j].segment;
+        met = met || (j != self && wall_[j] &&
+                      angle_between(lines_[self].angle_rad(), lines_[j].angle_rad()) > 0.5 &&
+                      std::min(std::hypot(s.u1 - u, s.v1 - v), std::hypot(s.u2 - u, s.v2 - v)) <= reach);
+      });
+      return met;
+    };
+    return at_end(own.u1, own.v1) && at_end(own.u2, own.v2);
   }
   /// A wall ends on this line, somewhere between its own ends.
   [[nodiscard]] bool carries_wall(std::size_t self) const {

@@ -14,6 +14,7 @@ constexpr double kFilledOnly = 0.8;  // a drawing that fills its walls draws fur
 constexpr double kWidest = 2.5;      // common wall thicknesses
 constexpr double kPensDiffer = 0.12;
 constexpr double kNarrowest = 2.5;
+constexpr double kOwnWall = 0.6;      // of a line's length
 using Lengths = std::vector<double>;  // of strips, by rounded width
 
 Lengths widths_of(const DrawnLines& lines, const std::vector<Strip>& strips, bool filled) {
@@ -96,6 +97,19 @@ double fine_share(const DrawnLines& lines, const WallStyle& style, double pen_px
   return all > 0 ? fine / all : 0;
 }
 
+/// Lines that are mostly faces of a filled wall: what runs along them with nothing between is a cupboard.
+std::vector<bool> faces_of_filled(const DrawnLines& lines, const std::vector<Strip>& strips,
+                                  const WallStyle& style) {
+  std::vector<double> filled_px(lines.size(), 0);
+  for (const Strip& strip : strips)
+    if (strip.ink_share >= kFilledFrom && strip.width_px <= style.widest_filled_px &&
+        strip.width_px >= style.narrowest_px && strip.length_px() >= 2 * strip.width_px)
+      filled_px[strip.line] += strip.length_px();
+  std::vector<bool> faces(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) faces[i] = filled_px[i] >= kOwnWall * lines[i].length_px();
+  return faces;
+}
+
 }  // namespace
 
 WallStyle measure_style(const DrawnLines& lines, const std::vector<Strip>& strips, double pen_px) {
@@ -129,10 +143,12 @@ WallStyle measure_style(const DrawnLines& lines, const std::vector<Strip>& strip
 std::vector<Evidence> weigh_lines(const DrawnLines& lines, const std::vector<Strip>& strips,
                                   const WallStyle& style) {
   std::vector<Evidence> evidence(lines.size());
+  const auto own_wall = faces_of_filled(lines, strips, style);
   for (const Strip& strip : strips) {
     const bool filled = strip.ink_share >= kFilledFrom;
     if (strip.width_px > (filled ? style.widest_filled_px : style.widest_empty_px)) continue;
     if (strip.width_px < style.narrowest_px || strip.length_px() < 2 * strip.width_px) continue;
+    if (!filled && own_wall[strip.partner] && !own_wall[strip.line]) continue;
     Evidence& e = evidence[strip.line];
     e.width_px =
         (e.width_px * e.paired_px + strip.width_px * strip.length_px()) / (e.paired_px + strip.length_px());
