@@ -51,8 +51,9 @@ double noise_of(const GrayImage& image) {
 /// How many edges each threshold crosses, on a paper of 255.
 Levels crossings(const GrayImage& image, const Paper& paper, double least_contrast) {
   Levels steps{};
+  const int least = static_cast<int>(std::ceil(least_contrast));
   for_pairs(image, kRowStep, [&](int a, int b, int u, int v) {
-    if (std::abs(a - b) < least_contrast) return;
+    if (std::abs(a - b) < least) return;
     const double gain = 255.0 / paper.at(u, v);
     const auto level = [gain](int value) {
       return static_cast<std::size_t>(std::clamp(std::lround(value * gain), 0L, 255L));

@@ -2,29 +2,78 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <opencv2/imgproc.hpp>
 
-#include "mapping/drawing/raster/cv_view.hpp"
 #include "mapping/drawing/raster/line_fit.hpp"
 
 namespace madori::mapping {
 namespace {
 
-constexpr int kCoarse = 1200;         // pixels of the coarse picture's longer side
-constexpr double kEnclosed = 0.35;    // of the ink's box: less is no closed building
-constexpr double kTwoSided = 1.3;     // of a line's length is paired: it has walls on both sides
-constexpr double kBehind = 0.8;       // of the length of cladding: a line along so much of it is the wall
-constexpr double kSampleShare = 0.8;  // of a line's samples that see the outside
+constexpr int kCoarse = 1200;          // pixels of the coarse picture's longer side
+constexpr double kInked = 20.5 / 255;  // of a coarse cell: more is ink
+constexpr double kEnclosed = 0.35;     // of the ink's box: less is no closed building
+constexpr double kTwoSided = 1.3;      // of a line's length is paired: it has walls on both sides
+constexpr double kBehind = 0.8;        // of the length of cladding: a line along so much of it is the wall
+constexpr double kSampleShare = 0.8;   // of a line's samples that see the outside
+
+/// The coarse cell that a pixel begins in, and how much of the pixel lies in the next one.
+struct Share {
+  int cell = 0;
+  float beyond = 0;
+};
+
+std::vector<Share> shares(int pixels, int cells) {
+  std::vector<Share> found(static_cast<std::size_t>(pixels));
+  const double cell_px = static_cast<double>(pixels) / cells;
+  for (int i = 0; i < pixels; ++i) {
+    const int cell = std::min(static_cast<int>(i / cell_px), cells - 1);
+    const double beyond = cell + 1 < cells ? std::clamp(i + 1 - (cell + 1) * cell_px, 0.0, 1.0) : 0;
+    found[static_cast<std::size_t>(i)] = {cell, static_cast<float>(beyond)};
+  }
+  return found;
+}
+
+/// How many pixels of ink each coarse cell holds: an area average whose work follows the ink.
+cv::Mat ink_in_cells(const GrayImage& ink, const cv::Size& size) {
+  cv::Mat sums(size, CV_32FC1, cv::Scalar(0));
+  const auto across = shares(ink.width_px, size.width), down = shares(ink.height_px, size.height);
+  for (int v = 0; v < ink.height_px; ++v) {
+    const Share& row = down[static_cast<std::size_t>(v)];
+    auto* here = sums.ptr<float>(row.cell);
+    auto* below = sums.ptr<float>(std::min(row.cell + 1, size.height - 1));
+    const std::uint8_t* pixels =
+        &ink.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(ink.width_px)];
+    for (int u = 0; u < ink.width_px;) {
+      std::uint64_t eight = 0;
+      if (u + 8 <= ink.width_px && (std::memcpy(&eight, pixels + u, 8), eight == 0)) {
+        u += 8;
+        continue;
+      }
+      if (pixels[u] != 0) {
+        const Share& column = across[static_cast<std::size_t>(u)];
+        const int next = std::min(column.cell + 1, size.width - 1);
+        here[column.cell] += (1 - row.beyond) * (1 - column.beyond);
+        here[next] += (1 - row.beyond) * column.beyond;
+        below[column.cell] += row.beyond * (1 - column.beyond);
+        below[next] += row.beyond * column.beyond;
+      }
+      ++u;
+    }
+  }
+  return sums;
+}
 
 /// 0 = ink, 255 = reached from the border of the picture, 128 = paper inside.
 cv::Mat flooded(const GrayImage& ink, double shrink) {
-  cv::Mat coarse;
   const cv::Size size(std::max(1, static_cast<int>(std::lround(ink.width_px / shrink))),
                       std::max(1, static_cast<int>(std::lround(ink.height_px / shrink))));
-  cv::resize(cv_view(ink), coarse, size, 0, 0, cv::INTER_AREA);
-  cv::Mat paper;
-  cv::copyMakeBorder(coarse, paper, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::threshold(paper, paper, 20, 128, cv::THRESH_BINARY_INV);
+  const double cell_px2 = static_cast<double>(ink.width_px) * ink.height_px / size.area();
+  cv::Mat coarse, paper;
+  cv::threshold(ink_in_cells(ink, size), coarse, kInked * cell_px2, 128, cv::THRESH_BINARY_INV);
+  coarse.convertTo(coarse, CV_8U);
+  cv::copyMakeBorder(coarse, paper, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(128));
   cv::floodFill(paper, {0, 0}, cv::Scalar(255));
   return paper;
 }
