@@ -16,6 +16,7 @@ constexpr double kInked = 20.5 / 255;  // of a coarse cell: more is ink
 constexpr double kEnclosed = 0.35;     // of the ink's box: less is no closed building
 constexpr double kTwoSided = 1.3;      // of a line's length is paired: it has walls on both sides
 constexpr double kBehind = 0.8;        // of the length of cladding: a line along so much of it is the wall
+constexpr double kSameStroke = 0.75;   // pixels
 constexpr double kSampleShare = 0.8;   // of a line's samples that see the outside
 
 /// The coarse cell that a pixel begins in, and how much of the pixel lies in the next one.
@@ -112,6 +113,27 @@ bool looks_out(std::size_t self, const DrawnLines& lines) {
   return std::min(left, right) == 0 && std::max(left, right) == kSamples;
 }
 
+/// The same stroke on the same straight line as a longer one that is `outside`, with no more than a pillar or
+/// a joint between.
+bool continues_facade(std::size_t self, const DrawnLines& lines, const std::vector<bool>& outside,
+                      double gap_px) {
+  const DrawnLine& own = lines[self];
+  if (own.solid_face) return false;
+  const FittedLine axis = line_through(own.segment);
+  for (std::size_t j = 0; j < lines.size(); ++j) {
+    const DrawnLine& other = lines[j];
+    if (!outside[j] || other.solid_face || other.length_px() < own.length_px()) continue;
+    if (std::abs(other.stroke_px - own.stroke_px) > kSameStroke) continue;
+    const PixelSegment& s = other.segment;
+    const double a = axis.along(s.u1, s.v1), b = axis.along(s.u2, s.v2);
+    const double gap = std::max(std::min(a, b), -std::max(a, b)) - 0.5 * own.length_px();
+    if (std::abs(gap) <= gap_px && std::abs(axis.across(s.u1, s.v1)) <= own.stroke_px &&
+        std::abs(axis.across(s.u2, s.v2)) <= own.stroke_px)
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<bool> faces_outside(const DrawnLines& lines, const std::vector<bool>& asked,
@@ -177,7 +199,9 @@ std::vector<bool> cladding(const DrawnLines& lines, const std::vector<bool>& out
   std::vector<bool> clad(lines.size(), false);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const double enough = kBehind * lines[i].length_px();
-    clad[i] = lost[i] > enough && hidden[i] > enough && looks_out(i, lines);
+    const bool facade =
+        (lost[i] > enough && hidden[i] > enough) || continues_facade(i, lines, outside, widest);
+    clad[i] = facade && !lines[i].rejected && looks_out(i, lines);
   }
   return clad;
 }

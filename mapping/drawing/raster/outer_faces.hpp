@@ -22,7 +22,7 @@ namespace madori::mapping {
                                             const WallStyle& style);
 
 /// The inner faces of cladding: a wall that has lost its other face to `outside` and has behind it, about as
-/// long, the line that a vehicle inside sees instead.
+/// long, the line that a vehicle inside sees instead; and pen lines that continue one of `outside`.
 [[nodiscard]] std::vector<bool> cladding(const DrawnLines& lines, const std::vector<bool>& outside,
                                          const std::vector<Strip>& strips, const WallStyle& style);
 

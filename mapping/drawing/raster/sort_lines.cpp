@@ -30,8 +30,8 @@ constexpr double kHeavyStub = 3;
 constexpr double kFinePenFactor = 2.5;
 constexpr double kEndReach = 1.5;
 constexpr double kLonelySolid = 5, kLonelyPen = 20;  // shorter ones need a wall that they continue
-constexpr double kDoorway = 20, kHallway = 40;       // gaps that a wall may have
-constexpr double kGoesOnFrom = 5, kGoesOnOff = 0.4;
+constexpr double kDoorway = 20;                      // a gap that a wall may have
+constexpr double kGoesOnFrom = 5, kGoesOnOff = 0.5;
 constexpr double kGoesOnTurn = 0.05;                          // radians
 constexpr double kCleanBelow = 0.15, kClutteredAbove = 0.35;  // share of lines that nothing explains
 
@@ -155,7 +155,7 @@ class Sorter {
     const bool cap = length <= std::max(style_.widest_empty_px, style_.widest_filled_px);
     const bool held = length >= (filled_style_ ? kLongFrom : held_from_) * t_ * thin_pen(i);
     if (own && filled_style_ && length >= kLonelySolid * t_ && e.paired_px >= kPairedShare * length &&
-        goes_on(i, kDoorway * t_))
+        goes_on(i))
       return true;
     if (!filled && !paired && !cap && !held) return false;
     const double reach = cap ? 0.3 * t_ + 2 : kEndReach * t_;
@@ -173,12 +173,13 @@ class Sorter {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (!lines_[i].solid_face && heavy(i)) continue;
       const double shortest = (lines_[i].solid_face ? kLonelySolid : kLonelyPen) * t_;
-      lonely[i] = wall_[i] && units_[i].length < shortest && !goes_on(i, kHallway * t_);
+      lonely[i] = wall_[i] && units_[i].length < shortest && !goes_on(i);
     }
     for (std::size_t i = 0; i < lines_.size(); ++i) wall_[i] = wall_[i] && !lonely[i];
   }
-  /// A wall on the same straight line begins within this distance of an end.
-  [[nodiscard]] bool goes_on(std::size_t self, double within) const {
+  /// A wall on the same straight line begins no further than a doorway from an end.
+  [[nodiscard]] bool goes_on(std::size_t self) const {
+    const double within = kDoorway * t_;
     const FittedLine axis = line_through(lines_[self].segment);
     const double half = 0.5 * lines_[self].length_px();
     bool met = false;

@@ -14,7 +14,7 @@ constexpr double kFilledOnly = 0.8;  // a drawing that fills its walls draws fur
 constexpr double kWidest = 2.5;      // common wall thicknesses
 constexpr double kPensDiffer = 0.12;
 constexpr double kNarrowest = 2.5;
-constexpr double kOwnWall = 0.6;      // of a line's length
+constexpr double kOwnWall = 0.5;      // of a line's length
 using Lengths = std::vector<double>;  // of strips, by rounded width
 
 Lengths widths_of(const DrawnLines& lines, const std::vector<Strip>& strips, bool filled) {
