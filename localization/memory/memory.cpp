@@ -76,7 +76,6 @@ int Memory::add(Keyframe keyframe, const Transform2<Map, Base>& map_from_base,
   }
   keyframes_.push_back(std::move(keyframe));
   poses_.push_back(map_from_base);
-  fuse_if_full();
   return static_cast<int>(keyframes_.size()) - 1;
 }
 
@@ -168,7 +167,5 @@ void Memory::move(const Transform2<Map, Map>& by, std::size_t first) {
     poses_[i] = by * poses_[i];
   }
 }
-
-void Memory::fuse_if_full() {}
 
 }  // namespace madori::localization

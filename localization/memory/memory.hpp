@@ -14,7 +14,6 @@ namespace madori::localization {
 
 /// Sizes of the memory. Lengths are metres of driving unless said otherwise.
 struct MemoryOptions {
-  int max_keyframes = 1200;     ///< beyond it, old keyframes are fused into their neighbours
   double window_path_m = 12.0;  ///< keyframes this recent are matched against in any case
   int window_keyframes = 30;    ///< at most
   double map_radius_m = 18.0;   ///< of the surfaces around the vehicle that are matched against
@@ -35,7 +34,8 @@ struct Keyframe {
 };
 
 /// What the vehicle has seen itself: keyframes in a pose graph. Poses are Map frame, and are only as right as
-/// the first one and the unary factors of the drawing make them. Causal, deterministic, bounded.
+/// the first one and the unary factors of the drawing make them. Causal, deterministic; it grows with the way
+/// driven.
 class Memory {
  public:
   explicit Memory(const MemoryOptions& options = {});
@@ -75,7 +75,6 @@ class Memory {
   };
   [[nodiscard]] std::vector<LoopCandidate> loop_candidates() const;
   [[nodiscard]] bool close_loop(const LoopCandidate& candidate);
-  void fuse_if_full();
 
   MemoryOptions options_;
   std::vector<Keyframe> keyframes_;
