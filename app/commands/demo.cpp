@@ -87,6 +87,8 @@ void print_deliveries(const DemoResult& result) {
                 d.time_s, d.way_m, d.waited_s, d.goal_error_m, d.delivered ? "" : "  NOT DELIVERED");
   std::printf("\ntrue distance from the route: mean %.3f m, most %.3f m; collisions: %zu; %.0f s in all\n",
               result.route_mean_m, result.route_max_m, result.collisions, result.wall_s);
+  if (result.confirmed > 0)
+    std::printf("a person had to confirm %d fault(s); see events in madori.db\n", result.confirmed);
 }
 
 nlohmann::json deliveries_json(const DemoResult& result) {
@@ -104,6 +106,7 @@ nlohmann::json deliveries_json(const DemoResult& result) {
           {"route_mean_m", result.route_mean_m},
           {"route_max_m", result.route_max_m},
           {"collisions", result.collisions},
+          {"confirmed", result.confirmed},
           {"wall_s", result.wall_s}};
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "app/cycle/site_config.hpp"
 #include "app/pose/drawing_pose.hpp"
@@ -22,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr std::uintmax_t kMostRecording_bytes = 400'000'000;
 constexpr double kMovingMps = 0.01;
 
 double seconds_since(Clock::time_point begin) {
@@ -96,6 +98,31 @@ class Observer {
   std::vector<double> off_route_m_;
 };
 
+/// Plays the operator who looks around and confirms: a busy machine may silence the virtual drive for longer
+/// than the cycle allows. Every word is counted.
+class Operator {
+ public:
+  Operator(TransportRun& run, DemoResult& result) : run_(run), result_(result) {}
+
+  void look() {
+    const bool stopped = run_.view().mode == Mode::Fault;
+    if (!stopped) since_.reset();
+    if (!stopped || (since_ && seconds_since(*since_) < kLooksAround_s)) return;
+    if (since_) {
+      run_.say({OperatorWord::Confirm, {}});
+      run_.say({OperatorWord::Resume, {}});
+      ++result_.confirmed;
+    }
+    since_ = Clock::now();
+  }
+
+ private:
+  static constexpr double kLooksAround_s = 3.0;
+  TransportRun& run_;
+  DemoResult& result_;
+  std::optional<Clock::time_point> since_;
+};
+
 }  // namespace
 
 bool DemoResult::all_delivered() const {
@@ -119,7 +146,8 @@ DemoResult run_demo(const DemoOptions& options) {
   DemoResult result;
   Observer observer(result, run.config(), factory);
   fs::remove_all(options.site / "runs/demo");
-  Recorder recorder(options.site / "runs/demo");
+  Recorder recorder(options.site / "runs/demo", {.max_bytes = kMostRecording_bytes});
+  Operator person(run, result);
   run.set_tap([&](const auto& in, const auto& out, const auto& state) {
     recorder.add(in, out, state);
     observer.look(out, state);
@@ -132,6 +160,7 @@ DemoResult run_demo(const DemoOptions& options) {
     const auto id = run.orders().add({{node, StopAction::Unload, 1.0}}, 1, std::chrono::system_clock::now());
     bool delivered = false;
     run_in_real_time(run, never, [&] {
+      person.look();
       const auto order = run.view().order;
       delivered = order && order->id == id && order->state == OrderState::Done;
       return delivered || seconds_since(begun) > options.limit_s;

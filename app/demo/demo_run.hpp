@@ -34,6 +34,7 @@ struct DemoResult {
   double route_mean_m = 0.0;        ///< true distance from the planned path
   double route_max_m = 0.0;
   std::size_t collisions = 0;  ///< while the vehicle moved
+  int confirmed = 0;           ///< faults that a person had to look after
   double wall_s = 0.0;
   std::vector<Point2<Map>> driven;  ///< the true way
   std::vector<Point2<Map>> believed;
@@ -42,7 +43,7 @@ struct DemoResult {
 };
 
 /// Puts the vehicle of a site into the virtual factory, its devices on real sockets, and has it deliver. The
-/// vehicle is not told where it stands; the demo plays the operator's one word Resume.
+/// vehicle is not told where it stands; the demo plays the operator, who says Resume and confirms faults.
 [[nodiscard]] DemoResult run_demo(const DemoOptions& options);
 
 /// The drawing's walls, the routes, the true way, and the stations, as a PNG.

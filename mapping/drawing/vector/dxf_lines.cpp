@@ -11,7 +11,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <regex>
 #include <string_view>
 
 #include "core/result.hpp"
@@ -46,10 +45,17 @@ std::string field(const OGRFeature& feature, const char* name) {
                                                                : feature.GetFieldAsString(index);
 }
 
-/// 12'-6", 9' and 36" are imperial figures.
+/// 12'-6", 9' and 36" are imperial figures; the 80's are none.
 bool is_imperial(const std::string& text) {
-  static const std::regex pattern(R"(\d+\s*'(\s*-?\s*\d|\s*$)|\d+\s*")");
-  return std::regex_search(text, pattern);
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (text[i] != '\'' && text[i] != '"') continue;
+    const std::size_t before = text.find_last_not_of(' ', i - 1);
+    const std::size_t after = text.find_first_not_of(" -", i + 1);
+    const auto is_digit = [&](std::size_t at) { return text[at] >= '0' && text[at] <= '9'; };
+    if (before == std::string::npos || !is_digit(before)) continue;
+    if (text[i] == '"' || after == std::string::npos || is_digit(after)) return true;
+  }
+  return false;
 }
 
 /// One entity's share of all lines.
