@@ -47,8 +47,12 @@ std::vector<CsvRow> csv_rows(std::string_view text) {
 }
 
 std::optional<double> csv_number(std::string_view text) {
-  std::string plain(text);
-  if (plain.starts_with(kTypographicMinus)) plain.replace(0, kTypographicMinus.size(), "-");
+  std::string plain;
+  if (text.starts_with(kTypographicMinus)) {
+    plain.push_back('-');
+    text.remove_prefix(kTypographicMinus.size());
+  }
+  plain.append(text);
   const char* begin = plain.c_str() + (plain.starts_with('+') ? 1 : 0);
   double value = 0.0;
   const auto [end, error] = std::from_chars(begin, plain.c_str() + plain.size(), value);
