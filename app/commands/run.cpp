@@ -31,7 +31,8 @@ void add_run(CLI::App& app) {
   command->add_flag("!--no-record", options->record, "do not record the run below DIR/runs");
   command->callback([options] {
     std::puts("Madori is not a safety device: keep a certified scanner and an emergency stop on the drive.");
-    if (!options->resume) std::puts("The vehicle is paused and stays so; press Resume on the panel, or start with --resume.");
+    if (!options->resume)
+      std::puts("The vehicle is paused and stays so; press Resume on the panel, or start with --resume.");
     run_on_devices(*options);
   });
 }

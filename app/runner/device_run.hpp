@@ -13,9 +13,9 @@ struct DeviceRunOptions {
   SocketOptions devices;
   bool resume = false;  ///< the operator has looked around: drive at once
   bool record = true;
-  std::string hmi = "off";            ///< HOST:PORT of the touch panel
+  std::string hmi = "off";             ///< HOST:PORT of the touch panel
   std::filesystem::path panel_folder;  ///< where the built page lies
-  double duration_s = 0.0;  ///< 0: until interrupted
+  double duration_s = 0.0;             ///< 0: until interrupted
 };
 
 /// Drives the vehicle of a site on its real devices until SIGINT, SIGTERM, or the duration is over. Returns

@@ -12,6 +12,7 @@
 #include "core/result.hpp"
 #include "hmi/server/route_wire.hpp"
 #include "mapping/drawing/drawing_picture.hpp"
+#include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/wall_map/wall_files.hpp"
@@ -25,17 +26,12 @@ using nlohmann::json;
 
 constexpr int kScreenPx = 3000;
 
-std::string read(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// A short name of what some files hold.
 std::string hash_of(std::initializer_list<fs::path> files) {
   crypto_generichash_state state;
   crypto_generichash_init(&state, nullptr, 0, 16);
   for (const auto& file : files) {
-    const std::string content = read(file) + '\0';
+    const std::string content = mapping::file_content(file) + '\0';
     crypto_generichash_update(&state, reinterpret_cast<const unsigned char*>(content.data()), content.size());
   }
   std::array<unsigned char, 16> hash{};
@@ -217,7 +213,7 @@ std::string SiteEditor::routes_file(const std::string& name) const {
   const std::scoped_lock lock(mutex_);
   if (!fs::exists(folder_ / "routes" / name))
     throw Error(name, "is not there yet", "draw a route and save it");
-  return read(folder_ / "routes" / name);
+  return mapping::file_content(folder_ / "routes" / name);
 }
 
 }  // namespace madori::hmi

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "core/result.hpp"
+#include "mapping/site/atomic_file.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -19,11 +20,6 @@ const std::map<std::string, std::string> kContentTypes{{".html", "text/html; cha
                                                        {".woff2", "font/woff2"},
                                                        {".json", "application/json"}};
 
-std::string read(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 }  // namespace
 
 StaticFiles::StaticFiles(const fs::path& root) {
@@ -31,9 +27,9 @@ StaticFiles::StaticFiles(const fs::path& root) {
   for (const auto& entry : fs::recursive_directory_iterator(root, missing)) {
     const auto type = kContentTypes.find(entry.path().extension().string());
     if (!entry.is_regular_file() || type == kContentTypes.end()) continue;
-    File file{type->second, read(entry.path()), {}, false};
+    File file{type->second, mapping::file_content(entry.path()), {}, false};
     const fs::path zipped = entry.path().string() + ".gz";
-    if (fs::exists(zipped)) file.gzip = read(zipped);
+    if (fs::exists(zipped)) file.gzip = mapping::file_content(zipped);
     const std::string name = "/" + fs::relative(entry.path(), root).generic_string();
     file.immutable = name.starts_with("/assets/");  // their names hold a hash of their content
     files_[name] = std::move(file);

@@ -24,11 +24,6 @@ using nlohmann::json;
 
 constexpr double kMostTiles = 2500.0;
 
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 void remove_leftovers(const fs::path& folder) {
   std::vector<fs::path> leftovers;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -86,7 +81,7 @@ TileStore::~TileStore() {
 void TileStore::describe() const {
   const fs::path file = folder_ / "source.json";
   if (fs::exists(file)) {
-    const json known = json::parse(content_of(file), nullptr, false);
+    const json known = json::parse(file_content(file), nullptr, false);
     if (!known.is_object() || known.value("name", "") != source_.name)
       throw Error(folder_.string(), "holds tiles of another source",
                   "use that source, or move the folder away first");
@@ -103,7 +98,7 @@ fs::path TileStore::file_of(const TileId& tile) const {
 }
 
 bool TileStore::holds(const TileId& tile) const {
-  return fs::exists(file_of(tile)) && tile_image_fault(content_of(file_of(tile))).empty();
+  return fs::exists(file_of(tile)) && tile_image_fault(file_content(file_of(tile))).empty();
 }
 
 void TileStore::save(const TileId& tile, const std::string& bytes) const {

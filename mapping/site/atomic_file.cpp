@@ -5,6 +5,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "core/result.hpp"
@@ -69,6 +71,11 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
     ::fsync(folder);
     ::close(folder);
   }
+}
+
+std::string file_content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace madori::mapping

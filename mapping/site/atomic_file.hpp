@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace madori::mapping {
@@ -11,5 +12,8 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
 
 /// Writes a file that nobody reads yet; neither atomic nor synced. Throws Error as above, with nothing left.
 void write_new_file(const std::filesystem::path& file, std::string_view content);
+
+/// All bytes of a file; empty where it cannot be opened.
+[[nodiscard]] std::string file_content(const std::filesystem::path& file);
 
 }  // namespace madori::mapping

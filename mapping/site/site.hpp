@@ -24,7 +24,7 @@ struct ScaleRecord {
   double residual_m = 0.0;            ///< RMS of the fit
   std::string date;                   ///< ISO 8601, UTC
   std::vector<std::string> inputs;    ///< as they were given
-  std::vector<double> residuals_m{};   ///< one an input; empty where nothing was fitted
+  std::vector<double> residuals_m{};  ///< one an input; empty where nothing was fitted
 };
 
 /// The place of the Map origin on Earth (WGS84) and the bearing of its x axis.
