@@ -10,7 +10,7 @@ describe("geometry", () => {
   });
 
   it("draws the vehicle with its nose forward", () => {
-    const outline = footprint({ x: 10, y: 5, yaw: Math.PI / 2 }, { length_m: 1, width_m: 0.6, base_to_rear_m: 0.2, max_speed_mps: 1 });
+    const outline = footprint({ x: 10, y: 5, yaw: Math.PI / 2 }, { length_m: 1, width_m: 0.6, base_to_rear_m: 0.2 });
     const nose = outline[2] ?? [0, 0];
     expect(nose[0]).toBeCloseTo(10);
     expect(nose[1]).toBeCloseTo(5.8);

@@ -6,7 +6,7 @@ export type Extent = [number, number, number, number];
 export const extentOf = (width: number, height: number): Extent => [0, 0, width, height];
 
 /** The outline of the vehicle with a pointed front; pose in metres and radians. */
-export function footprint(pose: { x: number; y: number; yaw: number }, vehicle: VehicleInfo): XY[] {
+export function footprint(pose: { x: number; y: number; yaw: number }, vehicle: Pick<VehicleInfo, "length_m" | "width_m" | "base_to_rear_m">): XY[] {
   const rear = -vehicle.base_to_rear_m;
   const front = rear + vehicle.length_m;
   const half = vehicle.width_m / 2;
