@@ -68,7 +68,7 @@ std::unique_ptr<Panel> open_panel(TransportRun& run, const std::filesystem::path
                                   const std::string& host_port, const std::filesystem::path& web) {
   if (host_port == "off") return nullptr;
   if (!std::filesystem::exists(web / "index.html")) {
-    std::fprintf(stderr, "no panel: %s holds no built page (cd hmi/web && npm ci && npm run build)\n",
+    std::fprintf(stderr, "no panel: %s holds no built page; build it: cmake --build build/release --target panel\n",
                  web.c_str());
     return nullptr;
   }
