@@ -51,11 +51,33 @@ struct CycleConfig {
   double jog_timeout_s = 0.3;       ///< a held key that is silent for longer stops the vehicle
 };
 
-enum class OperatorWord { Pause, Resume, Confirm, ManualOn, ManualOff, Jog, GoOn, ForgetObstacles };
+/// Recordings hold the numbers of these words: new ones go to the end.
+enum class OperatorWord {
+  Pause,
+  Resume,
+  Confirm,
+  ManualOn,
+  ManualOff,
+  Jog,
+  GoOn,
+  ForgetObstacles,
+  SetPose,
+  SearchPose
+};
+
+/// Where a person says that the vehicle stands.
+struct GivenPose {
+  Point2<Map> position;
+  double yaw_rad = 0.0;
+  PoseSigma sigma;
+
+  friend bool operator==(const GivenPose&, const GivenPose&) = default;
+};
 
 struct OperatorCommand {
   OperatorWord word = OperatorWord::Pause;
-  VelocityCommand jog;  ///< of Jog
+  VelocityCommand jog = {};   ///< of Jog
+  GivenPose given_pose = {};  ///< of SetPose
 };
 
 /// Everything that reaches the cycle from outside since the step before. A recording holds these.

@@ -52,6 +52,14 @@ PointCloud<Base> in_base(const PointCloud<Lidar>& cloud, const std::deque<Odomet
   return result;
 }
 
+/// What is no pose is refused here: it reaches the cycle from a panel.
+void take_given_pose(CycleState& state, const GivenPose& given) {
+  const Transform2<Map, Base> pose(given.position.x_m, given.position.y_m, given.yaw_rad);
+  const auto& [position_m, yaw_rad] = given.sigma;
+  if (!pose.is_finite() || !(position_m > 0.0 && position_m < 1e3 && yaw_rad > 0.0 && yaw_rad < 10.0)) return;
+  state.localization->set_pose(pose, given.sigma);
+}
+
 }  // namespace
 
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
@@ -64,6 +72,10 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     state.track.push_back(reading);
     while (to_seconds(reading.stamp - state.track.front().stamp) > kTrackS) state.track.pop_front();
     state.pose = state.localization->on_odometry(reading);
+  }
+  for (const auto& command : input.commands) {
+    if (command.word == OperatorWord::SetPose) take_given_pose(state, command.given_pose);
+    if (command.word == OperatorWord::SearchPose) state.localization->search_anew();
   }
   for (const auto& cloud : input.clouds) {
     const PointCloud<Base> base = in_base(cloud, state.track, config);

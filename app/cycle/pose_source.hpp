@@ -1,8 +1,11 @@
 #pragma once
 
+#include <vector>
+
 #include "core/odometry.hpp"
 #include "core/point_cloud.hpp"
 #include "core/pose_estimate.hpp"
+#include "core/pose_hypothesis.hpp"
 
 namespace madori::app {
 
@@ -19,6 +22,14 @@ class PoseSource {
   /// One revolution, Base frame at its stamp, already compensated for the motion during it; `odom_from_base`
   /// is where the wheels were at that stamp. What was learned shows in the next on_odometry().
   virtual void on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base) = 0;
+  /// A person says that the vehicle stands about there at the newest reading of the wheels. It is believed
+  /// when the next revolutions fit a pose within a few sigma; otherwise the place is sought everywhere.
+  virtual void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) = 0;
+  /// Forgets the pose: the place is sought anew on the whole drawing.
+  virtual void search_anew() = 0;
+  /// Where the vehicle may be at the newest reading of the wheels, likeliest first; empty before a
+  /// revolution.
+  [[nodiscard]] virtual std::vector<PoseHypothesis> hypotheses() const = 0;
 };
 
 }  // namespace madori::app

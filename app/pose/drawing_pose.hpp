@@ -36,8 +36,13 @@ class DrawingPose final : public PoseSource {
 
   PoseEstimate on_odometry(const OdometryReading& reading) override;
   void on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base) override;
+  void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) override;
+  void search_anew() override;
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override;
 
  private:
+  void check_given(const localization::ScanPoints& points, const Transform2<Base, Base>& moved);
+  void start_at(const localization::RegistrationResult& fit);
   void search(const localization::ScanPoints& points, const Transform2<Base, Base>& moved);
   void track(const localization::ScanPoints& points, const Transform2<Base, Base>& moved);
   void correct(const localization::RegistrationResult& fit, const Transform2<Map, Base>& predicted);
@@ -46,10 +51,13 @@ class DrawingPose final : public PoseSource {
   DrawingPoseOptions options_;
   localization::GlobalLocalizer global_;
   std::optional<localization::GlobalAnswer> answer_;  ///< of the search under way
+  std::optional<PoseSigma> given_;                    ///< anchor_ is what a person said, not yet checked
   int agreeing_ = 0;
   bool tracking_ = false;
   int misses_ = 0;
+  double explained_ = 0.0;  ///< share of the last revolution's points on walls
   LocalizationHealth health_{LocalizationState::Lost, "no scan yet"};
+  Transform2<Odom, Base> odom_;  ///< newest
   Transform2<Odom, Base> anchor_odom_;
   Transform2<Map, Base> anchor_;  ///< the pose at the last revolution
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();

@@ -32,6 +32,24 @@ control::wire::Status status_from(const json& value) {
   return status;
 }
 
+json word_json(const OperatorCommand& command) {
+  json word = {static_cast<int>(command.word), bits(command.jog.linear_mps), bits(command.jog.angular_radps)};
+  if (command.word != OperatorWord::SetPose) return word;
+  const GivenPose& p = command.given_pose;
+  for (const double v : {p.position.x_m, p.position.y_m, p.yaw_rad, p.sigma.position_m, p.sigma.yaw_rad})
+    word.push_back(bits(v));
+  return word;
+}
+OperatorCommand word_from(const json& word) {
+  OperatorCommand command{
+      static_cast<OperatorWord>(word.at(0).get<int>()), {from_bits(word.at(1)), from_bits(word.at(2))}, {}};
+  if (command.word == OperatorWord::SetPose)
+    command.given_pose = {{from_bits(word.at(3)), from_bits(word.at(4))},
+                          from_bits(word.at(5)),
+                          {from_bits(word.at(6)), from_bits(word.at(7))}};
+  return command;
+}
+
 json order_json(const Order& order) {
   json stops = json::array();
   for (const OrderStop& stop : order.stops)
@@ -87,9 +105,7 @@ std::string input_text(const CycleInput& input) {
   json value{{"now", input.now.time_since_epoch().count()}, {"clouds", input.clouds.size()}};
   for (const auto& status : input.drive) value["drive"].push_back(status_json(status));
   if (input.protective_stop) value["protective_stop"] = true;
-  for (const auto& command : input.commands)
-    value["words"].push_back(
-        {static_cast<int>(command.word), bits(command.jog.linear_mps), bits(command.jog.angular_radps)});
+  for (const auto& command : input.commands) value["words"].push_back(word_json(command));
   if (input.order) value["order"] = order_json(*input.order);
   if (input.detour) value["detour"] = detour_json(*input.detour);
   return value.dump();
@@ -102,9 +118,7 @@ CycleInput input_from_text(const std::string& text) {
     input.now = Stamp(Duration(value.at("now").get<std::int64_t>()));
     for (const json& status : value.value("drive", json::array())) input.drive.push_back(status_from(status));
     input.protective_stop = value.value("protective_stop", false);
-    for (const json& word : value.value("words", json::array()))
-      input.commands.push_back(
-          {static_cast<OperatorWord>(word.at(0).get<int>()), {from_bits(word.at(1)), from_bits(word.at(2))}});
+    for (const json& word : value.value("words", json::array())) input.commands.push_back(word_from(word));
     if (value.contains("order")) input.order = order_from(value.at("order"));
     if (value.contains("detour")) input.detour = detour_from(value.at("detour"));
     return input;

@@ -22,6 +22,10 @@ class TruePose : public app::PoseSource {
   explicit TruePose(const RollingVehicle& vehicle) : vehicle_(vehicle) {}
   PoseEstimate on_odometry(const OdometryReading& reading) override { return now(reading.stamp); }
   void on_cloud(const PointCloud<Base>& /*cloud*/, const Transform2<Odom, Base>& /*odom*/) override {}
+  void set_pose(const Transform2<Map, Base>& pose, const PoseSigma& /*sigma*/) override { given = pose; }
+  void search_anew() override {}
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return {}; }
+  std::optional<Transform2<Map, Base>> given;
   LocalizationState state = LocalizationState::Localized;
 
  private:

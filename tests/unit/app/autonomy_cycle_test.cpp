@@ -172,6 +172,19 @@ TEST(AutonomyCycle, ManualModeFollowsTheHeldKeyAndStopsWithoutIt) {
   EXPECT_EQ(v->state().mode, Mode::Paused);
 }
 
+TEST(AutonomyCycle, APlaceThatAPersonGivesReachesLocalization) {
+  auto v = vehicle();
+  v->commands.push_back({OperatorWord::SetPose, {}, {{std::nan(""), 0.0}, 0.0, {}}});
+  v->commands.push_back({OperatorWord::SetPose, {}, {{1.0, 0.0}, 0.0, {0.0, 0.1}}});
+  v->step();
+  EXPECT_FALSE(v->pose->given) << "neither is a pose with an uncertainty";
+  v->commands.push_back({OperatorWord::SetPose, {}, {{1.5, -2.0}, 0.5, {}}});
+  v->step();
+  ASSERT_TRUE(v->pose->given);
+  EXPECT_EQ(v->pose->given->translation(), (Point2<Map>{1.5, -2.0}));
+  EXPECT_EQ(v->pose->given->yaw_rad(), 0.5);
+}
+
 TEST(AutonomyCycle, RecordedInputsGiveTheSameCommandsBitForBit) {
   auto v = vehicle();
   v->record = true;
@@ -186,6 +199,9 @@ TEST(AutonomyCycle, RecordedInputsGiveTheSameCommandsBitForBit) {
    public:
     PoseEstimate on_odometry(const OdometryReading& reading) override { return at(reading.stamp); }
     void on_cloud(const PointCloud<Base>& /*cloud*/, const Transform2<Odom, Base>& /*odom*/) override {}
+    void set_pose(const Transform2<Map, Base>& /*pose*/, const PoseSigma& /*sigma*/) override {}
+    void search_anew() override {}
+    [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return {}; }
     Transform2<Map, Base> pose;
 
    private:

@@ -26,6 +26,9 @@ class WheelPose final : public PoseSource {
             {LocalizationState::Localized, ""}};
   }
   void on_cloud(const PointCloud<Base>& /*cloud*/, const Transform2<Odom, Base>& /*odom*/) override {}
+  void set_pose(const Transform2<Map, Base>& /*pose*/, const PoseSigma& /*sigma*/) override {}
+  void search_anew() override {}
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return {}; }
 };
 
 CycleConfig config() {
@@ -55,6 +58,7 @@ TEST(InputText, ComesBackToTheLastBit) {
       {.sequence = 7, .faults = 3, .time_us = 123, .left_angle = 16383, .battery_mv = 25'000});
   input.protective_stop = true;
   input.commands.push_back({OperatorWord::Jog, {0.1, -1.0 / 3.0}});
+  input.commands.push_back({OperatorWord::SetPose, {}, {{1.0 / 3.0, -7.1}, 1.0 / 7.0, {0.3, 0.1}}});
   input.order = Order{5, {{3, StopAction::Load, 0.1}}, 2, OrderState::Running, 1, 0, "note"};
   input.detour = planning::DetourAnswer{9, Path{{PathPoint{{1.0 / 3.0, 2.0}, -0.1, 0.2}}}, 1, "why"};
   const CycleInput back = input_from_text(input_text(input));
@@ -63,6 +67,7 @@ TEST(InputText, ComesBackToTheLastBit) {
   EXPECT_EQ(back.drive[0].left_angle, 16383);
   EXPECT_TRUE(back.protective_stop);
   EXPECT_EQ(back.commands[0].jog, input.commands[0].jog);
+  EXPECT_EQ(back.commands[1].given_pose, input.commands[1].given_pose);
   EXPECT_EQ(back.order, input.order);
   ASSERT_TRUE(back.detour && back.detour->path);
   EXPECT_EQ(back.detour->path->points[0].position, input.detour->path->points[0].position);
