@@ -75,6 +75,16 @@ struct EventView {
   Notice remedy;
 };
 
+/// What the lidar has seen of a piece (about a metre) of a drawn wall.
+struct WallView {
+  int id = 0;             ///< of walls.csv
+  int piece = 0;          ///< counted from the wall's start
+  Segment2<Map> segment;  ///< as drawn
+  std::string state;      ///< unseen, confirmed, missing, displaced
+  double share = 0.0;     ///< how far the drawing is to be believed here, 0..1
+  double offset_m = 0.0;  ///< of a displaced piece: where it stands, to the left of its direction
+};
+
 /// Sums since the site began.
 struct StatisticsView {
   long long deliveries = 0;  ///< stops that were served
@@ -98,6 +108,8 @@ class Vehicle {
 
   [[nodiscard]] virtual std::vector<EventView> events(std::size_t newest) const = 0;
   [[nodiscard]] virtual StatisticsView statistics() const = 0;
+  /// What is known of every piece of wall; changes slowly, so that asking every few seconds is plenty.
+  [[nodiscard]] virtual std::vector<WallView> walls_seen() const { return {}; }
   /// The walls, routes or scale on disk have changed.
   virtual Reply reload_site() = 0;
 };
