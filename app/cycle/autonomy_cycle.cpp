@@ -51,10 +51,12 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   output.command = limited.command;
   output.enable = enables(state, may_move);
   const Standstill now = standstill_of(state, input, config);
+  state.standstill.remedy = now.remedy;  // it may change while the cause lasts
   if (now.cause != state.standstill.cause) {
     state.standstill = now;
     if (!now.cause.empty())
-      output.events.push_back(std::string(to_string(state.mode)) + ": " + now.cause + " - " + now.remedy);
+      output.events.push_back(std::string(to_string(state.mode)) + ": " + now.cause.text + " - " +
+                              now.remedy.text);
   }
   return {std::move(state), std::move(output)};
 }

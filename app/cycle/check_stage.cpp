@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "app/cycle/stages.hpp"
 
@@ -45,6 +46,25 @@ bool turn_is_free(const CycleState& state, const std::vector<Point2<Map>>& obsta
   return !check.blocked();
 }
 
+/// Whether what stands at a place is remembered only: no scan has shown it lately.
+bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now) {
+  constexpr double kLatelyS = 0.5;
+  constexpr double kSameColumnM = 0.1;
+  const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+  const Point2<Odom> place = map_from_odom.inverse() * where;
+  bool known = false;
+  for (const planning::Column& c : state.obstacles.columns()) {
+    const double dx = std::max(
+        {0.0, static_cast<double>(c.min_x_m) - place.x_m, place.x_m - static_cast<double>(c.max_x_m)});
+    const double dy = std::max(
+        {0.0, static_cast<double>(c.min_y_m) - place.y_m, place.y_m - static_cast<double>(c.max_y_m)});
+    if (!c.confirmed || std::hypot(dx, dy) > kSameColumnM) continue;
+    if (to_seconds(now - c.seen) <= kLatelyS) return false;
+    known = true;
+  }
+  return known;
+}
+
 void note_blocked(Navigation& way, Stamp now) {
   const bool blocked = way.check.blocked() || !way.turn_free;
   if (blocked) {
@@ -77,7 +97,9 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
 void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   Navigation& way = state.way;
   for (const auto& command : input.commands)
-    if (command.word == OperatorWord::ForgetObstacles) state.obstacles.clear();
+    if (command.word == OperatorWord::ForgetObstacles ||
+        (command.word == OperatorWord::Resume && state.mode == Mode::Waiting))
+      state.obstacles.clear();  // the operator has looked; what is seen comes back with the next scan
   if (way.path.empty() || way.arrived || !output.computed_lidar) return;
   const auto obstacles = obstacle_points(state);
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
@@ -88,6 +110,8 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
                              movers_on_map(state), config.check, config.movers);
   way.by_mover = crossing.free_m < way.check.free_m;
   if (way.by_mover) way.check = crossing;
+  way.unseen = way.check.blocked() && !way.check.by_wall && !way.by_mover &&
+               is_unseen(state, way.check.where, input.now);
   const double from_m = way.path.along_m(from);
   way.stop_along_m = from_m + way.check.free_m;
   way.care_along_m = from_m + way.check.care_m;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cycle/modes.hpp"
+#include "app/cycle/notice.hpp"
 #include "app/cycle/pose_source.hpp"
 #include "app/orders/order.hpp"
 #include "control/diff_drive/odometry.hpp"
@@ -102,8 +103,8 @@ struct Target {
 
 /// Why the vehicle stands, for people.
 struct Standstill {
-  std::string cause;  ///< empty while it drives
-  std::string remedy;
+  Notice cause;  ///< empty while it drives
+  Notice remedy;
   Stamp since{};
 };
 
@@ -131,7 +132,7 @@ struct Navigation {
   bool arrived = false;
   bool reported = false;
   Stamp dwell_until{};
-  std::string no_way;              ///< why there is no path
+  Notice no_way;                   ///< why there is no path
   std::optional<double> rejoin_m;  ///< of a detour
   // what stands in the way
   planning::PathCheck check;
@@ -139,6 +140,7 @@ struct Navigation {
   double care_along_m = planning::PathCheck::kFree;
   bool turn_free = true;
   bool by_mover = false;  ///< what blocks is on its way across
+  bool unseen = false;    ///< what blocks is remembered from before it came too near for the lidar
   std::optional<Stamp> blocked_since;
   std::optional<Stamp> free_since;
   Stamp asked_detour{};

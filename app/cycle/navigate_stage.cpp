@@ -105,7 +105,7 @@ void take_path(Navigation& way, Path path, const CycleConfig& config) {
   way.rejoin_m.reset();
   way.detour_pending = false;
   way.turn_free = true;
-  way.no_way.clear();
+  way.no_way = {};
 }
 
 void plan(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
@@ -115,16 +115,16 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
   way.plain = {};
   const auto goal = config.routes.index_of(way.stop.node);
   if (!goal) {
-    way.no_way = "node " + std::to_string(way.stop.node) + " is not in the routes";
-    output.order_refused = {way.target->order, way.no_way};
+    way.no_way = notice(Cause::UnknownNode, {{"node", std::to_string(way.stop.node)}});
+    output.order_refused = {way.target->order, way.no_way.text};
     return;
   }
   const auto blocked = blocked_now(way, input.now, config.forget_block_s);
   const auto route = best_route(config, state.pose.map_from_base.translation(), *goal, blocked);
   if (!route) {
-    way.no_way = "no way leads to node " + std::to_string(way.stop.node) +
-                 (blocked.empty() ? "" : " while a leg is blocked");
-    if (blocked.empty()) output.order_refused = {way.target->order, way.no_way};
+    way.no_way = notice(blocked.empty() ? Cause::NoWay : Cause::NoWayWhileBlocked,
+                        {{"node", std::to_string(way.stop.node)}});
+    if (blocked.empty()) output.order_refused = {way.target->order, way.no_way.text};
     return;
   }
   way.nodes = route->nodes;

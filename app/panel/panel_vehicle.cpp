@@ -10,7 +10,12 @@ constexpr double kShowEvery_s = 0.1;
 constexpr std::size_t kMostScanPoints = 20'000;
 constexpr int kMostRepeats = 1000;
 
-hmi::Notice notice(const std::string& text) {
+hmi::Notice shown(const Notice& notice) {
+  return {notice.code, notice.values, notice.text};
+}
+
+/// What has no code yet.
+hmi::Notice plain(const std::string& text) {
   return text.empty() ? hmi::Notice{} : hmi::Notice{"", {}, text};
 }
 
@@ -61,8 +66,8 @@ void PanelVehicle::observe(const CycleInput& input, const CycleState& state) {
   if (live_.state != name) live_.since = input.now;
   live_.state = name;
   live_.stamp = input.now;
-  live_.cause = notice(state.standstill.cause);
-  live_.remedy = notice(state.standstill.remedy);
+  live_.cause = shown(state.standstill.cause);
+  live_.remedy = shown(state.standstill.remedy);
   live_.pose = state.pose;
   live_.pose.stamp = wall_clock();  // the panel shows ages by its own clock
   live_.velocity = run_.view().command;
@@ -138,7 +143,7 @@ std::vector<hmi::OrderView> PanelVehicle::orders() const {
     for (const auto& stop : order.stops) view.stations.push_back(stop.node);
     view.status = to_string(order.state);
     view.repeat = order.repeat;
-    view.detail = notice(order.note);
+    view.detail = plain(order.note);
     list.push_back(std::move(view));
   }
   return list;
@@ -172,7 +177,7 @@ std::vector<hmi::EventView> PanelVehicle::events(std::size_t newest) const {
   const std::scoped_lock lock(store_mutex_);
   std::vector<hmi::EventView> list;
   for (const auto& event : store_.events(newest))
-    list.push_back({event.stamp, event.kind == "device" ? "warning" : "info", notice(event.text), {}});
+    list.push_back({event.stamp, event.kind == "device" ? "warning" : "info", plain(event.text), {}});
   return list;
 }
 

@@ -143,8 +143,8 @@ class Soak {
     const auto truth = factory_->truth().map_from_base;
     std::printf("order %ld to node %d NOT delivered: %s: %s; at (%.2f, %.2f, %.0f deg), %s\n",
                 static_cast<long>(id), node, to_string(run_->state().mode),
-                run_->state().standstill.cause.c_str(), truth.x_m(), truth.y_m(), to_deg(truth.yaw_rad()),
-                run_->state().pose.health.reason.c_str());
+                run_->state().standstill.cause.text.c_str(), truth.x_m(), truth.y_m(),
+                to_deg(truth.yaw_rad()), run_->state().pose.health.reason.c_str());
     run_->orders().close(id, app::OrderState::Cancelled, "soak: not delivered in time", factory_->now());
   }
 
@@ -183,7 +183,7 @@ class Soak {
     if (state.pose.health.state == LocalizationState::Localized)
       figures_.pose_error_m.push_back(
           distance_m(truth.translation(), state.pose.map_from_base.translation()));
-    if (!app::drives(state.mode)) figures_.standstill_s[state.standstill.cause] += to_seconds(kStep);
+    if (!app::drives(state.mode)) figures_.standstill_s[state.standstill.cause.text] += to_seconds(kStep);
     if (!arguments_.verbose) return;
     for (const auto& event : output.events)
       std::printf("%8.2f  %s  (%.2f, %.2f)\n", to_seconds(input.now - begun_), event.c_str(), truth.x_m(),

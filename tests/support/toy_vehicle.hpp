@@ -81,6 +81,9 @@ class ToyVehicle {
   void drive_to(std::vector<app::OrderStop> stops, int repeat = 1) {
     order = app::Order{++orders_, std::move(stops), repeat, app::OrderState::Running, 0, 0, ""};
   }
+  /// The drive's controller starts anew, as after a brown-out: idle, and armed only by a command that does
+  /// not enable it.
+  void restart_drive() { controller_ = {}; }
   void set_source(std::unique_ptr<app::PoseSource> source) {
     pose = nullptr;
     state_.localization = std::move(source);
@@ -156,7 +159,8 @@ class ToyVehicle {
         control::wire::Command{++sequence_, output.enable, static_cast<std::int32_t>(wheels.left_radps * 1e6),
                                static_cast<std::int32_t>(wheels.right_radps * 1e6)},
         frame.data());
-    for (std::size_t i = 0; i < size; ++i) controller_.receive(frame[i], micros);
+    if (!drive_silent)
+      for (std::size_t i = 0; i < size; ++i) controller_.receive(frame[i], micros);
     driven.push_back(output.command);
     events.insert(events.end(), output.events.begin(), output.events.end());
     if (output.detour_wanted) {

@@ -27,7 +27,7 @@ TEST(AutonomyCycle, NothingMovesUntilTheOperatorLetsIt) {
   v->drive_to({{2}});
   EXPECT_FALSE(v->run_until([&] { return v->rolling.speed().linear_mps != 0.0; }, 5.0));
   EXPECT_EQ(v->state().mode, Mode::Paused);
-  EXPECT_EQ(v->state().standstill.remedy, "press Resume");
+  EXPECT_EQ(v->state().standstill.remedy.text, "press Resume");
   v->say(OperatorWord::Resume);
   EXPECT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.5; }, 5.0));
 }
@@ -37,7 +37,7 @@ TEST(AutonomyCycle, AnOrderIsDeliveredAndTheGoalIsMetInPlaceAndHeading) {
   v->drive_to({{1, StopAction::Load, 1.0}, {2, StopAction::Unload, 0.0}});
   v->say(OperatorWord::Resume);
   bool loading = false;
-  v->each_step = [&] { loading = loading || v->state().standstill.cause == "loading"; };
+  v->each_step = [&] { loading = loading || v->state().standstill.cause.text == "loading"; };
   ASSERT_TRUE(v->run_until([&] { return v->delivered(); }, 90.0));
   EXPECT_TRUE(loading);
   EXPECT_LT(distance_m(v->rolling.pose().translation(), Point2<Map>{22.0, 0.0}), 0.02);
@@ -92,7 +92,7 @@ TEST(AutonomyCycle, ASilentLidarStopsTheVehicleAndItGoesOnByItself) {
   v->lidar_silent = true;
   ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.01; }, 1.5));
   EXPECT_EQ(v->state().mode, Mode::Waiting);
-  EXPECT_EQ(v->state().standstill.cause, "the lidar is silent");
+  EXPECT_EQ(v->state().standstill.cause.text, "the lidar is silent");
   v->lidar_silent = false;
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
 }
@@ -105,7 +105,7 @@ TEST(AutonomyCycle, LostMeansStandingAndLocalizedMeansGoingOn) {
   v->pose->state = LocalizationState::Lost;
   ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.01; }, 1.5));
   EXPECT_EQ(v->state().mode, Mode::Localizing);
-  EXPECT_THAT(v->state().standstill.cause, HasSubstr("told so by the test"));
+  EXPECT_THAT(v->state().standstill.cause.text, HasSubstr("told so by the test"));
   v->pose->state = LocalizationState::Localized;
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
 }
@@ -120,11 +120,50 @@ TEST(AutonomyCycle, APersonInTheWayIsWaitedFor) {
   v->each_step = [&] { nearest = std::min(nearest, v->clearance_m()); };
   v->run_until([&] { return false; }, 12.0);
   EXPECT_EQ(v->state().mode, Mode::Waiting);
-  EXPECT_EQ(v->state().standstill.cause, "something stands in the way");
+  EXPECT_EQ(v->state().standstill.cause.text, "something stands in the way");
   EXPECT_GT(nearest, 0.1);
   EXPECT_LT(nearest, 0.8);
   v->lidar.posts.clear();
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
+TEST(AutonomyCycle, WhatCameTooNearForTheLidarStaysUntilTheOperatorHasLooked) {
+  auto v = vehicle();
+  v->config.detour_after_s = 1000.0;
+  v->lidar.bodies.push_back(
+      {{{6.0, -0.3}, {6.0, 0.3}}, 0.1, 0.2});  // lies lower than the lidar's lowest beam
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->state().mode == Mode::Waiting; }, 15.0));
+  v->run_until([&] { return false; }, 2.0);
+  EXPECT_EQ(v->state().standstill.cause.code, "unseen-in-the-way");
+  EXPECT_EQ(v->state().standstill.remedy.code, "look-and-resume");
+  v->lidar.bodies.clear();
+  EXPECT_FALSE(v->run_until([&] { return v->state().mode == Mode::Driving; }, 10.0)) << "nobody has looked";
+  v->say(OperatorWord::Resume);
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
+TEST(AutonomyCycle, ADriveWhoseLinkOpensLateIsArmed) {
+  auto v = vehicle();
+  v->drive_silent = true;  // the port opens late: neither statuses nor commands pass
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  v->run_until([&] { return false; }, 3.0);
+  EXPECT_EQ(v->rolling.speed(), VelocityCommand{});
+  v->drive_silent = false;
+  EXPECT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.5; }, 10.0))
+      << v->state().standstill.cause.text;
+}
+
+TEST(AutonomyCycle, ADriveThatRestartsWhileAllCommandsEnableIsArmedAgain) {
+  auto v = vehicle();
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+  v->restart_drive();
+  EXPECT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.1; }, 2.0));
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << v->state().standstill.cause.text;
 }
 
 TEST(AutonomyCycle, APalletIsDrivenAround) {
@@ -134,7 +173,7 @@ TEST(AutonomyCycle, APalletIsDrivenAround) {
   v->say(OperatorWord::Resume);
   double nearest = 10.0;
   v->each_step = [&] { nearest = std::min(nearest, v->clearance_m()); };
-  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 90.0)) << v->state().standstill.cause;
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 90.0)) << v->state().standstill.cause.text;
   EXPECT_GT(nearest, 0.03);
   EXPECT_THAT(v->events, Contains(HasSubstr("-> detouring")));
   EXPECT_THAT(v->events, Contains(HasSubstr("back on route")));

@@ -8,18 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "app/cycle/notice.hpp"
+
 namespace madori::app {
 namespace {
 
-/// Table rows below the heading "## Transitions" of docs/reference/states.md.
-std::set<std::string> documented() {
+/// Table rows below a heading of docs/reference/states.md.
+std::set<std::string> documented(const std::string& heading) {
   std::ifstream page(MADORI_SOURCE_DIR "/docs/reference/states.md");
   std::set<std::string> rows;
   bool inside = false;
   for (std::string line; std::getline(page, line);) {
-    if (line.starts_with("## ")) inside = line == "## Transitions";
-    if (inside && line.starts_with("| ") && !line.starts_with("| mode") && !line.starts_with("| ---"))
-      rows.insert(line);
+    if (line.starts_with("##")) inside = line == heading;
+    const bool is_head =
+        line.starts_with("| mode") || line.starts_with("| code") || line.starts_with("| ---");
+    if (inside && line.starts_with("| ") && !is_head) rows.insert(line);
   }
   return rows;
 }
@@ -31,8 +34,32 @@ TEST(Modes, ThePageAndTheCodeAgree) {
       if (const auto next = next_mode(mode, event))
         coded.insert(std::string("| ") + to_string(mode) + " | " + to_string(event) + " | " +
                      to_string(*next) + " |");
-  EXPECT_EQ(coded, documented());
+  EXPECT_EQ(coded, documented("## Transitions"));
   EXPECT_GT(coded.size(), 40U);
+}
+
+/// The catalogue as rows of a table; every code once, every {placeholder} closed.
+template <class Entries>
+std::set<std::string> rows_of(const Entries& entries) {
+  std::set<std::string> rows;
+  std::set<std::string> codes;
+  for (const CatalogueEntry& entry : entries) {
+    EXPECT_TRUE(codes.insert(entry.code).second) << entry.code;
+    rows.insert(std::string("| ") + entry.code + " | " + entry.english + " |");
+  }
+  return rows;
+}
+
+TEST(Notices, ThePageAndTheCodeAgree) {
+  EXPECT_EQ(rows_of(kCauses), documented("### Causes"));
+  EXPECT_EQ(rows_of(kRemedies), documented("### Remedies"));
+}
+
+TEST(Notices, EnglishIsTheEntryWithItsValues) {
+  EXPECT_EQ(notice(Cause::NoWay, {{"node", "7"}}),
+            (Notice{"no-way", {{"node", "7"}}, "no way leads to node 7"}));
+  EXPECT_EQ(notice(Remedy::ClearWay, {{"reason", "{reason} stands"}}).text, "clear the way: {reason} stands");
+  EXPECT_TRUE(Notice().empty());
 }
 
 TEST(Modes, NothingButTheOperatorEndsAHeldMode) {

@@ -1,0 +1,32 @@
+#include "app/cycle/notice.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace madori::app {
+namespace {
+
+static_assert(kCauses.size() == static_cast<std::size_t>(Cause::UnseenInTheWay) + 1);
+static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::LookAndResume) + 1);
+
+Notice filled(const CatalogueEntry& entry, std::map<std::string, std::string> values) {
+  std::string text = entry.english;
+  for (const auto& [name, value] : values) {
+    const std::string placeholder = "{" + name + "}";
+    if (const auto at = text.find(placeholder); at != std::string::npos)
+      text.replace(at, placeholder.size(), value);
+  }
+  return {entry.code, std::move(values), std::move(text)};
+}
+
+}  // namespace
+
+Notice notice(Cause cause, std::map<std::string, std::string> values) {
+  return filled(kCauses.at(static_cast<std::size_t>(cause)), std::move(values));
+}
+
+Notice notice(Remedy remedy, std::map<std::string, std::string> values) {
+  return filled(kRemedies.at(static_cast<std::size_t>(remedy)), std::move(values));
+}
+
+}  // namespace madori::app

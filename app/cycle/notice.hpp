@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace madori::app {
+
+/// A sentence for a person. Catalogues in other languages know it by its code.
+struct Notice {
+  std::string code;                           ///< empty where there is nothing to say
+  std::map<std::string, std::string> values;  ///< what the {placeholders} stand for
+  std::string text;                           ///< in English
+
+  [[nodiscard]] bool empty() const { return code.empty(); }
+  friend bool operator==(const Notice&, const Notice&) = default;
+};
+
+struct CatalogueEntry {
+  const char* code;
+  const char* english;  ///< with {placeholders}
+};
+
+/// Why the vehicle stands. docs/reference/states.md lists the same; a test compares them.
+enum class Cause : std::uint8_t {
+  NoOrder,
+  Paused,
+  Manual,
+  BumperPressed,
+  EmergencyStopPressed,
+  EmergencyStopOver,
+  DriveSilent,
+  DriveFault,
+  FaultOver,
+  NoScan,
+  PlaceUnknown,
+  PlaceAmbiguous,
+  LidarSilent,
+  ProtectiveField,
+  Loading,
+  Unloading,
+  OrderStop,
+  UnknownNode,
+  NoWay,
+  NoWayWhileBlocked,
+  NoRoomToTurn,
+  DoorNotOpen,
+  WallInTheWay,
+  SomethingInTheWay,
+  UnseenInTheWay,
+};
+
+/// What a person can do about it.
+enum class Remedy : std::uint8_t {
+  GiveOrder,
+  Resume,
+  ManualOff,
+  FreeAndConfirm,
+  ReleaseAndConfirm,
+  LookAndConfirm,
+  CheckDrive,
+  MendDrive,
+  Confirm,
+  WaitForPlace,
+  CheckLidar,
+  ClearField,
+  GoOn,
+  ByItself,
+  ClearOrDraw,
+  ClearAround,
+  OnceOpen,
+  MoveRoute,
+  OnceClear,
+  ClearWay,
+  LookAndResume,
+};
+
+inline constexpr std::array kCauses{
+    CatalogueEntry{"no-order", "no order"},
+    CatalogueEntry{"paused", "paused"},
+    CatalogueEntry{"manual", "manual mode"},
+    CatalogueEntry{"bumper-pressed", "the bumper is pressed"},
+    CatalogueEntry{"emergency-stop-pressed", "the emergency stop is pressed"},
+    CatalogueEntry{"emergency-stop-over", "the vehicle was stopped by emergency stop or bumper"},
+    CatalogueEntry{"drive-silent", "the drive does not answer"},
+    CatalogueEntry{"drive-fault", "the drive reports fault {faults}"},
+    CatalogueEntry{"fault-over", "the drive had a fault, which is gone"},
+    CatalogueEntry{"no-scan", "no scan has come yet"},
+    CatalogueEntry{"place-unknown", "not sure where the vehicle is: {reason}"},
+    CatalogueEntry{"place-ambiguous", "the vehicle may be in more than one place: {reason}"},
+    CatalogueEntry{"lidar-silent", "the lidar is silent"},
+    CatalogueEntry{"protective-field", "the safety scanner's protective field is interrupted"},
+    CatalogueEntry{"loading", "loading"},
+    CatalogueEntry{"unloading", "unloading"},
+    CatalogueEntry{"order-stop", "stop of the order"},
+    CatalogueEntry{"unknown-node", "node {node} is not in the routes"},
+    CatalogueEntry{"no-way", "no way leads to node {node}"},
+    CatalogueEntry{"no-way-while-blocked", "no way leads to node {node} while a leg is blocked"},
+    CatalogueEntry{"no-room-to-turn", "no room to turn"},
+    CatalogueEntry{"door-not-open", "a door or lift is not open far enough"},
+    CatalogueEntry{"wall-in-the-way", "the way leads too close to a drawn wall"},
+    CatalogueEntry{"something-in-the-way", "something stands in the way"},
+    CatalogueEntry{"unseen-in-the-way", "something low stands in the way, too near for the lidar to see"},
+};
+
+inline constexpr std::array kRemedies{
+    CatalogueEntry{"give-order", "give an order"},
+    CatalogueEntry{"resume", "press Resume"},
+    CatalogueEntry{"manual-off", "switch it off to go on"},
+    CatalogueEntry{"free-and-confirm", "free the vehicle, then confirm"},
+    CatalogueEntry{"release-and-confirm", "release it when all is safe, then confirm"},
+    CatalogueEntry{"look-and-confirm", "look around, then confirm"},
+    CatalogueEntry{"check-drive", "check its power and its cable, then confirm"},
+    CatalogueEntry{"mend-drive", "see the list of drive faults, mend it, then confirm"},
+    CatalogueEntry{"confirm", "confirm"},
+    CatalogueEntry{"wait-for-place", "wait, or drive it by hand to where more drawn walls are in view"},
+    CatalogueEntry{"check-lidar", "check the lidar's power and network cable"},
+    CatalogueEntry{"clear-field", "clear the field"},
+    CatalogueEntry{"go-on", "goes on by itself, or press Go on"},
+    CatalogueEntry{"by-itself", "goes on by itself"},
+    CatalogueEntry{"clear-or-draw", "clear the way, or draw a route"},
+    CatalogueEntry{"clear-around", "clear the space around the vehicle"},
+    CatalogueEntry{"once-open", "it goes on by itself once open"},
+    CatalogueEntry{"move-route", "move the route, or erase the wall"},
+    CatalogueEntry{"once-clear", "it goes on by itself once clear"},
+    CatalogueEntry{"clear-way", "clear the way: {reason}"},
+    CatalogueEntry{"look-and-resume", "look, clear the way, then press Resume"},
+};
+
+/// The notice with its English text. Precondition: `values` names every placeholder of the entry.
+[[nodiscard]] Notice notice(Cause cause, std::map<std::string, std::string> values = {});
+[[nodiscard]] Notice notice(Remedy remedy, std::map<std::string, std::string> values = {});
+
+}  // namespace madori::app
