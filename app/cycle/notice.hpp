@@ -114,7 +114,7 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"check-drive", "check its power and its cable, then confirm"},
     CatalogueEntry{"mend-drive", "see the list of drive faults, mend it, then confirm"},
     CatalogueEntry{"confirm", "confirm"},
-    CatalogueEntry{"wait-for-place", "wait, or drive it by hand to where more drawn walls are in view"},
+    CatalogueEntry{"wait-for-place", "wait, move it by hand, or tap its place on the panel"},
     CatalogueEntry{"check-lidar", "check the lidar's power and network cable"},
     CatalogueEntry{"clear-field", "clear the field"},
     CatalogueEntry{"go-on", "goes on by itself, or press Go on"},
