@@ -1,10 +1,7 @@
 #include "mapping/wall_map/wall.hpp"
 
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -57,14 +54,6 @@ std::string walls_csv(const Walls& walls) {
   for (const auto& [id, s] : walls)
     out << id << ',' << s.a.x_m << ',' << s.a.y_m << ',' << s.b.x_m << ',' << s.b.y_m << '\n';
   return out.str();
-}
-
-std::string walls_fingerprint(const Walls& walls) {
-  std::uint64_t hash = 0xCBF29CE484222325U;
-  for (const char c : walls_csv(walls)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
-  std::array<char, 17> digits{};
-  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return digits.data();
 }
 
 }  // namespace madori::mapping

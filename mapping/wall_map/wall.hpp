@@ -22,8 +22,5 @@ using Walls = std::vector<Wall>;
 [[nodiscard]] Walls load_walls(const std::filesystem::path& file);
 /// The text of walls.csv; six digits after the point (micrometres).
 [[nodiscard]] std::string walls_csv(const Walls& walls);
-/// Sixteen hexadecimal digits that differ when the text of walls.csv does (FNV-1a): what was learned on other
-/// walls is recognized by it.
-[[nodiscard]] std::string walls_fingerprint(const Walls& walls);
 
 }  // namespace madori::mapping
