@@ -6,6 +6,7 @@ export class Refused extends Error {
     readonly status: number,
     readonly code: string,
     text: string,
+    readonly values: Record<string, string> = {},
   ) {
     super(text);
   }
@@ -27,7 +28,7 @@ async function request<T>(method: string, path: string, body?: unknown, raw?: Bl
   const parsed: unknown = text === "" ? {} : JSON.parse(text);
   if (!response.ok) {
     const { error } = parsed as wire.ApiError;
-    throw new Refused(response.status, error.code, error.text);
+    throw new Refused(response.status, error.code, error.text, error.values ?? {});
   }
   return parsed as T;
 }
@@ -42,26 +43,43 @@ export const api = {
   logout: () => request("DELETE", "/api/session"),
 
   site: () => get<wire.Site>("/api/site"),
+  setup: () => get<wire.Setup>("/api/setup"),
   drawingUrl: (revision: string) => `/api/site/drawing.png?r=${encodeURIComponent(revision)}`,
   walls: () => get<wire.Walls>("/api/site/walls"),
+  wallsSeen: () => get<wire.WallPiece[]>("/api/site/walls/seen"),
   saveWalls: (edit: wire.WallsEdit) => put<wire.Saved>("/api/site/walls", edit),
-  uploadDrawing: (file: File) =>
-    request<wire.Job>("POST", `/api/site/drawing?name=${encodeURIComponent(file.name)}`, undefined, file),
+  uploadDrawing: (file: File, options: Record<string, string>) =>
+    request<wire.Job>("POST", `/api/site/drawing?${new URLSearchParams({ name: file.name, ...options }).toString()}`, undefined, file),
   job: () => get<wire.Job>("/api/job"),
+  cancelJob: () => request("DELETE", "/api/job"),
   scale: (measurements: wire.ScaleRequest) => post<wire.ScaleResult>("/api/site/scale", measurements),
   tiles: () => get<wire.TileInfo>("/api/site/tiles"),
+  tileSources: () => get<wire.TileSourceInfo[]>("/api/site/tiles/sources"),
   fetchTiles: (wanted: wire.TileRequest) => post<wire.Job>("/api/site/tiles", wanted),
 
   routes: () => get<wire.Routes>("/api/site/routes"),
   checkRoutes: (edit: wire.RoutesEdit) => post<wire.Routes>("/api/site/routes/check", edit),
   saveRoutes: (edit: wire.RoutesEdit) => put<wire.Routes>("/api/site/routes", edit),
   importRoutes: (csv: wire.RoutesCsv) => post<wire.Routes>("/api/site/routes/csv", csv),
-  routesCsv: () => get<wire.RoutesCsv>("/api/site/routes/csv"),
+
+  devices: () => get<wire.FoundDevice[]>("/api/devices"),
+  saveVehicle: (edit: wire.VehicleEdit) => put<wire.Saved>("/api/site/vehicle", edit),
+  locate: () => get<wire.Locate>("/api/locate"),
+  searchAnew: () => post("/api/locate/search"),
+  setPose: (pose: wire.SetPose) => post("/api/vehicle/pose", pose),
 
   command: (name: "start" | "pause" | "resume" | "stop" | "confirm") => post(`/api/vehicle/${name}`),
+  replay: async () => {
+    const answer = await fetch("/api/replay", { credentials: "same-origin" });
+    if (!answer.ok) throw new Refused(answer.status, "not-found", "there is no replay");
+    return answer.arrayBuffer();
+  },
 
   orders: () => get<wire.Order[]>("/api/orders"),
+  ordersHistory: () => get<wire.Order[]>("/api/orders/history"),
   addOrder: (order: wire.NewOrder) => post("/api/orders", order),
+  reorder: (queue: wire.OrderQueue) => put("/api/orders/queue", queue),
+  repeatOrder: (id: number) => post(`/api/orders/${id}/repeat`),
   cancelOrder: (id: number) => request("DELETE", `/api/orders/${id}`),
 
   events: () => get<wire.Event[]>("/api/events"),

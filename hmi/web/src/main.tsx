@@ -3,9 +3,10 @@ import { useEffect, useState } from "preact/hooks";
 import "ol/ol.css";
 import "./styles.css";
 import { api } from "./api";
-import type { Routes, Session, Site, Walls } from "./api_types";
+import type { Routes, Session, Site, SiteRevisions, Walls } from "./api_types";
 import { language, useText } from "./i18n";
 import { live } from "./live/live_socket";
+import { theme } from "./map/theme";
 import { DrivePage } from "./pages/drive";
 import { HistoryPage } from "./pages/history";
 import { LoginPage } from "./pages/login";
@@ -21,19 +22,10 @@ interface Content {
   routes: Routes;
 }
 
-const theme = localStorage.getItem("madori.theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-document.documentElement.dataset.theme = theme;
-
-function switchTheme(): void {
-  const next = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
-  document.documentElement.dataset.theme = next;
-  localStorage.setItem("madori.theme", next);
-}
-
-function Rail(props: { page: PageName; role: Session["role"]; go: (page: PageName) => void }) {
+function Rail(props: { page: PageName; role: Session["role"]; needsPin: boolean; go: (page: PageName) => void; leave: () => void }) {
   const t = useText();
   const entry = (name: PageName) => (
-    <button class="target" aria-current={props.page === name ? "page" : undefined} onClick={() => props.go(name)}>
+    <button type="button" class="target tool" aria-current={props.page === name ? "page" : undefined} onClick={() => props.go(name)}>
       <Icon name={name} />
       <span>{t(`nav.${name}`)}</span>
     </button>
@@ -44,10 +36,25 @@ function Rail(props: { page: PageName; role: Session["role"]; go: (page: PageNam
       {props.role === "integrator" && entry("setup")}
       {entry("history")}
       <span class="spring" />
-      <button class="target" onClick={() => language.set(language.value === "en" ? "ja" : "en")}>{t("nav.language")}</button>
-      <button class="target" aria-label={t("nav.theme")} onClick={switchTheme}><Icon name="theme" /></button>
+      {props.needsPin && <button type="button" class="target tool" onClick={props.leave}><Icon name="bad" /><span>{t("nav.leave")}</span></button>}
+      <button type="button" class="target tool" lang={language.value === "en" ? "ja" : "en"} onClick={() => language.set(language.value === "en" ? "ja" : "en")}>{t("nav.language")}</button>
+      <button type="button" class="target" aria-label={t("nav.theme")} onClick={() => theme.set(theme.value === "dark" ? "light" : "dark")}><Icon name="theme" /></button>
     </nav>
   );
+}
+
+/** Calls `load` whenever somebody saved, here, on another panel or from the command line. */
+function useRevisions(load: () => void): void {
+  useEffect(() => {
+    let known = "";
+    return live.newest.watch((frame) => {
+      const revisions: SiteRevisions | undefined = frame?.live.revisions;
+      if (!revisions) return;
+      const next = Object.values(revisions).join();
+      if (known !== "" && known !== next) load();
+      known = next;
+    });
+  }, []);
 }
 
 function Panel() {
@@ -58,7 +65,7 @@ function Panel() {
     void attempt(async () => {
       const [site, walls, routes] = await Promise.all([api.site(), api.walls(), api.routes()]);
       setContent({ site, walls, routes });
-      setPage((old) => old ?? (site.scale && routes.nodes.length > 0 ? "drive" : "setup"));
+      setPage((old) => old ?? (site.scale && routes.nodes.length > 0 && site.sensors.length > 0 ? "drive" : "setup"));
     });
   const enter = () =>
     void attempt(async () => {
@@ -68,21 +75,24 @@ function Panel() {
       live.open();
       load();
     });
+  const leave = () => void attempt(api.logout).then(() => { live.close(); setContent(null); enter(); });
+  useRevisions(load);
   useEffect(() => {
     enter();
     return () => live.close();
   }, []);
   if (session?.role === "none") return <LoginPage entered={enter} />;
   if (!session || !content || !page) return <Toast />;
-  const shown = session.role === "integrator" || page !== "setup" ? page : "drive";
+  const { role } = session;
+  const shown = role === "integrator" || page !== "setup" ? page : "drive";
   const version = content.site.walls_revision + content.site.routes_revision;
   return (
     <>
-      <Rail page={shown} role={session.role} go={setPage} />
-      {shown === "drive" && <DrivePage key={version} {...content} />}
-      {shown === "setup" && <SetupPage {...content} changed={load} />}
-      {shown === "history" && <HistoryPage />}
-      <CommandBar />
+      <Rail page={shown} role={role} needsPin={session.needs_pin} go={setPage} leave={leave} />
+      {shown === "drive" && <DrivePage key={version} {...content} role={role} />}
+      {shown === "setup" && <SetupPage {...content} changed={load} finished={() => setPage("drive")} />}
+      {shown === "history" && <HistoryPage role={role} />}
+      <CommandBar role={role} />
       <Toast />
     </>
   );

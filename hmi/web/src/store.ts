@@ -27,13 +27,21 @@ export function useStore<T>(store: Store<T>): T {
   return value;
 }
 
-/** Asks again every `period_ms` while the component is shown; keeps the last answer when one fails. */
-export function usePolled<T>(ask: () => Promise<T>, period_ms: number): { value: T | null; refresh: () => void } {
+/** Asks again every `period_ms` while the component is shown; keeps the last answer when one fails, and tells its age. */
+export function usePolled<T>(ask: () => Promise<T>, period_ms: number): { value: T | null; refresh: () => void; age_s: number } {
   const [value, setValue] = useState<T | null>(null);
   const [turn, setTurn] = useState(0);
+  const [age_s, setAge] = useState(0);
   useEffect(() => {
     let shown = true;
-    const once = () => void ask().then((answer) => shown && setValue(() => answer), () => undefined);
+    let came_ms = performance.now();
+    const came = (answer: T) => {
+      if (!shown) return;
+      came_ms = performance.now();
+      setValue(() => answer);
+      setAge(0);
+    };
+    const once = () => void ask().then(came, () => shown && setAge((performance.now() - came_ms) / 1000));
     once();
     const timer = setInterval(once, period_ms);
     return () => {
@@ -42,5 +50,5 @@ export function usePolled<T>(ask: () => Promise<T>, period_ms: number): { value:
     };
     // eslint-disable-next-line -- `ask` is a method of api
   }, [turn, period_ms]);
-  return { value, refresh: () => setTurn((n) => n + 1) };
+  return { value, refresh: () => setTurn((n) => n + 1), age_s };
 }

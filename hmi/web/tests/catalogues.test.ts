@@ -1,5 +1,6 @@
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
+import ts from "typescript";
 import { describe, expect, it } from "vitest";
 import { en } from "../src/i18n/en";
 import { ja } from "../src/i18n/ja";
@@ -9,6 +10,44 @@ const sources = (folder: string): string[] =>
   readdirSync(folder, { withFileTypes: true }).flatMap((entry) =>
     entry.isDirectory() ? sources(join(folder, entry.name)) : /\.tsx?$/.test(entry.name) ? [join(folder, entry.name)] : [],
   );
+const files = sources(new URL("../src", import.meta.url).pathname).filter((file) => !file.includes("i18n/") && !file.endsWith("api_types.ts"));
+
+/** The beginnings of keys that are put together in the code: `state.${state}`. */
+const composed = () => files.flatMap((file) => [...readFileSync(file, "utf8").matchAll(/`([a-z_.]+\.)\$\{/g)].map(([, prefix]) => prefix ?? ""));
+const fromTheVehicle = ["error.", "cause.", "remedy.", "finding.", "order.", "device-", "scale-", "event."];
+
+/** A word that a person would read: two letters in a row. */
+const isWord = (text: string) => /\p{L}{2}/u.test(text);
+const visibleAttributes = new Set(["aria-label", "title", "placeholder", "alt", "label"]);
+
+/** Strings that reach the screen without a catalogue: words between tags, in what {…} yields between tags, in visible attributes. */
+export function visibleTexts(code: string): string[] {
+  const found: string[] = [];
+  const yielded = (node: ts.Node): void => {
+    if (ts.isStringLiteralLike(node) && isWord(node.text)) found.push(node.text);
+    else if (ts.isTemplateExpression(node)) {
+      for (const part of [node.head, ...node.templateSpans.map((span) => span.literal)]) if (isWord(part.text)) found.push(part.text);
+      node.templateSpans.forEach((span) => yielded(span.expression));
+    } else if (ts.isConditionalExpression(node)) {
+      yielded(node.whenTrue);
+      yielded(node.whenFalse);
+    } else if (ts.isBinaryExpression(node)) {
+      if (node.operatorToken.kind === ts.SyntaxKind.PlusToken) yielded(node.left);
+      yielded(node.right);
+    } else if (ts.isParenthesizedExpression(node)) yielded(node.expression);
+  };
+  const visit = (node: ts.Node): void => {
+    if (ts.isJsxText(node) && isWord(node.text)) found.push(node.text.trim());
+    if (ts.isJsxExpression(node) && node.expression && !ts.isJsxAttribute(node.parent)) yielded(node.expression);
+    if (ts.isJsxAttribute(node) && visibleAttributes.has(node.name.getText()) && node.initializer) {
+      if (ts.isStringLiteral(node.initializer)) yielded(node.initializer);
+      else if (ts.isJsxExpression(node.initializer) && node.initializer.expression) yielded(node.initializer.expression);
+    }
+    ts.forEachChild(node, visit);
+  };
+  visit(ts.createSourceFile("x.tsx", code, ts.ScriptTarget.Latest, true, ts.ScriptKind.TSX));
+  return found;
+}
 
 describe("the catalogues", () => {
   it("have the same keys and placeholders, and no empty text", () => {
@@ -21,9 +60,20 @@ describe("the catalogues", () => {
   });
 
   it("are used: no key stands there for nothing", () => {
-    const code = sources(new URL("../src", import.meta.url).pathname).filter((file) => !file.includes("i18n/")).map((file) => readFileSync(file, "utf8")).join("\n");
-    const composed = ["nav.", "command.", "state.", "health.", "order.", "setup.", "scale.verdict.", "error.", "cause.", "remedy."];
-    const unused = Object.keys(en).filter((key) => !composed.some((prefix) => key.startsWith(prefix)) && !code.includes(`"${key}"`));
+    const code = files.map((file) => readFileSync(file, "utf8")).join("\n");
+    const prefixes = [...composed(), ...fromTheVehicle];
+    const unused = Object.keys(en).filter((key) => !prefixes.some((prefix) => key.startsWith(prefix)) && !code.includes(`"${key}"`));
     expect(unused).toEqual([]);
+  });
+
+  it("hold every text that a person sees", () => {
+    const outside = files.filter((file) => file.endsWith(".tsx")).flatMap((file) => visibleTexts(readFileSync(file, "utf8")).map((text) => `${file}: ${text}`));
+    expect(outside).toEqual([]);
+  });
+
+  it("would not be evaded by any way of writing a text", () => {
+    expect(visibleTexts("<p>Stop</p>")).toEqual(["Stop"]);
+    expect(visibleTexts("<p>{bad && 'Stop'}{a ? 'One' : t('two')}{`${n} left`}</p>")).toEqual(["Stop", "One", " left"]);
+    expect(visibleTexts("<button aria-label='Stop' class='red' onClick={() => go('drive')}>{t('command.stop')}</button>")).toEqual(["Stop"]);
   });
 });

@@ -30,18 +30,23 @@ describe("geometry", () => {
 });
 
 describe("a scan frame", () => {
-  const frame = new ArrayBuffer(16);
+  const frame = new ArrayBuffer(44);
   const view = new DataView(frame);
-  view.setUint32(0, 0x4d445331);
-  view.setUint32(4, 1, true);
-  view.setFloat32(8, 1.5, true);
-  view.setFloat32(12, -2.25, true);
+  view.setUint32(0, 0x4d445332);
+  view.setUint32(4, 2, true);
+  [10, -3, 0.5].forEach((value, i) => view.setFloat64(8 + 8 * i, value, true));
+  view.setFloat32(32, 0.01, true);
+  [150, -225, 32767, -32768].forEach((value, i) => view.setInt16(36 + 2 * i, value, true));
 
-  it("is read", () => expect([...(parseScan(frame) ?? [])]).toEqual([1.5, -2.25]));
+  it("is read: pose, and points in its unit", () => {
+    const scan = parseScan(frame);
+    expect([scan?.x, scan?.y, scan?.yaw]).toEqual([10, -3, 0.5]);
+    [1.5, -2.25, 327.67, -327.68].forEach((value, i) => expect(scan?.points[i]).toBeCloseTo(value, 4));
+  });
   it("of the wrong size or kind is nothing", () => {
-    expect(parseScan(frame.slice(0, 12))).toBeNull();
+    expect(parseScan(frame.slice(0, 40))).toBeNull();
     expect(parseScan(new ArrayBuffer(4))).toBeNull();
-    expect(parseScan(new ArrayBuffer(16))).toBeNull();
+    expect(parseScan(new ArrayBuffer(44))).toBeNull();
   });
 });
 

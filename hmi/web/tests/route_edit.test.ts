@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { draw, nodeAt, remove, setOneWay, type RoutePlan } from "../src/pages/setup/route_edit";
+import { draw, freeName, headingTo, neighbours, nodeAt, remove, setWays, waysOf, type RoutePlan } from "../src/pages/setup/route_edit";
 
 const empty: RoutePlan = { nodes: [], legs: [] };
 
@@ -31,8 +31,26 @@ describe("drawing routes", () => {
 
   it("makes a leg one-way and two-way again", () => {
     const plan = draw(draw(empty, null, [0, 0], 0.5).plan, 0, [4, 0], 0.5).plan;
-    const oneWay = setOneWay(plan, 0, 1, true);
-    expect(oneWay.legs).toEqual([[0, 1]]);
-    expect(setOneWay(oneWay, 0, 1, false).legs).toEqual([[0, 1], [1, 0]]);
+    for (const [ways, legs] of [["out", [[0, 1]]], ["in", [[1, 0]]], ["both", [[0, 1], [1, 0]]]] as const) {
+      const set = setWays(plan, 0, 1, ways);
+      expect(set.legs).toEqual(legs);
+      expect(waysOf(set, 0, 1)).toBe(ways);
+    }
+  });
+
+  it("branches off a leg: the new point lies on it, and its directions stay", () => {
+    const oneWay = setWays(draw(draw(empty, null, [0, 0], 0.5).plan, 0, [4, 0], 0.5).plan, 0, 1, "out");
+    const branched = draw(oneWay, null, [2, 0.3], 0.5);
+    expect(branched.node).toBe(2);
+    expect(branched.plan.nodes[2]).toMatchObject({ x: 2, y: 0 });
+    expect(branched.plan.legs).toEqual([[0, 2], [2, 1]]);
+    expect(neighbours(branched.plan, 2).sort()).toEqual([0, 1]);
+  });
+
+  it("finds a free name and a heading", () => {
+    const plan = { nodes: [{ ...draw(empty, null, [0, 0], 1).plan.nodes[0]!, name: "Dock 1" }], legs: [] };
+    expect(freeName(plan, "Dock")).toBe("Dock 2");
+    expect(freeName(plan, "Press")).toBe("Press 1");
+    expect(headingTo(plan.nodes[0]!, [-1, 1])).toBe(135);
   });
 });

@@ -31,6 +31,6 @@ export function useText(): Translate {
 
 /** A notice of the vehicle: from the catalogue where it is known, else in the vehicle's own English. */
 export function noticeText(t: Translate, prefix: string, notice: Notice): string {
-  const key = `${prefix}.${notice.code}`;
-  return key in en ? t(key as TextKey, notice.values) : notice.text;
+  const key = [`${prefix}.${notice.code}`, notice.code].find((one) => one in en);
+  return key === undefined ? notice.text : t(key as TextKey, notice.values);
 }

@@ -1,13 +1,15 @@
 import type { Live, LiveMessage, Notice } from "../api_types";
 import { Store } from "../store";
-import { parseScan } from "./scan_frame";
+import { noScan, parseScan, type Scan } from "./scan_frame";
 
 export interface Frame {
   received_ms: number;
   live: Live;
-  /** x, y pairs in metres, Map frame */
-  scan: Float32Array;
+  scan: Scan;
 }
+
+/** What a page may be editing; other panels are told. */
+export type Editing = "drawing" | "scale" | "walls" | "routes" | "vehicle" | "";
 
 const REPLAY_S = 30;
 const RETRY_MS = [250, 500, 1000, 2000];
@@ -19,9 +21,10 @@ export class LiveSocket {
   readonly refusal = new Store<Notice | null>(null);
   readonly history: Frame[] = [];
   private socket: WebSocket | null = null;
-  private scan = new Float32Array();
+  private scan = noScan;
   private failures = 0;
   private closed = false;
+  private edited: Editing = "";
 
   constructor(private readonly url = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/live`) {}
 
@@ -32,6 +35,7 @@ export class LiveSocket {
     socket.onopen = () => {
       this.failures = 0;
       this.connected.set(true);
+      if (this.edited !== "") this.send({ editing: this.edited });
     };
     socket.onmessage = (event) => this.take(event.data as string | ArrayBuffer);
     socket.onclose = () => {
@@ -49,7 +53,18 @@ export class LiveSocket {
 
   /** Metres and radians a second. The vehicle stops when no call follows within 250 ms. */
   jog(linear: number, angular: number): void {
-    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify({ jog: { linear, angular } }));
+    this.send({ jog: { linear, angular } });
+  }
+
+  /** Tells the other panels what is being edited here. */
+  editing(what: Editing): void {
+    if (what === this.edited) return;
+    this.edited = what;
+    this.send({ editing: what });
+  }
+
+  private send(message: object): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
 
   private take(data: string | ArrayBuffer): void {

@@ -1,55 +1,82 @@
 import Feature from "ol/Feature";
 import OlMap from "ol/Map";
 import View from "ol/View";
-import { LineString, Point, Polygon } from "ol/geom";
+import { LineString, Point } from "ol/geom";
 import ImageLayer from "ol/layer/Image";
 import VectorLayer from "ol/layer/Vector";
 import { Projection } from "ol/proj";
-import ImageStatic from "ol/source/ImageStatic";
+import ImageCanvas from "ol/source/ImageCanvas";
 import VectorSource from "ol/source/Vector";
 import { defaults as interactionDefaults } from "ol/interaction";
-import type { Live, Routes, Site, VehicleInfo } from "../api_types";
-import { ellipseRing, extentOf, footprint, type Extent, type XY } from "./geometry";
-import { pointLayer } from "./point_layer";
+import type { Routes, Site, WallPiece } from "../api_types";
+import { inkOf } from "./drawing_image";
+import { extentOf, type Extent, type XY } from "./geometry";
+import { LiveOverlay } from "./live_overlay";
 import * as styles from "./styles";
+import { palette, theme } from "./theme";
 
 /** Metres, x right and y up: the Map frame itself, no Earth involved. */
 export function mapProjection(extent: Extent): Projection {
   return new Projection({ code: "MADORI", units: "m", extent, metersPerUnit: 1 });
 }
 
-/** The picture of the factory that all pages share. Layers from the bottom: drawing, walls, routes, live. */
+/** Left free around the walls, the buttons below included. */
+const kRoom = [28, 20, 100, 20];
+
+/** Draws a picture that covers `all` into the part of it that a map shows. */
+function pictureSource(picture: HTMLCanvasElement, all: Extent, projection: Projection): ImageCanvas {
+  return new ImageCanvas({
+    projection,
+    ratio: 1,
+    interpolate: true,
+    canvasFunction: (extent, resolution, _ratio, size) => {
+      const [x0 = 0, , , y1 = 0] = extent;
+      const canvas = document.createElement("canvas");
+      canvas.width = Math.ceil(size[0] ?? 1);
+      canvas.height = Math.ceil(size[1] ?? 1);
+      const perUnit = (size[0] ?? 1) / ((extent[2] ?? 1) - x0);
+      const context = canvas.getContext("2d");
+      if (context) context.imageSmoothingQuality = resolution > 0 ? "medium" : "low";
+      context?.drawImage(picture, (all[0] - x0) * perUnit, (y1 - all[3]) * perUnit, (all[2] - all[0]) * perUnit, (all[3] - all[1]) * perUnit);
+      return canvas;
+    },
+  });
+}
+
+/** The picture of the factory that all pages share. Layers from the bottom: drawing, walls, routes, sketch; above them what moves. */
 export class FactoryMap {
   readonly map: OlMap;
   readonly walls = new VectorSource();
+  private readonly seen = new VectorSource();
   readonly routes = new VectorSource();
   /** for what a page draws itself */
   readonly sketch = new VectorSource();
-  private readonly live = new VectorSource();
-  private readonly drawing = new ImageLayer({ opacity: 0.35 });
-  private readonly points = pointLayer();
+  readonly live: LiveOverlay;
+  private readonly drawing = new ImageLayer<ImageCanvas>({ opacity: 0.45 });
   private extent: Extent = [0, 0, 10, 10];
-  following = false;
+  private drawn: { url: string; projection: Projection } | null = null;
+  private readonly unwatch: () => void;
 
   constructor(target: HTMLElement) {
-    const liveLayer = new VectorLayer({ source: this.live, style: styles.live, updateWhileInteracting: true });
+    const layer = (source: VectorSource, style: (typeof styles)["seen" | "route" | "sketch"] | typeof styles.wall) => new VectorLayer({ source, style: style as never });
     this.map = new OlMap({
       target,
       controls: [],
+      pixelRatio: 1,
       interactions: interactionDefaults({ altShiftDragRotate: false, pinchRotate: false }),
-      layers: [
-        this.drawing,
-        new VectorLayer({ source: this.walls, style: styles.wall }),
-        new VectorLayer({ source: this.routes, style: styles.route }),
-        this.points.layer,
-        liveLayer,
-        new VectorLayer({ source: this.sketch, style: styles.sketch }),
-      ],
+      layers: [this.drawing, layer(this.walls, styles.wall), layer(this.seen, styles.seen), layer(this.routes, styles.route), layer(this.sketch, styles.sketch)],
       view: new View({ projection: mapProjection([0, 0, 10, 10]), center: [5, 5], resolution: 0.1 }),
+    });
+    this.live = new LiveOverlay(this.map);
+    Object.assign(target, { olMap: this.map }); // so that a test can ask where a place is on the screen
+    this.unwatch = theme.watch(() => {
+      for (const each of this.map.getLayers().getArray()) each.changed();
+      this.showDrawing();
     });
   }
 
   dispose(): void {
+    this.unwatch();
     this.map.setTarget(undefined);
     this.map.dispose();
   }
@@ -60,32 +87,52 @@ export class FactoryMap {
     const unit = site.scale?.m_per_px ?? 1;
     this.extent = extentOf(site.drawing.width_px * unit, site.drawing.height_px * unit);
     const projection = mapProjection(this.extent);
-    this.drawing.setSource(
-      drawingUrl ? new ImageStatic({ url: drawingUrl, imageExtent: this.extent, projection, interpolate: true }) : null,
-    );
+    this.drawn = drawingUrl ? { url: drawingUrl, projection } : null;
     this.map.setView(new View({ projection, showFullExtent: true, constrainOnlyCenter: true, extent: this.extent }));
+    this.showDrawing();
     this.fit();
   }
 
+  private showDrawing(): void {
+    const wanted = this.drawn;
+    if (!wanted) return this.drawing.setSource(null);
+    void inkOf(wanted.url, palette().rgb).then(
+      (ink) => this.drawn === wanted && this.drawing.setSource(pictureSource(ink, this.extent, wanted.projection)),
+      () => undefined, // the walls are shown all the same
+    );
+  }
+
   fit(): void {
-    this.map.getView().fit(this.extent, { padding: [24, 24, 24, 24] });
+    this.map.getView().fit(this.extent, { padding: [16, 16, 16, 16] });
+  }
+
+  /** Shows the walls as large as the view allows. */
+  fitWalls(): void {
+    const extent = this.walls.getExtent();
+    if (this.walls.getFeatures().length > 0 && extent) this.map.getView().fit(extent, { padding: kRoom });
   }
 
   zoom(steps: number): void {
     const view = this.map.getView();
-    view.animate({ zoom: (view.getZoom() ?? 0) + steps, duration: 150 });
+    view.animate({ zoom: (view.getZoom() ?? 0) + steps, duration: 120 });
   }
 
-  /** x1, y1, x2, y2, reliability (-1 unknown) */
+  /** x1, y1, x2, y2, whatever follows is left alone */
   showWalls(walls: readonly number[][]): void {
     this.walls.clear(true);
-    this.walls.addFeatures(
-      walls.map(([x1 = 0, y1 = 0, x2 = 0, y2 = 0, reliability = -1], index) => {
-        const feature = new Feature(new LineString([[x1, y1], [x2, y2]]));
-        feature.setProperties({ reliability, index });
-        return feature;
-      }),
-    );
+    this.walls.addFeatures(walls.map(([x1 = 0, y1 = 0, x2 = 0, y2 = 0]) => new Feature(new LineString([[x1, y1], [x2, y2]]))));
+  }
+
+  /** What the lidar has seen of the walls, over them; pieces that it never saw stay as they are. */
+  showSeen(pieces: readonly WallPiece[]): void {
+    this.seen.clear(true);
+    for (const { segment, state, share } of pieces) {
+      if (state === "unseen") continue;
+      const [x1 = 0, y1 = 0, x2 = 0, y2 = 0] = segment;
+      const feature = new Feature(new LineString([[x1, y1], [x2, y2]]));
+      feature.setProperties({ state, share });
+      this.seen.addFeature(feature);
+    }
   }
 
   showRoutes(routes: Pick<Routes, "nodes" | "legs">, chosen: readonly number[] = []): void {
@@ -106,26 +153,5 @@ export class FactoryMap {
       feature.setProperties({ kind: "node", node, chosen: chosen.includes(node.id) });
       this.routes.addFeature(feature);
     }
-  }
-
-  showLive(state: Live, scan: Float32Array, vehicle: VehicleInfo): void {
-    this.points.show(scan);
-    this.live.clear(true);
-    const add = (kind: string, geometry: LineString | Polygon | Point) => {
-      const feature = new Feature(geometry);
-      feature.set("kind", kind);
-      feature.set("health", state.pose.health);
-      this.live.addFeature(feature);
-    };
-    if (state.path.length > 1) add("path", new LineString(state.path));
-    for (const point of state.blocked) add("blocked", new Point(point));
-    for (const particle of state.particles) add("particle", new Point([particle[0] ?? 0, particle[1] ?? 0]));
-    const { x, y, covariance } = state.pose;
-    add("uncertainty", new Polygon([ellipseRing([x, y], covariance, 2)]));
-    add("vehicle", new Polygon([footprint(state.pose, vehicle)]));
-    add("marker", new Point([x, y]));
-    this.live.getFeatures().at(-1)?.set("yaw", state.pose.yaw);
-    if (this.following) this.map.getView().setCenter([x, y]);
-    this.map.render();
   }
 }

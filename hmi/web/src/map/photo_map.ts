@@ -5,57 +5,108 @@ import { Point } from "ol/geom";
 import { defaults as interactionDefaults } from "ol/interaction";
 import TileLayer from "ol/layer/Tile";
 import VectorLayer from "ol/layer/Vector";
-import { fromLonLat, toLonLat } from "ol/proj";
 import VectorSource from "ol/source/Vector";
 import XYZ from "ol/source/XYZ";
 import type { TileInfo } from "../api_types";
+import { inkOf } from "./drawing_image";
+import type { XY } from "./geometry";
+import { fromLatLon, tileMiddle, tileResolution } from "./mercator";
+import type { Similarity } from "./similarity";
 import { sketch } from "./styles";
+import { theme } from "./theme";
 
-/** The middle of tile x, y at a zoom, degrees (Web Mercator). */
-export function tileMiddle(zoom: number, x: number, y: number): { latitude: number; longitude: number } {
-  const n = 2 ** zoom;
-  const latitude = (180 / Math.PI) * Math.atan(Math.sinh(Math.PI * (1 - (2 * (y + 0.5)) / n)));
-  return { latitude, longitude: ((x + 0.5) / n) * 360 - 180 };
-}
+/** Seen on roofs, grass and asphalt alike. */
+const kOverlayInk = [255, 235, 59] as const;
 
-/** The aerial photographs that were saved with the site. */
+/** The aerial photographs that were saved with the site, and the drawing laid over them. Web Mercator. */
 export class PhotoMap {
   readonly map: OlMap;
   private readonly marks = new VectorSource();
+  private readonly canvas = document.createElement("canvas");
+  private ink: HTMLCanvasElement | null = null;
+  private width_px = 1;
+  private placed: Similarity | null = null;
+  private readonly unwatch: () => void;
 
-  constructor(target: HTMLElement, info: TileInfo, tapped: (latitude: number, longitude: number) => void) {
-    const source = new XYZ({
-      url: "/api/site/tiles/{z}/{x}/{y}",
-      minZoom: info.zoom,
-      maxZoom: info.zoom,
-      attributions: info.attribution,
-    });
-    const middle = info.tiles[Math.floor(info.tiles.length / 2)] ?? [0, 0];
-    const { latitude, longitude } = tileMiddle(info.zoom, middle[0] ?? 0, middle[1] ?? 0);
+  constructor(target: HTMLElement, private readonly info: TileInfo) {
+    const source = new XYZ({ url: "/api/site/tiles/{z}/{x}/{y}", minZoom: info.zoom, maxZoom: info.zoom, tileSize: info.tile_px, transition: 0 });
+    const view = new View({ minResolution: this.nativeResolution / 64, maxResolution: this.nativeResolution * 8, constrainResolution: false });
     this.map = new OlMap({
       target,
       controls: [],
+      pixelRatio: 1,
       interactions: interactionDefaults({ altShiftDragRotate: false, pinchRotate: false }),
       layers: [new TileLayer({ source }), new VectorLayer({ source: this.marks, style: sketch })],
-      view: new View({ center: fromLonLat([longitude, latitude]), zoom: info.zoom, minZoom: info.zoom - 2, maxZoom: info.zoom + 5 }),
+      view,
     });
-    this.map.on("click", (event) => {
-      const [lon = 0, lat = 0] = toLonLat(event.coordinate);
-      tapped(lat, lon);
-    });
+    view.setCenter(this.middle);
+    view.setResolution(this.nativeResolution);
+    this.canvas.className = "live-overlay";
+    (this.map.getViewport() as HTMLElement).append(this.canvas);
+    this.map.on("postrender", () => this.draw());
+    Object.assign(target, { olMap: this.map }); // so that a test can ask where a place is on the screen
+    this.unwatch = theme.watch(() => this.marks.changed());
+  }
+
+  dispose(): void {
+    this.unwatch();
+    this.map.setTarget(undefined);
+    this.map.dispose();
+  }
+
+  get nativeResolution(): number {
+    return tileResolution(this.info.zoom, this.info.tile_px);
+  }
+
+  get middle(): XY {
+    const { latitude_deg, longitude_deg, tiles, zoom } = this.info;
+    if (typeof latitude_deg === "number" && typeof longitude_deg === "number") return fromLatLon(latitude_deg, longitude_deg);
+    const [x = 0, y = 0] = tiles[Math.floor(tiles.length / 2)] ?? [];
+    const { latitude, longitude } = tileMiddle(zoom, x, y);
+    return fromLatLon(latitude, longitude);
+  }
+
+  zoom(steps: number): void {
+    const view = this.map.getView();
+    view.animate({ resolution: (view.getResolution() ?? 1) / 2 ** steps, duration: 120 });
   }
 
   show(points: readonly { latitude: number; longitude: number; label: string; outlier: boolean }[]): void {
     this.marks.clear(true);
     for (const { latitude, longitude, label, outlier } of points) {
-      const feature = new Feature(new Point(fromLonLat([longitude, latitude])));
+      const feature = new Feature(new Point(fromLatLon(latitude, longitude)));
       feature.setProperties({ label, outlier });
       this.marks.addFeature(feature);
     }
   }
 
-  dispose(): void {
-    this.map.setTarget(undefined);
-    this.map.dispose();
+  async loadDrawing(url: string, width_px: number): Promise<void> {
+    this.ink = await inkOf(url, kOverlayInk);
+    this.width_px = width_px;
+    this.map.render();
+  }
+
+  /** Takes (u, -v) of the drawing to Mercator metres. */
+  place(placed: Similarity): void {
+    this.placed = placed;
+    this.draw();
+  }
+
+  private draw(): void {
+    const [width = 0, height = 0] = this.map.getSize() ?? [];
+    if (this.canvas.width !== width) this.canvas.width = width;
+    if (this.canvas.height !== height) this.canvas.height = height;
+    const context = this.canvas.getContext("2d");
+    const [cx = 0, cy = 0] = this.map.getView().getCenter() ?? [];
+    const resolution = this.map.getView().getResolution() ?? 1;
+    context?.setTransform(1, 0, 0, 1, 0, 0);
+    context?.clearRect(0, 0, width, height);
+    if (!context || !this.ink || !this.placed) return;
+    const { a, b, tx, ty } = this.placed;
+    const k = this.width_px / this.ink.width / resolution;
+    context.setTransform(a * k, -b * k, b * k, a * k, (tx - cx) / resolution + width / 2, (cy - ty) / resolution + height / 2);
+    context.fillStyle = "rgba(0, 0, 0, 0.35)";
+    context.fillRect(0, 0, this.ink.width, this.ink.height);
+    context.drawImage(this.ink, 0, 0);
   }
 }

@@ -1,57 +1,74 @@
+import { useState } from "preact/hooks";
 import { api } from "../api";
+import type { Event, Session } from "../api_types";
 import { noticeText, useText } from "../i18n";
 import { usePolled } from "../store";
 import { Icon } from "../ui/icon";
+import { Stale } from "../ui/stale";
+import { Tabs, type Tab } from "../ui/tabs";
+import { Tool } from "../ui/tool";
+
+type TabName = "events" | "statistics" | "files";
+
+function EventRow({ event }: { event: Event }) {
+  const t = useText();
+  const bad = event.severity !== "info";
+  return (
+    <li class={bad ? "bad" : ""}>
+      <time dateTime={new Date(event.stamp * 1000).toISOString()}>{new Date(event.stamp * 1000).toLocaleString()}</time>
+      <span>
+        {bad && <><Icon name="warning" /><span class="unseen">{t(event.severity === "stop" ? "history.stop" : "history.warning")}</span></>} {noticeText(t, "cause", event.what)}
+        {event.remedy.text !== "" && <small>{t("history.remedy", { remedy: noticeText(t, "remedy", event.remedy) })}</small>}
+      </span>
+    </li>
+  );
+}
 
 function Events() {
   const t = useText();
-  const { value } = usePolled(api.events, 2000);
+  const [only, setOnly] = useState(false);
+  const { value, age_s } = usePolled(api.events, 2000);
+  const shown = (value ?? []).filter((event) => !only || event.severity !== "info");
   return (
-    <section class="card grow">
-      <h2>{t("history.events")}</h2>
-      {(value ?? []).length === 0 && <p class="quiet">{t("history.none")}</p>}
-      <ol class="events">
-        {(value ?? []).map((event, index) => (
-          <li key={index} class={event.severity === "info" ? "" : "bad"}>
-            <time>{new Date(event.stamp * 1000).toLocaleString()}</time>
-            <span>
-              {event.severity !== "info" && <Icon name="warning" />} {noticeText(t, "cause", event.what)}
-              {event.remedy.text !== "" && <small>{t("history.remedy", { remedy: noticeText(t, "remedy", event.remedy) })}</small>}
-            </span>
-          </li>
-        ))}
-      </ol>
+    <section class="grow">
+      <div class="buttons">
+        <Tool icon="list" label={t("history.all")} pressed={!only} onClick={() => setOnly(false)} />
+        <Tool icon="warning" label={t("history.only_stops")} pressed={only} onClick={() => setOnly(true)} />
+      </div>
+      <Stale age={age_s} limit={5} />
+      {shown.length === 0 && <p class="quiet">{t("history.none")}</p>}
+      <ol class="events">{shown.map((event, index) => <EventRow key={`${event.stamp} ${index}`} event={event} />)}</ol>
     </section>
   );
 }
 
-function Statistics() {
+const hours = (seconds: number) => `${Math.floor(seconds / 3600)}:${String(Math.floor(seconds / 60) % 60).padStart(2, "0")}`;
+
+function StatisticsCard() {
   const t = useText();
-  const { value } = usePolled(api.statistics, 5000);
-  if (!value) return null;
+  const { value, age_s } = usePolled(api.statistics, 3000);
+  if (!value) return <p class="quiet">{t("history.none")}</p>;
+  const stops = value.stops ?? [];
+  const most = Math.max(1, ...stops.map((stop) => stop.seconds));
+  const figure = (name: string, text: string) => <div class="figure-box"><dt>{name}</dt><dd>{text}</dd></div>;
   return (
-    <section class="card">
-      <h2>{t("history.statistics")}</h2>
-      <dl class="gauges">
-        <div class="gauge"><dt>{t("history.deliveries")}</dt><dd>{value.deliveries}</dd></div>
+    <section class="grow">
+      <Stale age={age_s} limit={8} />
+      <dl class="figures">
+        {figure(t("history.deliveries"), String(value.deliveries))}
+        {figure(t("history.distance"), t("unit.km", { value: ((value.distance_m ?? 0) / 1000).toFixed(2) }))}
+        {figure(t("history.driving"), t("unit.hours", { value: hours(value.driving_s ?? 0) }))}
+        {figure(t("history.standing"), t("unit.hours", { value: hours(value.standing_s ?? 0) }))}
       </dl>
-    </section>
-  );
-}
-
-function Recordings() {
-  const t = useText();
-  const { value } = usePolled(api.recordings, 10_000);
-  return (
-    <section class="card">
-      <h2>{t("history.recordings")}</h2>
-      {(value ?? []).length === 0 && <p class="quiet">{t("history.none")}</p>}
-      <ul class="files">
-        {(value ?? []).map((file) => (
-          <li key={file.name}>
-            <a class="target" href={`/api/recordings/${encodeURIComponent(file.name)}`} download={file.name}>
-              {file.name} <small>{(file.bytes / 1e6).toFixed(1)} MB</small>
-            </a>
+      {value.since !== null && value.since > 0 && <p class="quiet">{t("history.since", { date: new Date(value.since * 1000).toLocaleDateString() })}</p>}
+      <h2>{t("history.stops")}</h2>
+      {stops.length === 0 && <p class="quiet">{t("history.none")}</p>}
+      <ul class="bars">
+        {stops.map((stop) => (
+          <li key={stop.cause.code + stop.cause.text}>
+            <span>{noticeText(t, "cause", stop.cause)}</span>
+            <meter min={0} max={most} value={stop.seconds} aria-label={noticeText(t, "cause", stop.cause)} />
+            <span class="quiet">{t("history.times", { count: stop.count, minutes: (stop.seconds / 60).toFixed(1) })}</span>
           </li>
         ))}
       </ul>
@@ -59,14 +76,43 @@ function Recordings() {
   );
 }
 
-export function HistoryPage() {
+function Files({ may }: { may: boolean }) {
+  const t = useText();
+  const { value, age_s } = usePolled(api.recordings, 5000);
+  const link = (href: string, name: string, words: string, size: string) => (
+    <li key={href}><a class="target row" href={href} download={name}><Icon name="download" /><span><strong>{words}</strong><small>{size}</small></span></a></li>
+  );
+  if (!may) return <p class="quiet">{t("history.needs_operator")}</p>;
   return (
-    <main class="page columns">
-      <Events />
-      <aside>
-        <Statistics />
-        <Recordings />
-      </aside>
+    <section class="grow">
+      <Stale age={age_s} limit={12} />
+      <h2>{t("history.site")}</h2>
+      <ul class="files">{link("/api/site/download", "site.tar", t("history.site.download"), t("history.site.what"))}</ul>
+      <h2>{t("history.recordings")}</h2>
+      {(value ?? []).length === 0 && <p class="quiet">{t("history.none")}</p>}
+      <ul class="files">
+        {(value ?? []).map((file) => link(`/api/recordings/${encodeURIComponent(file.name)}`, `${file.name}.tar`, file.name, t("unit.mb", { value: (file.bytes / 1e6).toFixed(1) })))}
+      </ul>
+    </section>
+  );
+}
+
+/** Look back: what happened, how much was done, and files to take away. */
+export function HistoryPage({ role }: { role: Session["role"] }) {
+  const t = useText();
+  const [tab, setTab] = useState<TabName>("events");
+  const tabs: Tab<TabName>[] = [
+    { name: "events", icon: "list", label: t("history.events") },
+    { name: "statistics", icon: "chart", label: t("history.statistics") },
+    { name: "files", icon: "download", label: t("history.files") },
+  ];
+  return (
+    <main class="page history">
+      <Tabs label={t("nav.history")} tabs={tabs} shown={tab} choose={setTab}>
+        {tab === "events" && <Events />}
+        {tab === "statistics" && <StatisticsCard />}
+        {tab === "files" && <Files may={role === "operator" || role === "integrator"} />}
+      </Tabs>
     </main>
   );
 }

@@ -7,26 +7,24 @@ import { attempt } from "./toast";
 
 type CommandName = "start" | "pause" | "resume" | "stop" | "confirm";
 
-/** Start, Pause, Resume and Stop: the same place on every page, never hidden, never disabled while they may matter. */
-export function CommandBar() {
+/** Start (or Confirm), Pause, Resume and Stop: the same place on every page, never hidden; Stop is never disabled. */
+export function CommandBar({ role }: { role: string }) {
   const t = useText();
-  const frame = useStore(live.newest);
-  const state = frame?.live.state ?? "idle";
+  const state = useStore(live.newest)?.live.state ?? "";
+  if (role === "viewer") return <footer class="command-bar"><p class="quiet">{t("command.viewer")}</p></footer>;
   const button = (name: CommandName, icon: IconName, useful: boolean) => (
-    <button class={`target command ${name}`} disabled={!useful} onClick={() => void attempt(() => api.command(name))}>
+    <button type="button" class={`target command ${name}`} disabled={!useful} onClick={() => void attempt(() => api.command(name))}>
       <Icon name={icon} />
       <span>{t(`command.${name}`)}</span>
     </button>
   );
-  const paused = state === "paused";
-  const standing = state === "idle" || paused;
+  const moving = ["driving", "detouring", "waiting", "localizing", "idle"].includes(state);
+  const held = state === "emergency_stop" || state === "fault";
   return (
     <footer class="command-bar">
-      {state === "emergency_stop" || state === "fault"
-        ? button("confirm", "good", true)
-        : button("start", "start", standing && !paused)}
-      {button("pause", "pause", !standing)}
-      {button("resume", "start", paused)}
+      {held ? button("confirm", "good", true) : button("start", "start", state === "paused" || state === "idle")}
+      {button("pause", "pause", moving)}
+      {button("resume", "resume", state === "paused" || state === "manual")}
       {button("stop", "stop", true)}
     </footer>
   );

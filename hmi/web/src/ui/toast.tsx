@@ -1,17 +1,19 @@
 import { Refused } from "../api";
 import { noticeText, useText } from "../i18n";
 import { Store, useStore } from "../store";
+import { Icon } from "./icon";
 
 interface Message {
   code: string;
   text: string;
+  values: Record<string, string>;
 }
 const message = new Store<Message | null>(null);
 let timer = 0;
 
 /** Shows a refusal until it is tapped away, or for ten seconds. */
-export function tell(code: string, text: string): void {
-  message.set({ code, text });
+export function tell(code: string, text: string, values: Record<string, string> = {}): void {
+  message.set({ code, text, values });
   clearTimeout(timer);
   timer = window.setTimeout(() => message.set(null), 10_000);
 }
@@ -22,7 +24,7 @@ export async function attempt(action: () => Promise<unknown>): Promise<boolean> 
     await action();
     return true;
   } catch (error) {
-    if (error instanceof Refused) tell(error.code, error.message);
+    if (error instanceof Refused) tell(error.code, error.message, error.values);
     else tell("internal", String(error));
     return false;
   }
@@ -34,8 +36,8 @@ export function Toast() {
   return (
     <div role="alert" aria-live="assertive">
       {shown && (
-        <button class="toast target" onClick={() => message.set(null)}>
-          {noticeText(t, "error", { ...shown, values: {} })}
+        <button type="button" class="toast target" onClick={() => message.set(null)}>
+          <span><Icon name="warning" /> {noticeText(t, "error", shown)}</span>
         </button>
       )}
     </div>

@@ -5,63 +5,29 @@ import { api } from "../../api";
 import type { Job, Site, Walls } from "../../api_types";
 import { useText } from "../../i18n";
 import type { FactoryMap } from "../../map/factory_map";
-import { distanceToSegment, type XY } from "../../map/geometry";
+import type { XY } from "../../map/geometry";
 import { MapView } from "../../map/map_view";
+import { pickOn } from "../../map/pick";
+import { corners } from "../../map/snap";
 import { EditBar } from "../../ui/edit_bar";
-import { attempt, tell } from "../../ui/toast";
+import type { IconName } from "../../ui/icon";
+import { Tool } from "../../ui/tool";
+import { Upload } from "./upload";
 import { useEdit } from "./use_edit";
+import { addWall, eraseAt, eraseInside, totalLength, type WallRow } from "./wall_edit";
 
-type Tool = "look" | "erase" | "add";
-const REACH_PX = 24;
+type ToolName = "look" | "erase" | "area" | "add";
+const kReach_px = 24;
 
-function Upload({ done }: { done: () => void }) {
-  const t = useText();
-  const [job, setJob] = useState<Job | null>(null);
-  const input = useRef<HTMLInputElement>(null);
-  const follow = async () => {
-    for (;;) {
-      const state = await api.job();
-      setJob(state);
-      if (!state.running) {
-        setJob(null);
-        if (state.error !== "") tell("import", state.error);
-        else done();
-        return;
-      }
-      await new Promise((resolve) => setTimeout(resolve, 300));
-    }
-  };
-  const take = (file: File | undefined) => {
-    if (file) void attempt(() => api.uploadDrawing(file)).then((started) => (started ? follow() : undefined));
-  };
-  if (job) {
-    return (
-      <section class="card" aria-live="polite">
-        <p>{t("drawing.working", { stage: job.stage })}</p>
-        <progress value={job.share} max={1} aria-label={job.stage} />
-      </section>
-    );
-  }
-  return (
-    <section class="card drop" onDragOver={(event) => event.preventDefault()}
-      onDrop={(event) => { event.preventDefault(); take(event.dataTransfer?.files[0]); }}>
-      <p>{t("drawing.hint")}</p>
-      <input ref={input} type="file" hidden accept=".dxf,.pdf,.png,.jpg,.jpeg,.tif,.tiff,.bmp,.svg"
-        onChange={(event) => take(event.currentTarget.files?.[0])} />
-      <button class="target primary wide" onClick={() => input.current?.click()}>{t("drawing.choose")}</button>
-    </section>
-  );
+interface StepProps {
+  site: Site;
+  walls: Walls;
+  changed: () => void;
+  next: () => void;
 }
 
-const lengthOf = (walls: readonly number[][]) =>
-  walls.reduce((sum, [x1 = 0, y1 = 0, x2 = 0, y2 = 0]) => sum + Math.hypot(x2 - x1, y2 - y1), 0);
-
-function WallEditor({ site, walls, changed }: { site: Site; walls: Walls; changed: () => void }) {
-  const t = useText();
-  const [tool, setTool] = useState<Tool>("look");
-  const map = useRef<FactoryMap | null>(null);
-  const first = useRef<XY | null>(null);
-  const edit = useEdit<number[][]>({
+function useWalls(site: Site, walls: Walls) {
+  return useEdit<WallRow[]>({
     site: site.name,
     kind: "walls",
     loaded: { revision: walls.revision, value: walls.walls },
@@ -71,65 +37,101 @@ function WallEditor({ site, walls, changed }: { site: Site; walls: Walls; change
       return { revision: theirs.revision, value: theirs.walls };
     },
   });
-  const current = useRef({ tool, edit });
-  current.current = { tool, edit };
-  useEffect(() => map.current?.showWalls(edit.value), [edit.value]);
+}
 
-  const tap = (at: XY, resolution: number) => {
-    const { tool: chosen, edit: now } = current.current;
+function Report({ report }: { report: NonNullable<Job["report"]> }) {
+  const t = useText();
+  const { walls, rejected, skew_deg, notes } = report;
+  return (
+    <div class="report" role="status">
+      <p>{t("drawing.report", { walls, rejected, skew: skew_deg.toFixed(1) })}</p>
+      {notes.map((note) => <p key={note} class="quiet">{note}</p>)}
+    </div>
+  );
+}
+
+function WallEditor({ site, walls, changed, next, report }: StepProps & { report: Job["report"] }) {
+  const t = useText();
+  const [tool, setTool] = useState<ToolName>("look");
+  const map = useRef<FactoryMap | null>(null);
+  const first = useRef<XY | null>(null);
+  const edit = useWalls(site, walls);
+  const now = useRef({ tool, edit, snaps: [] as XY[] });
+  now.current.tool = tool;
+  now.current.edit = edit;
+  useEffect(() => {
+    map.current?.showWalls(edit.value);
+    now.current.snaps = corners(edit.value, 8 * (site.scale?.m_per_px ?? 1));
+  }, [edit.value]);
+  const begin = (at: XY | null) => {
+    first.current = at;
+    map.current?.sketch.clear();
+    if (at) map.current?.sketch.addFeature(new Feature(new Point(at)));
+  };
+  const picked = (at: XY, resolution: number) => {
+    const { tool: chosen, edit: current } = now.current;
+    const from = first.current;
     if (chosen === "erase") {
-      const distances = now.value.map((wall) => distanceToSegment(at, wall));
-      const nearest = distances.indexOf(Math.min(...distances));
-      if ((distances[nearest] ?? Infinity) <= REACH_PX * resolution) now.change(now.value.filter((_, i) => i !== nearest));
-    } else if (chosen === "add") {
-      if (first.current === null) {
-        first.current = at;
-        map.current?.sketch.addFeature(new Feature(new Point(at)));
-      } else {
-        now.change([...now.value, [...first.current, ...at, -1]]);
-        first.current = null;
-        map.current?.sketch.clear();
-      }
+      const left = eraseAt(current.value, at, kReach_px * resolution);
+      if (left.length !== current.value.length) current.change(left);
+    } else if (!from) {
+      begin(at);
+    } else {
+      current.change(chosen === "add" ? addWall(current.value, from, at) : eraseInside(current.value, from, at));
+      begin(null);
     }
   };
   const ready = (made: FactoryMap) => {
     map.current = made;
     made.showSite(site, api.drawingUrl(site.walls_revision));
     made.showWalls(edit.value);
-    made.map.on("click", (event) => tap(event.coordinate as XY, made.map.getView().getResolution() ?? 1));
+    return pickOn(made.map, {
+      picked,
+      corners: () => (now.current.tool === "add" ? now.current.snaps : []),
+      active: () => now.current.tool !== "look",
+    });
   };
-  const choose = (name: Tool, label: string) => (
-    <button class="target" aria-pressed={tool === name} onClick={() => { first.current = null; map.current?.sketch.clear(); setTool(name); }}>{label}</button>
+  const choose = (name: ToolName, icon: IconName, label: string) => (
+    <Tool icon={icon} label={label} pressed={tool === name} onClick={() => { begin(null); setTool(name); }} />
   );
+  const length = totalLength(edit.value).toFixed(0);
   return (
     <>
       <MapView ready={ready} />
       <aside>
-        <section class="card">
-          <p>{t("drawing.found", { walls: edit.value.length, length: `${lengthOf(edit.value).toFixed(0)} ${site.scale ? "m" : "px"}` })}</p>
-          <div class="buttons">
-            {choose("look", t("drawing.look"))}
-            {choose("erase", t("drawing.erase"))}
-            {choose("add", t("drawing.add"))}
-          </div>
-        </section>
-        <EditBar edit={edit} saved={changed} />
-        <Upload done={changed} />
+        <p class="facts">{t("drawing.found", { walls: edit.value.length })}<br />{t(site.scale ? "drawing.length.m" : "drawing.length.px", { length })}</p>
+        {report && <Report report={report} />}
+        <div class="buttons" role="group" aria-label={t("drawing.tools")}>
+          {choose("look", "move", t("drawing.look"))}
+          {choose("erase", "erase", t("drawing.erase"))}
+          {choose("area", "select", t("drawing.area"))}
+          {choose("add", "pen", t("drawing.add"))}
+          <Upload first={false} done={changed} />
+        </div>
+        <p class="quiet">{t(`drawing.hint.${tool}`)}</p>
+        <span class="spring" />
+        <EditBar edit={edit} kind="walls" next={() => { changed(); next(); }} />
       </aside>
     </>
   );
 }
 
 /** Step 1: a drawing file becomes walls, which a person may mend. */
-export function DrawingStep({ site, walls, changed }: { site: Site; walls: Walls; changed: () => void }) {
+export function DrawingStep(props: StepProps) {
   const t = useText();
+  const { site, changed } = props;
+  const [job, setJob] = useState<Job | null>(null);
+  const done = (finished: Job) => {
+    setJob(finished);
+    changed();
+  };
   if (!site.drawing) {
     return (
       <div class="centre">
         <h2>{t("drawing.none")}</h2>
-        <Upload done={changed} />
+        <Upload first done={done} />
       </div>
     );
   }
-  return <WallEditor key={site.drawing.file + site.drawing.width_px} site={site} walls={walls} changed={changed} />;
+  return <WallEditor key={site.drawing.file + site.drawing.width_px} {...props} report={job?.report ?? null} />;
 }

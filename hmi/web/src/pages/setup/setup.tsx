@@ -1,41 +1,75 @@
 import { useState } from "preact/hooks";
-import type { Routes, Site, Walls } from "../../api_types";
-import { useText } from "../../i18n";
-import type { TextKey } from "../../i18n/en";
+import { api } from "../../api";
+import type { Routes, Setup, Site, Walls } from "../../api_types";
+import { noticeText, useText } from "../../i18n";
+import { live } from "../../live/live_socket";
+import { usePolled, useStore } from "../../store";
+import { Icon } from "../../ui/icon";
 import { DrawingStep } from "./drawing_step";
+import { LocateStep } from "./locate_step";
 import { RoutesStep } from "./routes_step";
 import { ScaleStep } from "./scale_step";
 import { VehicleStep } from "./vehicle_step";
 
-const steps = ["drawing", "scale", "routes", "vehicle"] as const;
+const steps = ["drawing", "scale", "routes", "vehicle", "locate"] as const;
 type Step = (typeof steps)[number];
 
 /** Where a person who comes back goes on. */
 function firstOpen(site: Site, routes: Routes): Step {
   if (!site.drawing) return "drawing";
   if (!site.scale) return "scale";
-  return routes.nodes.length === 0 ? "routes" : "vehicle";
+  if (routes.nodes.length === 0) return "routes";
+  return site.sensors.length === 0 ? "vehicle" : "locate";
 }
 
-export function SetupPage(props: { site: Site; walls: Walls; routes: Routes; changed: () => void }) {
+function isOpen(step: Step, site: Site): boolean {
+  if (step === "drawing" || step === "vehicle") return true;
+  return site.drawing !== null && (step === "scale" || site.scale !== null);
+}
+
+function StepBar({ shown, site, setup, choose }: { shown: Step; site: Site; setup: Setup | null; choose: (step: Step) => void }) {
   const t = useText();
-  const { site, walls, routes, changed } = props;
+  return (
+    <nav class="steps" aria-label={t("nav.setup")}>
+      {steps.map((name, i) => {
+        const done = setup?.steps.find((step) => step.name === name)?.done ?? false;
+        return (
+          <button key={name} type="button" class="target" aria-current={name === shown ? "step" : undefined} disabled={!isOpen(name, site)} onClick={() => choose(name)}>
+            {done ? <Icon name="good" /> : <b>{i + 1}</b>}
+            <span>{t(`setup.${name}`)}</span>
+            {done && <span class="unseen">{t("setup.done")}</span>}
+          </button>
+        );
+      })}
+    </nav>
+  );
+}
+
+interface Props {
+  site: Site;
+  walls: Walls;
+  routes: Routes;
+  changed: () => void;
+  finished: () => void;
+}
+
+/** The five steps; they can be left and resumed, also on another panel. */
+export function SetupPage({ site, walls, routes, changed, finished }: Props) {
+  const t = useText();
   const [step, setStep] = useState<Step>(firstOpen(site, routes));
-  const open = (name: Step) => name === "drawing" || (site.drawing !== null && (name === "scale" || site.scale !== null));
+  const { value: setup } = usePolled(api.setup, 2000);
+  const locked = useStore(live.newest)?.live.locked;
+  const next = () => setStep(steps[steps.indexOf(step) + 1] ?? "locate");
   return (
     <main class="page">
-      <nav class="steps" aria-label={t("nav.setup")}>
-        {steps.map((name, i) => (
-          <button key={name} class="target" aria-current={name === step ? "step" : undefined} disabled={!open(name)} onClick={() => setStep(name)}>
-            <b>{i + 1}</b> {t(`setup.${name}` as TextKey)}
-          </button>
-        ))}
-      </nav>
+      <StepBar shown={step} site={site} setup={setup} choose={setStep} />
+      {locked && locked.text !== "" && <p class="caution locked" role="status"><Icon name="warning" /> {noticeText(t, "error", locked)}</p>}
       <div class="with-map step" key={step}>
-        {step === "drawing" && <DrawingStep site={site} walls={walls} changed={changed} />}
-        {step === "scale" && <ScaleStep key={site.scale?.m_per_px} site={site} walls={walls} changed={changed} />}
-        {step === "routes" && <RoutesStep site={site} walls={walls} routes={routes} changed={changed} />}
-        {step === "vehicle" && <VehicleStep site={site} />}
+        {step === "drawing" && <DrawingStep site={site} walls={walls} changed={changed} next={next} />}
+        {step === "scale" && <ScaleStep key={site.scale?.m_per_px} site={site} walls={walls} changed={changed} next={next} />}
+        {step === "routes" && <RoutesStep key={site.scale?.m_per_px} site={site} walls={walls} routes={routes} changed={changed} next={next} />}
+        {step === "vehicle" && <VehicleStep site={site} changed={changed} next={next} />}
+        {step === "locate" && <LocateStep key={walls.revision} site={site} walls={walls} finished={finished} />}
       </div>
     </main>
   );

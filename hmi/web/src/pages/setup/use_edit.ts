@@ -2,6 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { Refused } from "../../api";
 import { dropDraft, keepDraft, loadDraft } from "../../drafts";
 import { EditHistory } from "../../edit_history";
+import { live, type Editing } from "../../live/live_socket";
 import { tell } from "../../ui/toast";
 
 export interface Edit<T> {
@@ -20,7 +21,7 @@ export interface Edit<T> {
 
 interface Source<T> {
   site: string;
-  kind: string;
+  kind: Exclude<Editing, "">;
   loaded: { revision: string; value: T };
   save: (revision: string, value: T) => Promise<{ revision: string }>;
   reload: () => Promise<{ revision: string; value: T }>;
@@ -39,9 +40,18 @@ export function useEdit<T>(source: Source<T>): Edit<T> {
     setUnsaved(true);
     redraw((n) => n + 1);
   };
+  // Somebody else saved, also from the command line: taken over where nothing is unsaved here, else the person decides.
   useEffect(() => {
-    if (draft.current && draft.current.revision !== source.loaded.revision) setConflict(true);
+    if (source.loaded.revision === revision.current) return;
+    if (unsaved) return setConflict(true);
+    history.current = new EditHistory(source.loaded.value);
+    revision.current = source.loaded.revision;
+    redraw((n) => n + 1);
   }, [source.loaded.revision]);
+  useEffect(() => {
+    live.editing(unsaved ? source.kind : "");
+  }, [unsaved]);
+  useEffect(() => () => live.editing(""), []);
 
   const saveAs = async (base: string): Promise<boolean> => {
     try {

@@ -1,35 +1,122 @@
-import type { Site } from "../../api_types";
-import { useText } from "../../i18n";
+import { useState } from "preact/hooks";
+import { api } from "../../api";
+import type { FoundDevice, SensorInfo, Site, VehicleInfo } from "../../api_types";
+import { noticeText, useText } from "../../i18n";
+import type { TextKey } from "../../i18n/en";
 import { live } from "../../live/live_socket";
-import { useStore } from "../../store";
+import { usePolled, useStore } from "../../store";
 import { Icon } from "../../ui/icon";
-import { StateCard } from "../../ui/state_card";
+import { NumberField } from "../../ui/number_pad";
+import { Stale } from "../../ui/stale";
+import { Tool } from "../../ui/tool";
+import { EditBar } from "../../ui/edit_bar";
+import { useEdit } from "./use_edit";
 
-/** Step 4: what is connected, live. */
-export function VehicleStep({ site }: { site: Site }) {
+interface Plan {
+  vehicle: VehicleInfo;
+  sensors: SensorInfo[];
+}
+
+type Dimension = keyof VehicleInfo;
+const dimensions: readonly [Dimension, number, number, string][] = [
+  ["length_m", 0.2, 5, "m"], ["width_m", 0.2, 3, "m"], ["height_m", 0.1, 4, "m"], ["base_to_rear_m", 0, 4, "m"],
+  ["wheel_radius_m", 0.01, 1, "m"], ["half_wheel_separation_m", 0.05, 2, "m"],
+  ["max_speed_mps", 0.05, 3, "m/s"], ["max_acceleration_mps2", 0.05, 3, "m/s²"], ["max_turn_rate_radps", 0.05, 3, "rad/s"],
+];
+const mounting: readonly ["x_m" | "y_m" | "z_m" | "yaw_deg", number, number, string][] = [
+  ["x_m", -5, 5, "m"], ["y_m", -5, 5, "m"], ["z_m", 0, 5, "m"], ["yaw_deg", -180, 180, "°"],
+];
+
+/** What is heard on the network and the serial ports; one tap mounts a sensor. */
+function Found({ plan, use }: { plan: Plan; use: (sensor: SensorInfo) => void }) {
   const t = useText();
-  const frame = useStore(live.newest);
-  const devices = frame?.live.devices ?? [];
-  const { length_m, width_m, max_speed_mps } = site.vehicle;
+  const { value, age_s } = usePolled(api.devices, 1000);
+  const devices = useStore(live.newest)?.live.devices ?? [];
+  const used = (device: FoundDevice) => plan.sensors.some((sensor) => sensor.type === device.type);
   return (
-    <div class="columns scroll">
-      <section class="card grow">
-        <h2>{t("vehicle.found")}</h2>
-        <p>{t("vehicle.size", { length: length_m, width: width_m, speed: max_speed_mps })}</p>
-        {devices.length === 0 && <p class="caution">{t("vehicle.none")}</p>}
-        <ul class="devices">
-          {devices.map((device) => (
-            <li key={device.name} class={device.healthy ? "" : "bad"}>
-              <Icon name={device.healthy ? "good" : "bad"} />
+    <section class="grow">
+      <h2>{t("vehicle.found")}</h2>
+      <Stale age={age_s} limit={3} />
+      {(value ?? []).length === 0 && <p class="caution"><Icon name="warning" /> {t("vehicle.none")}</p>}
+      <ul class="devices">
+        {(value ?? []).map((device) => {
+          const state = devices.find((one) => one.type === device.type);
+          return (
+            <li key={device.type + device.address} class={device.heard ? "" : "bad"}>
+              <Icon name={device.heard ? "good" : "bad"} />
               <span>
-                <strong>{device.name}</strong> ({device.type}) {device.healthy ? t("vehicle.good") : t("vehicle.bad")}
-                <small>{device.detail} · {t("live.stale", { age: device.age_s.toFixed(1) })}</small>
+                <strong>{t(`device.${device.type}` as TextKey)}</strong> {t(device.heard ? "vehicle.heard" : "vehicle.silent")}
+                <small>{device.address} {device.detail}</small>
+                {state && <small>{state.rate_hz !== null && t("vehicle.rate", { rate: state.rate_hz.toFixed(1) })} {noticeText(t, "device", state.detail)} <Stale age={state.age_s} /></small>}
               </span>
+              {device.sensor && (used(device)
+                ? <span class="quiet">{t("vehicle.used")}</span>
+                : <Tool icon="plus" label={t("vehicle.use")} primary onClick={() => device.sensor && use(device.sensor)} />)}
             </li>
-          ))}
-        </ul>
-      </section>
-      <aside><StateCard frame={frame} /></aside>
+          );
+        })}
+      </ul>
+    </section>
+  );
+}
+
+function Mounted({ sensor, change, remove }: { sensor: SensorInfo; change: (next: SensorInfo) => void; remove: () => void }) {
+  const t = useText();
+  return (
+    <section class="mounted">
+      <h3>{sensor.name} ({sensor.type})</h3>
+      <div class="buttons">
+        {mounting.map(([key, least, most, unit]) => (
+          <NumberField key={key} label={t(`mount.${key}`)} value={sensor[key]} unit={unit} least={least} most={most} change={(value) => change({ ...sensor, [key]: value ?? 0 })} />
+        ))}
+        <Tool icon="bin" label={t("vehicle.remove")} onClick={remove} />
+      </div>
+    </section>
+  );
+}
+
+/** Step 4: sensors and drive found and shown live; the vehicle's shape. */
+export function VehicleStep({ site, changed, next }: { site: Site; changed: () => void; next: () => void }) {
+  const t = useText();
+  const [more, setMore] = useState(false);
+  const edit = useEdit<Plan>({
+    site: site.name,
+    kind: "vehicle",
+    loaded: { revision: site.vehicle_revision, value: { vehicle: site.vehicle, sensors: site.sensors } },
+    save: (revision, value) => api.saveVehicle({ revision, ...value }),
+    reload: async () => {
+      const theirs = await api.site();
+      return { revision: theirs.vehicle_revision, value: { vehicle: theirs.vehicle, sensors: theirs.sensors } };
+    },
+  });
+  const plan = edit.value;
+  const setSensor = (at: number, next: SensorInfo | null) =>
+    edit.change({ ...plan, sensors: plan.sensors.flatMap((sensor, i) => (i !== at ? [sensor] : next ? [next] : [])) });
+  return (
+    <div class="columns">
+      <div class="grow">
+        <Found plan={plan} use={(sensor) => edit.change({ ...plan, sensors: [...plan.sensors, sensor] })} />
+        {more && (
+          <>
+            <h2>{t("vehicle.shape")}</h2>
+            <div class="buttons">
+              {dimensions.map(([key, least, most, unit]) => (
+                <NumberField key={key} label={t(`vehicle.${key}`)} value={plan.vehicle[key]} unit={unit} least={least} most={most}
+                  change={(value) => value !== null && edit.change({ ...plan, vehicle: { ...plan.vehicle, [key]: value } })} />
+              ))}
+            </div>
+            {plan.sensors.map((sensor, i) => <Mounted key={i} sensor={sensor} change={(changedSensor) => setSensor(i, changedSensor)} remove={() => setSensor(i, null)} />)}
+          </>
+        )}
+      </div>
+      <aside>
+        <p class="facts">{t("vehicle.size", { length: plan.vehicle.length_m, width: plan.vehicle.width_m, speed: plan.vehicle.max_speed_mps })}</p>
+        <ul class="facts">{plan.sensors.map((sensor) => <li key={sensor.name}>{t("vehicle.mounted", { name: sensor.name, type: sensor.type, height: sensor.z_m })}</li>)}</ul>
+        {plan.sensors.length === 0 && <p class="caution" role="status"><Icon name="warning" /> {t("vehicle.no_sensor")}</p>}
+        <div class="buttons"><Tool icon="setup" label={t("vehicle.details")} pressed={more} onClick={() => setMore(!more)} /></div>
+        <span class="spring" />
+        <EditBar edit={edit} kind="vehicle" next={() => { changed(); next(); }} />
+      </aside>
     </div>
   );
 }

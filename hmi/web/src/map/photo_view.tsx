@@ -1,0 +1,35 @@
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import type { TileInfo } from "../api_types";
+import { useText } from "../i18n";
+import { Icon } from "../ui/icon";
+import { PhotoMap } from "./photo_map";
+
+/** A PhotoMap in the page, with zoom buttons and the attribution that every showing needs. */
+export function PhotoView(props: { info: TileInfo; ready: (map: PhotoMap) => void | (() => void); children?: ComponentChildren }) {
+  const t = useText();
+  const target = useRef<HTMLDivElement>(null);
+  const map = useRef<PhotoMap | null>(null);
+  useEffect(() => {
+    if (!target.current) return undefined;
+    const made = new PhotoMap(target.current, props.info);
+    map.current = made;
+    const end = props.ready(made);
+    return () => {
+      end?.();
+      made.dispose();
+    };
+    // eslint-disable-next-line -- once for every set of tiles: the caller gives a key
+  }, []);
+  return (
+    <div class="map photo">
+      <div ref={target} class="map-canvas" role="application" aria-label={t("scale.photo")} tabIndex={0} />
+      <div class="map-tools">
+        <button type="button" class="target" aria-label={t("map.zoom_in")} onClick={() => map.current?.zoom(1)}><Icon name="plus" /></button>
+        <button type="button" class="target" aria-label={t("map.zoom_out")} onClick={() => map.current?.zoom(-1)}><Icon name="minus" /></button>
+        {props.children}
+      </div>
+      <p class="attribution">{props.info.attribution}</p>
+    </div>
+  );
+}

@@ -1,0 +1,77 @@
+// Every page, both themes, both panel sizes, both languages, before a made-up vehicle: no serious issue of axe-core, no console
+// error, targets of at least 20 mm, nothing beyond the edge of the screen; pictures on request.
+// Usage: pages_test.mjs PAGE [FOLDER_FOR_PICTURES]
+import { existsSync, mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { axeSource, expect, openBrowser, openPanel, skipUnlessInstalled } from "../../../../tests/end_to_end/panel/browser.mjs";
+import { startMadeUpVehicle } from "./made_up_vehicle.mjs";
+
+const [page, shots] = process.argv.slice(2);
+const kSizes = [{ width: 1280, height: 800, target: 118 }, { width: 1024, height: 600, target: 93 }];
+
+/** What to touch, one after the other: rail entry, tab, step; by place, for the words depend on the language. */
+const pages = [
+  ["drive", ".rail button >> nth=0", "[role=tab] >> nth=0"], ["drive-by-hand", null, "[role=tab] >> nth=1"], ["drive-replay", null, "[role=tab] >> nth=2"],
+  ["setup-1-drawing", ".rail button >> nth=1", ".steps button >> nth=0"], ["setup-2-scale", null, ".steps button >> nth=1"], ["setup-3-routes", null, ".steps button >> nth=2"],
+  ["setup-4-vehicle", null, ".steps button >> nth=3"], ["setup-5-place", null, ".steps button >> nth=4"],
+  ["history-events", ".rail button >> nth=2", "[role=tab] >> nth=0"], ["history-statistics", null, "[role=tab] >> nth=1"], ["history-downloads", null, "[role=tab] >> nth=2"],
+];
+
+async function serious(panel) {
+  return panel.page.evaluate(async () => {
+    const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
+    return violations.filter((one) => ["serious", "critical"].includes(one.impact)).map((one) => `${one.id} (${one.nodes.slice(0, 3).map((node) => `${node.target.join(" ")}: ${node.any[0]?.message ?? ""}`).join("; ")})`);
+  });
+}
+
+/** Touch targets that are smaller than 20 mm (the buttons on the map: 14 mm), or stick out of the screen. */
+async function small(panel, target) {
+  return panel.page.evaluate((least) => [...document.querySelectorAll("button, a.target, input.target")].flatMap((element) => {
+    const { width, height, left, right } = element.getBoundingClientRect();
+    if (width === 0 || element.closest("[hidden]")) return [];
+    const wanted = (element.closest(".map-tools") ? 0.7 * least : least) - 0.6;
+    const range = element.type === "range";
+    const bad = (!range && width < wanted) || height < wanted || left < -1 || right > innerWidth + 1;
+    return bad ? [`${element.textContent || element.getAttribute("aria-label")}: ${width.toFixed(0)} x ${height.toFixed(0)} at ${left.toFixed(0)}`] : [];
+  }), target);
+}
+
+async function walk(browser, address, { width, height, target }, language, theme) {
+  const panel = await openPanel(browser, address, { width, height, language, theme });
+  const problems = [];
+  await panel.page.addScriptTag({ path: axeSource() });
+  for (const [name, entry, part] of pages) {
+    if (entry) await panel.page.locator(entry).tap();
+    await panel.page.locator(part).tap();
+    const where = `${name}, ${width}x${height}, ${language}, ${theme}`;
+    for (const issue of await serious(panel)) problems.push(`${where}: ${issue}`);
+    for (const issue of await small(panel, target)) problems.push(`${where}: too small or cut off: ${issue}`);
+    if (shots) await panel.page.screenshot({ path: join(shots, `${name}-${width}x${height}-${language}-${theme}.png`) });
+  }
+  for (const error of panel.errors) problems.push(`${width}x${height}, ${language}, ${theme}: console: ${error}`);
+  await panel.context.close();
+  return problems;
+}
+
+skipUnlessInstalled();
+if (!existsSync(join(page, "index.html"))) {
+  console.log(`skipped: ${page} holds no built page (cmake --build build/release --target panel)`);
+  process.exit(77);
+}
+if (shots) mkdirSync(shots, { recursive: true });
+const vehicle = await startMadeUpVehicle(page, { points: 2000 });
+const browser = await openBrowser();
+try {
+  const problems = [
+    ...(await walk(browser, vehicle.address, kSizes[0], "en", "light")),
+    ...(await walk(browser, vehicle.address, kSizes[1], "ja", "dark")),
+  ];
+  expect(problems.length === 0, problems.join("\n"));
+  console.log(`${pages.length} pages, two sizes, two themes, two languages: nothing found`);
+} catch (error) {
+  console.error(String(error));
+  process.exitCode = 1;
+} finally {
+  await browser.close();
+  vehicle.stop();
+}

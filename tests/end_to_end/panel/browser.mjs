@@ -1,0 +1,99 @@
+// A touch panel: Debian's Chromium with touch events, which counts every touch and remembers every console error.
+import { existsSync } from "node:fs";
+import { createRequire } from "node:module";
+import { fileURLToPath } from "node:url";
+
+const web = fileURLToPath(new URL("../../../hmi/web/package.json", import.meta.url));
+const require = createRequire(web);
+export const kChromium = "/usr/bin/chromium";
+
+/** Ends the test as skipped (ctest's SKIP_RETURN_CODE) where something it needs is not installed. */
+export function skipUnlessInstalled() {
+  const playwright = (() => {
+    try {
+      return require("playwright-core");
+    } catch {
+      return null;
+    }
+  })();
+  if (existsSync(kChromium) && playwright) return playwright;
+  console.log(`skipped: needs ${kChromium} (apt-get install chromium) and hmi/web/node_modules (cd hmi/web && npm ci)`);
+  process.exit(77);
+}
+
+export const axeSource = () => require.resolve("axe-core/axe.min.js");
+
+export async function openBrowser() {
+  return skipUnlessInstalled().chromium.launch({
+    executablePath: kChromium,
+    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  });
+}
+
+/** A page of a panel; `touches` counts what a person's fingers do, `errors` holds what the console complained about. */
+export async function openPanel(browser, address, { width, height, language = "en", theme = "light" }) {
+  const context = await browser.newContext({ viewport: { width, height }, hasTouch: true, deviceScaleFactor: 1, locale: language === "ja" ? "ja-JP" : "en-GB", acceptDownloads: true });
+  const page = await context.newPage();
+  page.setDefaultTimeout(60_000);
+  const panel = { page, context, touches: 0, errors: [] };
+  await page.exposeFunction("countTouch", () => ++panel.touches);
+  await page.addInitScript(([words, shade]) => {
+    if (!localStorage.getItem("madori.language")) localStorage.setItem("madori.language", words);
+    if (!localStorage.getItem("madori.theme")) localStorage.setItem("madori.theme", shade);
+    addEventListener("touchstart", (event) => event.touches.length === 1 && window.countTouch(), { capture: true, passive: true });
+  }, [language, theme]);
+  page.on("console", (message) => message.type() === "error" && panel.errors.push(message.text()));
+  page.on("pageerror", (error) => panel.errors.push(String(error)));
+  await page.goto(address);
+  return panel;
+}
+
+/** A button by what it says (or by its aria-label), touched. */
+export async function touch(panel, name, options = {}) {
+  const target = panel.page.getByRole(options.role ?? "button", { name, exact: options.exact ?? false });
+  await target.first().waitFor();
+  await target.first().tap();
+}
+
+/** Where a place of the map (or a photograph) is on the screen, in pixels of the page. `nth`: which map of the page. */
+export async function pixelOf(panel, place, nth = 0) {
+  return panel.page.evaluate(([at, index]) => {
+    const target = document.querySelectorAll(".map-canvas")[index];
+    const [u, v] = target.olMap.getPixelFromCoordinate(at);
+    const box = target.getBoundingClientRect();
+    return { x: box.x + u, y: box.y + v };
+  }, [place, nth]);
+}
+
+/** Waits until a map has been drawn, its view stands and nothing of it is loading. */
+export async function mapReady(panel, nth = 0) {
+  await panel.page.waitForFunction((index) => {
+    const map = document.querySelectorAll(".map-canvas")[index]?.olMap;
+    return map && map.getSize()?.[0] > 0 && !map.getView().getAnimating();
+  }, nth);
+  await panel.page.evaluate((index) => new Promise((done) => {
+    const map = document.querySelectorAll(".map-canvas")[index].olMap;
+    map.once("rendercomplete", () => done());
+    map.render();
+  }), nth);
+}
+
+/** Touches a place of the map. */
+export async function touchMap(panel, place, nth = 0) {
+  const { x, y } = await pixelOf(panel, place, nth);
+  await panel.page.touchscreen.tap(x, y);
+}
+
+/** A finger that goes down at one pixel, moves in steps and goes up at another. */
+export async function dragFinger(panel, from, to, steps = 6) {
+  const session = await panel.context.newCDPSession(panel.page);
+  const send = (type, points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points });
+  await send("touchStart", [from]);
+  for (let i = 1; i <= steps; ++i) await send("touchMove", [{ x: from.x + ((to.x - from.x) * i) / steps, y: from.y + ((to.y - from.y) * i) / steps }]);
+  await send("touchEnd", []);
+  await session.detach();
+}
+
+export function expect(condition, message) {
+  if (!condition) throw new Error(message);
+}

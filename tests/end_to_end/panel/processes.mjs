@@ -1,0 +1,84 @@
+// The real programs that a test needs: the virtual factory, the vehicle's computer, a tile server.
+import { spawn, spawnSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { createSocket } from "node:dgram";
+import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const running = [];
+
+export function temporaryFolder() {
+  const folder = mkdtempSync(join(tmpdir(), "madori-panel-"));
+  running.push({ stop: async () => rmSync(folder, { recursive: true, force: true }) });
+  return folder;
+}
+
+/** Stops everything that was started, newest first. */
+export async function stopAll() {
+  while (running.length > 0) await running.pop().stop();
+}
+
+export const freeTcpPort = () => new Promise((done) => {
+  const server = createServer().listen(0, "127.0.0.1", () => {
+    const { port } = server.address();
+    server.close(() => done(port));
+  });
+});
+
+export const freeUdpPort = () => new Promise((done) => {
+  const socket = createSocket("udp4");
+  socket.bind(0, "127.0.0.1", () => {
+    const { port } = socket.address();
+    socket.close(() => done(port));
+  });
+});
+
+export function runToEnd(program, args) {
+  const result = spawnSync(program, args, { encoding: "utf8" });
+  if (result.status !== 0) throw new Error(`${program} ${args.join(" ")}: ${result.stdout}${result.stderr}`);
+  return result.stdout;
+}
+
+/** Starts a program and waits until it has printed what `ready` matches. */
+export function start(program, args, ready) {
+  const child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"] });
+  let output = "";
+  let ended = false;
+  running.push({
+    stop: () => new Promise((done) => {
+      if (ended) return done();
+      child.once("exit", done);
+      child.kill("SIGTERM");
+      setTimeout(() => child.kill("SIGKILL"), 5000).unref();
+    }),
+  });
+  return new Promise((done, fail) => {
+    const take = (data) => {
+      output += data;
+      const match = output.match(ready);
+      if (match) done({ match, output: () => output });
+    };
+    child.stdout.on("data", take);
+    child.stderr.on("data", take);
+    child.once("exit", (code) => {
+      ended = true;
+      fail(new Error(`${program} ${args.join(" ")} ended with ${code}: ${output}`));
+    });
+  });
+}
+
+/** A virtual factory whose vehicle stands before the lift, with a folder of its own. */
+export async function startFactory(madori, data, folder, lidarPort, scenario) {
+  runToEnd(madori, ["demo", "--import-only", "--site", folder, "--data", data, "--json", join(folder, "..", "import.json")]);
+  await start(madori, ["sim", folder, "--scenario", scenario, "--lidar-port", String(lidarPort)], /truth\s+ws/);
+  return join(folder, "devices", "drive");
+}
+
+/** The vehicle's computer with its panel; answers its address. */
+export async function startVehicle(madori, page, folder, lidarPort, drive, more = []) {
+  const hmi = `127.0.0.1:${await freeTcpPort()}`;
+  const position = await freeUdpPort();
+  await start(madori, ["run", folder, "--hmi", hmi, "--panel-folder", page, "--lidar-port", String(lidarPort), "--position-port", String(position), "--drive", drive, ...more], /panel at/);
+  return `http://${hmi}/`;
+}

@@ -1,0 +1,165 @@
+// On a finished site: a plan placed with four point pairs on served tiles gets its scale within 0.2 %; a route drawn by
+// touch and exported is what `madori route` reads; the published CSV files go through byte for byte; axe-core finds no
+// serious issue on any page in both themes; the second panel is told. Usage: ... MADORI PAGE DATA SHOTS WIDTHxHEIGHT
+import { cpSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { axeSource, expect, mapReady, openBrowser, openPanel, pixelOf, skipUnlessInstalled, touch, touchMap } from "./browser.mjs";
+import { freeUdpPort, runToEnd, startVehicle, stopAll, temporaryFolder } from "./processes.mjs";
+import { mercator, placeOf, serveTiles } from "./tiles.mjs";
+
+const kOrigin = { latitude: 35.464478, longitude: 136.739235 };
+const kTrueScale = 0.025;
+const kTolerance = 0.002;
+// corners of the sample's outer walls, drawing pixels (true_walls_scan_px.csv)
+const [madori, page, data, shots, size] = process.argv.slice(2);
+const [width, height] = size.split("x").map(Number);
+
+const readRows = (file) => readFileSync(file, "utf8").trim().split("\n").slice(1).map((line) => line.split(",").map(Number));
+
+/** The wall corners nearest to the four corners of the drawing: far apart, and seen on both pictures. */
+function farCorners(walls, [w, h]) {
+  const ends = walls.flatMap(([u1, v1, u2, v2]) => [[u1, v1], [u2, v2]]);
+  return [[0, 0], [w, 0], [w, h], [0, h]].map(([u, v]) => ends.reduce((best, end) => (Math.hypot(end[0] - u, end[1] - v) < Math.hypot(best[0] - u, best[1] - v) ? end : best)));
+}
+
+async function placeByPairs(panel, tiles, walls, placeOfPixel, drawing, unit) {
+  await panel.page.locator(".steps button").nth(1).tap();
+  await touch(panel, "Point pairs");
+  for (const [label, value] of [["Latitude", kOrigin.latitude], ["Longitude", kOrigin.longitude], ["Radius", 120]]) {
+    await touch(panel, label);
+    await panel.page.keyboard.type(String(value));
+    await touch(panel, "OK", { exact: true });
+  }
+  await panel.page.getByLabel("Source, or the address").fill(tiles.url);
+  await panel.page.locator(".fetch-tiles .primary").tap();
+  await panel.page.locator(".photo .map-canvas").waitFor();
+  await mapReady(panel, 0);
+  await mapReady(panel, 1);
+  for (const [u, v] of farCorners(walls, drawing)) {
+    await touchMap(panel, [u * unit, (drawing[1] - v) * unit], 0);
+    await touchMap(panel, mercator(placeOfPixel(u, v)), 1);
+  }
+  const verdict = panel.page.locator("[data-verdict]");
+  await verdict.waitFor();
+  await panel.page.screenshot({ path: join(shots, `2-pairs-${size}.png`) });
+  return Number(await verdict.getAttribute("data-m-per-px"));
+}
+
+async function layOver(panel) {
+  await touch(panel, "Lay over photo");
+  await mapReady(panel, 0);
+  await panel.page.getByText("Z_m, drawing").waitFor();
+  await panel.page.screenshot({ path: join(shots, `2-overlay-${size}.png`) });
+}
+
+async function drawAndExport(panel, site) {
+  await panel.page.locator(".steps button").nth(2).tap();
+  await panel.page.getByText("Touch to set points").waitFor();
+  await mapReady(panel);
+  for (const place of [[60, 47], [64, 47], [64, 51]]) await touchMap(panel, place);
+  await touch(panel, "Station", { exact: true });
+  await touch(panel, "Save, next");
+  await panel.page.getByText("Sensors and drive").waitFor();
+  const csv = async (name) => (await panel.context.request.get(new URL(`/api/site/routes/${name}`, panel.page.url()).href)).body();
+  for (const name of ["tree.csv", "path.csv"])
+    expect((await csv(name)).equals(readFileSync(join(site, "routes", name))), `${name} is not what lies on the disk`);
+  const rows = readRows(join(site, "routes/path.csv"));
+  const [from, , to] = rows.slice(-3).map((row) => row[0]);
+  runToEnd(madori, ["route", site, "--from", String(from), "--to", String(to), "--json", join(site, "route.json")]);
+  const route = JSON.parse(readFileSync(join(site, "route.json"), "utf8"));
+  expect(JSON.stringify(route.nodes ?? route.ids ?? route.route) === JSON.stringify(rows.slice(-3).map((row) => row[0])), `madori route reads another way: ${JSON.stringify(route).slice(0, 200)}`);
+}
+
+async function importAndExport(panel, folder) {
+  const tree = "ID,EDA\r\n1,2\r\n2,1 3\r\n3,2\r\n";
+  const path = "ID,x,y\r\n1,45.05,52.30\r\n2,45.2,46.20\r\n3,46.800,43.4\r\n";
+  writeFileSync(join(folder, "tree.csv"), tree);
+  writeFileSync(join(folder, "path.csv"), path);
+  await panel.page.locator(".steps button").nth(2).tap();
+  const chooser = panel.page.waitForEvent("filechooser");
+  await touch(panel, "Import CSV");
+  await (await chooser).setFiles([join(folder, "tree.csv"), join(folder, "path.csv")]);
+  await panel.page.getByText("3 points").waitFor();
+  for (const [name, text] of [["tree.csv", tree], ["path.csv", path]]) {
+    const download = panel.page.waitForEvent("download");
+    await touch(panel, name, { role: "link" });
+    expect(readFileSync(await (await download).path(), "utf8") === text, `${name} did not come back byte for byte`);
+  }
+}
+
+async function checkAccess(panel, where) {
+  await panel.page.addScriptTag({ path: axeSource() }).catch(() => undefined);
+  const found = await panel.page.evaluate(() => (window.axe ? window.axe.run(document, { resultTypes: ["violations"] }) : null));
+  expect(found !== null, "axe-core could not be loaded into the page");
+  const serious = found.violations.filter((one) => one.impact === "serious" || one.impact === "critical");
+  return serious.map((one) => `${where}: ${one.id}: ${one.nodes.map((node) => node.target.join(" ")).slice(0, 3).join(", ")}`);
+}
+
+async function checkEveryPage(panel) {
+  const problems = [];
+  for (const theme of ["light", "dark"]) {
+    const look = async (name) => {
+      problems.push(...(await checkAccess(panel, `${name}, ${theme}`)));
+      if (theme === "dark") await panel.page.screenshot({ path: join(shots, `dark-${name}-${size}.png`) });
+    };
+    await touch(panel, "Drive");
+    for (const tab of ["Orders", "By hand", "Last 30 s"]) {
+      await touch(panel, tab, { role: "tab" });
+      await look(`drive-${tab.replaceAll(" ", "-").toLowerCase()}`);
+    }
+    await touch(panel, "Look back");
+    for (const tab of ["Events", "Statistics", "Downloads"]) {
+      await touch(panel, tab, { role: "tab" });
+      await look(`history-${tab.toLowerCase()}`);
+    }
+    await touch(panel, "Set up");
+    for (let step = 0; step < 5; ++step) {
+      await panel.page.locator(".steps button").nth(step).tap();
+      await look(`setup-${step + 1}`);
+    }
+    await touch(panel, "Light or dark");
+  }
+  expect(problems.length === 0, `axe-core: ${[...new Set(problems)].join("\n")}`);
+}
+
+async function main() {
+  skipUnlessInstalled();
+  mkdirSync(shots, { recursive: true });
+  const folder = temporaryFolder();
+  const site = join(folder, "site");
+  runToEnd(madori, ["demo", "--import-only", "--site", site, "--data", data, "--json", join(folder, "import.json")]);
+  const drawing = [4205, 2970];
+  const turned = (12 * Math.PI) / 180;
+  // the drawing on Earth: its middle at the origin, turned by 12 degrees
+  const placeOfPixel = (u, v) => {
+    const x = (u - drawing[0] / 2) * kTrueScale;
+    const y = (drawing[1] / 2 - v) * kTrueScale;
+    return placeOf(kOrigin, x * Math.cos(turned) - y * Math.sin(turned), x * Math.sin(turned) + y * Math.cos(turned));
+  };
+  const walls = readRows(join(data, "sample_factory/true_walls_scan_px.csv"));
+  const tiles = await serveTiles(walls.map(([u1, v1, u2, v2]) => [placeOfPixel(u1, v1), placeOfPixel(u2, v2)]));
+  const lidar = await freeUdpPort();
+  const address = await startVehicle(madori, page, site, lidar, join(folder, "no-drive"));
+  const browser = await openBrowser();
+  const panel = await openPanel(browser, address, { width, height });
+  await touch(panel, "Set up");
+  const scale = await placeByPairs(panel, tiles, walls, placeOfPixel, drawing, kTrueScale);
+  const off = Math.abs(scale / kTrueScale - 1);
+  console.log(`four point pairs: ${(100 * off).toFixed(3)} % off the true scale`);
+  expect(off <= kTolerance, `the scale is ${(100 * off).toFixed(3)} % off`);
+  await layOver(panel);
+  await drawAndExport(panel, site);
+  await importAndExport(panel, folder);
+  await checkEveryPage(panel);
+  expect(panel.errors.length === 0, `the console complained: ${panel.errors.slice(0, 5).join("; ")}`);
+  tiles.close();
+  await browser.close();
+}
+
+main().catch((error) => {
+  console.error(error);
+  process.exitCode = 1;
+}).finally(async () => {
+  await stopAll();
+  process.exit();
+});
