@@ -27,6 +27,11 @@ bool same_place(const Pose& a, const Pose& b, double limit_m, double limit_rad) 
 
 constexpr double kBeamsThatErrTogether = 12.0;
 
+/// Neighbouring beams err together: a scan of few is worth fewer than the model's.
+double effective_beams(const BeamBlocks& beams, const LikelihoodField& field) {
+  return std::min(field.model().effective_beams, static_cast<double>(beams.beams()) / kBeamsThatErrTogether);
+}
+
 /// A place and a turn of the index.
 struct Cell {
   std::uint32_t place;
@@ -190,9 +195,7 @@ void GlobalLocalizer::weigh(const ScanPoints& points, double noise_m,
   const BeamBlocks beams(points, field);
   std::vector<std::uint32_t> sums(poses.size());
   sum_counts(poses, beams, field, sums);
-  // Neighbouring beams err together: a scan of few is worth fewer than the model's.
-  const double effective =
-      std::min(field.model().effective_beams, static_cast<double>(beams.beams()) / kBeamsThatErrTogether);
+  const double effective = effective_beams(beams, field);
   const double per_count = log_likelihood_per_count(beams, field) * effective / field.model().effective_beams;
   BeamPathOptions path;
   path.end_margin_m = std::max(path.end_margin_m, 3.0 * noise_m);
@@ -262,6 +265,28 @@ GlobalAnswer GlobalLocalizer::answer(std::vector<Hypothesis> hypotheses) const {
     answer.state = GlobalState::Found;
   }
   return answer;
+}
+
+double GlobalLocalizer::lead_of_nearby(const ScanPoints& points, const Pose& map_from_base) const {
+  constexpr int kSteps = 6;  // of a third of a metre: within the coarse field's reach
+  constexpr double kStepM = 0.33;
+  constexpr int kTurns = 3;
+  constexpr double kTurnRad = 0.07;
+  Particles poses;
+  poses.origin = map_from_base.translation();
+  poses.add(map_from_base, 0.0);
+  for (int i = -kSteps; i <= kSteps; ++i)
+    for (int j = -kSteps; j <= kSteps; ++j)
+      for (int k = -kTurns; k <= kTurns; ++k)
+        poses.add({map_from_base.x_m() + i * kStepM, map_from_base.y_m() + j * kStepM,
+                   map_from_base.yaw_rad() + k * kTurnRad},
+                  0.0);
+  const BeamBlocks beams(points, coarse_, 96);
+  std::vector<std::uint32_t> sums(poses.size());
+  sum_counts(poses, beams, coarse_, sums);
+  const std::uint32_t best = *std::max_element(sums.begin(), sums.end());
+  return log_likelihood_per_count(beams, coarse_) * effective_beams(beams, coarse_) /
+         coarse_.model().effective_beams * (best - sums.front());
 }
 
 GlobalAnswer GlobalLocalizer::judge(const ScanPoints& points, const std::vector<Pose>& poses) const {

@@ -1,0 +1,34 @@
+#include "localization/wall_extraction/cloud_in_base.hpp"
+
+#include <cmath>
+
+namespace madori::localization {
+
+PointCloud<Base> cloud_in_base(const PointCloud<Lidar>& cloud, const Transform2<Base, Lidar>& base_from_lidar,
+                               double height_m, const OdometryTrack& track) {
+  constexpr float kOneFiring_s = 4e-4F;  // points this near in time share a motion: 0.4 mm at 1 m/s
+  PointCloud<Base> result;
+  const float last_s = cloud.points.empty() ? 0.0F : cloud.points.back().time_offset_s;
+  result.stamp = cloud.stamp + duration_from_seconds(static_cast<double>(last_s));
+  result.points.reserve(cloud.points.size());
+  const auto end = track.at(result.stamp);
+  float moment_s = std::nanf("");
+  Transform2<Base, Lidar> moved = base_from_lidar;
+  for (const CloudPoint& p : cloud.points) {
+    if (end && !(std::abs(p.time_offset_s - moment_s) < kOneFiring_s)) {
+      moment_s = p.time_offset_s;
+      const auto then = track.at(cloud.stamp + duration_from_seconds(static_cast<double>(moment_s)));
+      moved = end->odom_from_base.inverse() * then.value_or(*end).odom_from_base * base_from_lidar;
+    }
+    const Point2<Base> at = moved * Point2<Lidar>{static_cast<double>(p.x_m), static_cast<double>(p.y_m)};
+    CloudPoint q = p;
+    q.x_m = static_cast<float>(at.x_m);
+    q.y_m = static_cast<float>(at.y_m);
+    q.z_m = p.z_m + static_cast<float>(height_m);
+    q.time_offset_s = 0.0F;
+    result.points.push_back(q);
+  }
+  return result;
+}
+
+}  // namespace madori::localization

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/odometry.hpp"
+#include "core/pose_estimate.hpp"
+#include "core/pose_hypothesis.hpp"
+#include "localization/global/global_localizer.hpp"
+#include "localization/motion_model/odometry_track.hpp"
+#include "mapping/wall_map/wall.hpp"
+
+namespace madori::localization {
+
+struct WallTrackerOptions {
+  SegmentIcpOptions icp = {.first_scale_m = 0.25};
+  /// Of driven wheels on a hall's floor; systematic errors are learned.
+  OdometryNoise odometry = {.distance_per_m = 0.01,
+                            .sideways_per_m = 0.005,
+                            .heading_per_m = 0.005,
+                            .heading_per_rad = 0.02,
+                            .standing_m = 0.001,
+                            .standing_rad = 0.0005,
+                            .prior_distance_scale = 0.02,
+                            .prior_heading_per_m = 0.02,
+                            .prior_heading_scale = 0.03};
+  double scan_sigma_m = 0.006;  ///< error of a registration that neighbouring scans share
+  double scan_sigma_rad = 0.0008;
+  double sure_inliers = 0.35;      ///< share of the wall points on drawn walls, below which a scan is no help
+  double most_correction_m = 0.4;  ///< a scan that asks for more speaks of another place
+  double most_correction_rad = 0.15;
+  int sightings_to_start = 2;  ///< answers in a row that agree before the vehicle counts as localized
+  int misses_to_degrade = 4;   ///< scans in a row that teach nothing
+  int misses_to_lose = 12;
+  double doubt_fall = 0.10;     ///< of the explained share below the usual: other places are looked at
+  double doubt_through = 0.10;  ///< rise of the share of beams through drawn walls: likewise
+  double doubt_nats = 4.0;      ///< by which a pose within 2 m may fit better before: likewise
+  double rival_nats = 5.0;      ///< by which another place must fit better to contradict the pose
+  int rivals_to_lose = 2;       ///< contradictions in a row
+  int calm_scans = 5;           ///< after the other places were looked at in vain
+};
+
+/// What the last scan said.
+struct TrackerEvidence {
+  double explained = 0.0;      ///< share of the points on drawn walls
+  double through_walls = 0.0;  ///< share of the beams that would pass a drawn wall
+  double nearby_nats = 0.0;    ///< by which the best pose within 2 m fits better (coarsely)
+  double correction_m = 0.0;   ///< between wheels and walls
+  double correction_rad = 0.0;
+  bool looked_elsewhere = false;
+};
+
+/// The pose on a drawing that is right: global localization while the place is not known, then registration
+/// of each scan's walls to the drawn ones, weighed against the wheels (extended Kalman filter; the wheels'
+/// systematic errors are learned). Each scan is also asked whether another place would suit it better. For
+/// VLP-16 clouds after wall extraction and for 2D scans. Deterministic, causal.
+class WallTracker {
+ public:
+  explicit WallTracker(const mapping::Walls& walls, const WallTrackerOptions& options = {});
+
+  /// The pose at the reading; a reading older than its forerunner is answered but not used.
+  PoseEstimate on_odometry(const OdometryReading& reading);
+  /// The pose at the scan: points on walls, Base frame at `stamp`.
+  PoseEstimate on_scan(Stamp stamp, const ScanPoints& points);
+  /// A person says that the vehicle stands about there at the newest reading of the wheels; checked by the
+  /// next scan.
+  void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma);
+  /// Forgets the pose.
+  void search_anew();
+
+  /// Where the vehicle may be at the newest reading, likeliest first.
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const;
+  [[nodiscard]] const TrackerEvidence& evidence() const { return evidence_; }
+  [[nodiscard]] const OdometryModel& odometry_model() const { return model_; }
+
+ private:
+  [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
+  void check_given(const ScanPoints& points);
+  void search(const ScanPoints& points, const Transform2<Base, Base>& moved);
+  void start_at(const RegistrationResult& fit);
+  void track(const ScanPoints& points, const OdometryStep& step);
+  [[nodiscard]] bool is_doubtful() const;
+  [[nodiscard]] bool is_contradicted(const ScanPoints& points, const RegistrationResult& fit);
+  void correct(const RegistrationResult& fit, const OdometryStep& step);
+  void miss(const std::string& reason);
+  void lose(const std::string& reason, std::optional<GlobalAnswer> answer);
+
+  WallTrackerOptions options_;
+  GlobalLocalizer global_;
+  OdometryModel model_;
+  OdometryTrack track_;
+  std::optional<GlobalAnswer> answer_;  ///< of the search under way
+  std::optional<PoseSigma> given_;      ///< anchor_ is what a person said, not yet checked
+  int agreeing_ = 0;
+  bool tracking_ = false;
+  int misses_ = 0;
+  int rivals_ = 0;
+  int calm_ = 0;
+  double usual_explained_ = 0.0;
+  double usual_through_ = 0.0;
+  TrackerEvidence evidence_;
+  LocalizationHealth health_{LocalizationState::Lost, "no scan yet"};
+  Stamp anchor_stamp_{};
+  Transform2<Map, Base> anchor_;  ///< the pose at the last scan
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity() * 1e4;
+  std::optional<Transform2<Map, Base>> last_fit_;
+  OdometryStep since_scan_;
+};
+
+}  // namespace madori::localization
