@@ -99,4 +99,7 @@ function Panel() {
 }
 
 const root = document.getElementById("panel");
-if (root) render(<Panel />, root);
+if (root) {
+  root.textContent = "";  // the name that is shown while the page loads
+  render(<Panel />, root);
+}
