@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "localization/self_calibration/self_calibration.hpp"
+
+namespace madori::localization {
+
+/// Sigmas of misdrawing beyond which a wall counts less and less (Geman-McClure).
+inline constexpr double kWallLossSigmas = 2.5;
+
+/// A piece on a wall: residual, and its slopes in the keyframe's pose and the strain.
+struct StrainRow {
+  int keyframe = 0;
+  int wall = 0;  ///< position among the walls seen
+  double residual_m = 0.0;
+  double weight = 0.0;  ///< robust, 1 / m^2
+  Eigen::Vector3d by_pose = Eigen::Vector3d::Zero();
+  Eigen::Vector3d by_strain = Eigen::Vector3d::Zero();
+};
+
+/// What one Gauss-Newton step found.
+struct StrainSolution {
+  bool good = false;
+  Eigen::Vector3d step = Eigen::Vector3d::Zero();  ///< of the strain
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  std::vector<double> wall_offsets_m;  ///< of the walls that were seen
+  double chi2_per_freedom = 1.0;
+  int pieces = 0;
+};
+
+/// The least-squares problem behind self_calibrate(): its unknowns are the poses in a true-to-scale plane,
+/// the strain from that plane to the drawing about the drawing's middle, and an offset a wall. The poses are
+/// eliminated (Schur complement), sparse.
+class StrainSystem {
+ public:
+  StrainSystem(const WallIndex& drawing, const std::vector<CalibrationKeyframe>& keyframes,
+               const std::vector<RelativeFactor>& motions, const CalibrationOptions& options);
+
+  /// Associates pieces with walls, takes one step. `scale_m` is of the robust loss, `wall_sigma_m` the spread
+  /// of the walls' own errors.
+  StrainSolution solve(double scale_m, double wall_sigma_m);
+  [[nodiscard]] const Eigen::Vector3d& strain() const { return strain_; }
+
+ private:
+  [[nodiscard]] Point2<Map> drawn(const Point2<Map>& true_place) const;
+  std::vector<StrainRow> associate(double scale_m);
+  std::optional<StrainRow> row_of(const Transform2<Map, Base>& pose, const SurfacePiece& piece);
+  int seen_wall(int wall);
+  void take(const Eigen::VectorXd& pose_step, const Eigen::VectorXd& rest_step);
+
+  const WallIndex& drawing_;
+  const std::vector<CalibrationKeyframe>& keyframes_;
+  const std::vector<RelativeFactor>& motions_;
+  CalibrationOptions options_;
+  Point2<Map> middle_;
+  std::vector<Transform2<Map, Base>> poses_;
+  std::vector<Transform2<Map, Base>> first_poses_;
+  Eigen::Vector3d strain_ = Eigen::Vector3d::Zero();
+  std::vector<int> position_;    ///< of a wall among those seen, -1
+  std::vector<double> offsets_;  ///< of the walls seen, metres
+};
+
+}  // namespace madori::localization
