@@ -1,0 +1,75 @@
+// Localization in the virtual factory with the VLP-16, shortened: the whole measurement is bench_factory,
+// its figures stand in docs/reference/localization-figures.md.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+
+#include "simulation/lidar/vlp16_model.hpp"
+#include "simulation/sensor_suite.hpp"
+#include "tests/support/kidnappings.hpp"
+#include "tests/support/localization_trial.hpp"
+
+namespace madori::test {
+namespace {
+
+const std::filesystem::path kData = std::filesystem::path(MADORI_SOURCE_DIR) / "data";
+
+TEST(UpperLasers, SeeBitForBitWhatTheWholeSensorSees) {
+  const TrialSetup setup = sample_factory_trial(kData, 30.0, 0);
+  const simulation::World world(setup.walls, setup.scenario);
+  const auto mounting = simulation::default_sensors({}).front();
+  simulation::PoseTrack track;
+  for (int ms = 0; ms <= 120; ++ms)
+    track.add(std::chrono::milliseconds(ms), {4.0 + 0.001 * ms, 22.0, 0.0005 * ms});
+  simulation::Vlp16Model whole(mounting, setup.scenario.vlp16, 5, Duration(0));
+  UpperLasers upper(mounting, setup.scenario.vlp16, 5);
+  int seen = 0;
+  while (whole.next_complete() <= std::chrono::milliseconds(120)) {
+    ASSERT_EQ(upper.next_complete(), whole.next_complete());
+    const auto a = whole.measure({world, track, {}});
+    const auto b = upper.measure({world, track, {}});
+    EXPECT_EQ(a.time_us, b.time_us);
+    for (std::size_t block = 0; block < sensors::vlp16::kBlocks; ++block) {
+      EXPECT_EQ(a.blocks[block].azimuth_cdeg, b.blocks[block].azimuth_cdeg);
+      for (std::size_t i = 1; i < sensors::vlp16::kReturns; i += 2) {
+        ASSERT_EQ(a.blocks[block].returns[i].distance, b.blocks[block].returns[i].distance);
+        seen += b.blocks[block].returns[i].distance > 0;
+      }
+    }
+  }
+  EXPECT_GT(seen, 10'000);
+}
+
+TEST(FactoryLocalization, CentimetresWithAThirdOfTheWallsHidden) {
+  LocalizationTrial trial(sample_factory_trial(kData, 30.0, 1), 1);
+  trial.drive(60.0);
+  const TrialFigures& f = trial.figures();
+  EXPECT_GE(f.first_fix_s, 0.0);
+  EXPECT_LT(f.first_fix_s, 1.0);
+  EXPECT_LE(f.rmse_m(), 0.02);
+  EXPECT_LE(to_deg(f.rmse_rad()), 0.1);
+  EXPECT_EQ(f.losses, 0);
+  EXPECT_LT(f.degraded_share(), 0.01);
+}
+
+TEST(FactoryLocalization, BetterStillWithNothingInTheWay) {
+  LocalizationTrial trial(sample_factory_trial(kData, 0.0, 2), 2);
+  trial.drive(40.0);
+  EXPECT_LT(trial.figures().rmse_m(), 0.016);
+  EXPECT_LT(to_deg(trial.figures().rmse_rad()), 0.09);
+  EXPECT_EQ(trial.figures().losses, 0);
+}
+
+TEST(FactoryLocalization, ACarriedOffVehicleIsLostWithinTwoSecondsAndFindsItself) {
+  LocalizationTrial trial(sample_factory_trial(kData, 30.0, 0), 3);
+  Kidnapper kidnapper(trial, 3);
+  for (int i = 0; i < 8; ++i) {  // all kinds, standing and driving
+    const Kidnapping k = kidnapper.carry_out(i);
+    EXPECT_GE(k.lost_after_s, 0.0) << "number " << i << ", by " << k.by_m << " m";
+    EXPECT_LE(k.lost_after_s, 2.0) << "number " << i << ", by " << k.by_m << " m";
+    EXPECT_GE(k.found_after_s, 0.0) << "number " << i;
+  }
+}
+
+}  // namespace
+}  // namespace madori::test
