@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "app/cycle/stages.hpp"
@@ -6,6 +8,7 @@ namespace madori::app {
 namespace {
 
 constexpr double kTrackS = 0.5;
+constexpr Duration kMostAge = std::chrono::milliseconds(100);  // a clock that jumped is not believed
 
 /// Where the wheels were at a moment, between the readings around it.
 Transform2<Odom, Base> odometry_at(const std::deque<OdometryReading>& track, Stamp moment) {
@@ -66,7 +69,9 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
   for (const auto& status : input.drive) {
     state.drive = status;
     state.drive_heard = input.now;
-    state.odometry.update(status, input.now);
+    // The newest frame has just come; by the controller's clock the others were measured so much earlier.
+    const auto age = std::chrono::microseconds(input.drive.back().time_us - status.time_us);
+    state.odometry.update(status, input.now - std::min<Duration>(age, kMostAge));
     const OdometryReading& reading = state.odometry.reading();
     if (!state.track.empty() && reading.stamp <= state.track.back().stamp) continue;
     state.track.push_back(reading);
