@@ -1,0 +1,67 @@
+"""Listens to the ground truth of a running virtual factory (`madori sim`, WebSocket on loopback)."""
+
+import base64
+import json
+import os
+import socket
+import threading
+import time
+
+
+class TruthListener:
+    """Keeps every message with the wall clock at which it came: dictionaries with x_m, y_m, yaw_rad, linear_mps,
+    angular_radps, collisions, and `received`."""
+
+    def __init__(self, port):
+        self.lock = threading.Lock()
+        self.messages = []
+        self.wire = socket.create_connection(("127.0.0.1", port), timeout=10)
+        key = base64.b64encode(os.urandom(16)).decode()
+        self.wire.sendall(
+            f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n".encode()
+        )
+        self.rest = b""
+        while b"\r\n\r\n" not in self.rest:
+            self.rest += self.wire.recv(4096)
+        self.rest = self.rest.split(b"\r\n\r\n", 1)[1]
+        self.wire.settimeout(None)
+        threading.Thread(target=self.listen, daemon=True).start()
+
+    def take(self, count):
+        while len(self.rest) < count:
+            more = self.wire.recv(65536)
+            if not more:
+                raise ConnectionError("the virtual factory has gone")
+            self.rest += more
+        head, self.rest = self.rest[:count], self.rest[count:]
+        return head
+
+    def listen(self):
+        try:
+            while True:
+                first, second = self.take(2)
+                size = second & 127
+                if size == 126:
+                    size = int.from_bytes(self.take(2), "big")
+                elif size == 127:
+                    size = int.from_bytes(self.take(8), "big")
+                payload = self.take(size)
+                if first & 15 == 1:
+                    message = json.loads(payload)
+                    message["received"] = time.time()
+                    with self.lock:
+                        self.messages.append(message)
+        except (ConnectionError, OSError):
+            pass
+
+    def since(self, moment):
+        with self.lock:
+            first = len(self.messages)
+            while first > 0 and self.messages[first - 1]["received"] >= moment:
+                first -= 1
+            return self.messages[first:]
+
+    def newest(self):
+        with self.lock:
+            return self.messages[-1] if self.messages else None
