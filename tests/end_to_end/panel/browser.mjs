@@ -1,5 +1,5 @@
 // A touch panel: Debian's Chromium with touch events, which counts every touch and remembers every console error.
-import { existsSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
 
@@ -21,7 +21,14 @@ export function skipUnlessInstalled() {
   process.exit(77);
 }
 
-export const axeSource = () => require.resolve("axe-core/axe.min.js");
+/** axe-core's issues that are serious or critical. Loaded by the debugger: the page's security policy lets no script in. */
+export async function seriousIssues(page) {
+  if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(`${readFileSync(require.resolve("axe-core/axe.min.js"), "utf8")}; undefined`);
+  return page.evaluate(async () => {
+    const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
+    return violations.filter((one) => ["serious", "critical"].includes(one.impact)).map((one) => `${one.id} (${one.nodes.slice(0, 3).map((node) => `${node.target.join(" ")}: ${node.any[0]?.message ?? ""}`).join("; ")})`);
+  });
+}
 
 export async function openBrowser() {
   return skipUnlessInstalled().chromium.launch({
@@ -81,6 +88,8 @@ export async function mapReady(panel, nth = 0) {
 /** Touches a place of the map. */
 export async function touchMap(panel, place, nth = 0) {
   const { x, y } = await pixelOf(panel, place, nth);
+  const box = await panel.page.locator(".map-canvas").nth(nth).boundingBox();
+  expect(x > box.x && y > box.y && x < box.x + box.width && y < box.y + box.height, `${place} lies outside the map that is shown`);
   await panel.page.touchscreen.tap(x, y);
 }
 

@@ -13,6 +13,7 @@ const kKnown = { ends: [[547.84, 2729.59], [3747.01, 2656.99]], digits: ["8", "0
 const kWay = [[45.05, 52.3], [45.2, 46.2], [46.8, 43.4]];
 
 const [madori, page, data, shots, size] = process.argv.slice(2);
+let shown = null; // for a picture of what a person would see when it fails
 const [width, height] = size.split("x").map(Number);
 
 async function setUpDrawing(panel, look) {
@@ -124,6 +125,7 @@ async function main() {
   const address = await startVehicle(madori, page, join(folder, "site"), lidar, drive);
   const browser = await openBrowser();
   const panel = await openPanel(browser, address, { width, height });
+  shown = panel;
   const look = (name) => panel.page.screenshot({ path: join(shots, `${name}-${size}.png`) });
   await setUpDrawing(panel, look);
   await setUpScale(panel, look);
@@ -138,8 +140,11 @@ async function main() {
   await browser.close();
 }
 
-main().catch((error) => {
+
+
+main().catch(async (error) => {
   console.error(error);
+  await shown?.page.screenshot({ path: join(shots, `failed-${size}.png`) }).catch(() => undefined);
   process.exitCode = 1;
 }).finally(async () => {
   await stopAll();

@@ -1,17 +1,17 @@
 // On a finished site: a plan placed with four point pairs on served tiles gets its scale within 0.2 %; a route drawn by
 // touch and exported is what `madori route` reads; the published CSV files go through byte for byte; axe-core finds no
-// serious issue on any page in both themes; the second panel is told. Usage: ... MADORI PAGE DATA SHOTS WIDTHxHEIGHT
-import { cpSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+// serious issue on any page in both themes. Usage: ... MADORI PAGE DATA SHOTS WIDTHxHEIGHT
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { axeSource, expect, mapReady, openBrowser, openPanel, pixelOf, skipUnlessInstalled, touch, touchMap } from "./browser.mjs";
+import { expect, mapReady, openBrowser, openPanel, seriousIssues, skipUnlessInstalled, touch, touchMap } from "./browser.mjs";
 import { freeUdpPort, runToEnd, startVehicle, stopAll, temporaryFolder } from "./processes.mjs";
 import { mercator, placeOf, serveTiles } from "./tiles.mjs";
 
 const kOrigin = { latitude: 35.464478, longitude: 136.739235 };
 const kTrueScale = 0.025;
 const kTolerance = 0.002;
-// corners of the sample's outer walls, drawing pixels (true_walls_scan_px.csv)
 const [madori, page, data, shots, size] = process.argv.slice(2);
+let shown = null; // for a picture of what a person would see when it fails
 const [width, height] = size.split("x").map(Number);
 
 const readRows = (file) => readFileSync(file, "utf8").trim().split("\n").slice(1).map((line) => line.split(",").map(Number));
@@ -87,13 +87,7 @@ async function importAndExport(panel, folder) {
   }
 }
 
-async function checkAccess(panel, where) {
-  await panel.page.addScriptTag({ path: axeSource() }).catch(() => undefined);
-  const found = await panel.page.evaluate(() => (window.axe ? window.axe.run(document, { resultTypes: ["violations"] }) : null));
-  expect(found !== null, "axe-core could not be loaded into the page");
-  const serious = found.violations.filter((one) => one.impact === "serious" || one.impact === "critical");
-  return serious.map((one) => `${where}: ${one.id}: ${one.nodes.map((node) => node.target.join(" ")).slice(0, 3).join(", ")}`);
-}
+const checkAccess = async (panel, where) => (await seriousIssues(panel.page)).map((issue) => `${where}: ${issue}`);
 
 async function checkEveryPage(panel) {
   const problems = [];
@@ -142,6 +136,7 @@ async function main() {
   const address = await startVehicle(madori, page, site, lidar, join(folder, "no-drive"));
   const browser = await openBrowser();
   const panel = await openPanel(browser, address, { width, height });
+  shown = panel;
   await touch(panel, "Set up");
   const scale = await placeByPairs(panel, tiles, walls, placeOfPixel, drawing, kTrueScale);
   const off = Math.abs(scale / kTrueScale - 1);
@@ -156,8 +151,11 @@ async function main() {
   await browser.close();
 }
 
-main().catch((error) => {
+
+
+main().catch(async (error) => {
   console.error(error);
+  await shown?.page.screenshot({ path: join(shots, `failed-${size}.png`) }).catch(() => undefined);
   process.exitCode = 1;
 }).finally(async () => {
   await stopAll();

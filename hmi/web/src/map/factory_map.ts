@@ -63,7 +63,7 @@ export class FactoryMap {
       target,
       controls: [],
       pixelRatio: 1,
-      interactions: interactionDefaults({ altShiftDragRotate: false, pinchRotate: false }),
+      interactions: interactionDefaults({ altShiftDragRotate: false, pinchRotate: false, doubleClickZoom: false }),
       layers: [this.drawing, layer(this.walls, styles.wall), layer(this.seen, styles.seen), layer(this.routes, styles.route), layer(this.sketch, styles.sketch)],
       view: new View({ projection: mapProjection([0, 0, 10, 10]), center: [5, 5], resolution: 0.1 }),
     });

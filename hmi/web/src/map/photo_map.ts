@@ -35,7 +35,7 @@ export class PhotoMap {
       target,
       controls: [],
       pixelRatio: 1,
-      interactions: interactionDefaults({ altShiftDragRotate: false, pinchRotate: false }),
+      interactions: interactionDefaults({ altShiftDragRotate: false, pinchRotate: false, doubleClickZoom: false }),
       layers: [new TileLayer({ source }), new VectorLayer({ source: this.marks, style: sketch })],
       view,
     });
@@ -61,7 +61,8 @@ export class PhotoMap {
   get middle(): XY {
     const { latitude_deg, longitude_deg, tiles, zoom } = this.info;
     if (typeof latitude_deg === "number" && typeof longitude_deg === "number") return fromLatLon(latitude_deg, longitude_deg);
-    const [x = 0, y = 0] = tiles[Math.floor(tiles.length / 2)] ?? [];
+    const mean = (axis: 0 | 1) => tiles.reduce((sum, tile) => sum + (tile[axis] ?? 0), 0) / Math.max(1, tiles.length);
+    const [x, y] = [mean(0), mean(1)];
     const { latitude, longitude } = tileMiddle(zoom, x, y);
     return fromLatLon(latitude, longitude);
   }

@@ -3,7 +3,7 @@
 // Usage: pages_test.mjs PAGE [FOLDER_FOR_PICTURES]
 import { existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { axeSource, expect, openBrowser, openPanel, skipUnlessInstalled } from "../../../../tests/end_to_end/panel/browser.mjs";
+import { expect, openBrowser, openPanel, seriousIssues, skipUnlessInstalled } from "../../../../tests/end_to_end/panel/browser.mjs";
 import { startMadeUpVehicle } from "./made_up_vehicle.mjs";
 
 const [page, shots] = process.argv.slice(2);
@@ -16,13 +16,6 @@ const pages = [
   ["setup-4-vehicle", null, ".steps button >> nth=3"], ["setup-5-place", null, ".steps button >> nth=4"],
   ["history-events", ".rail button >> nth=2", "[role=tab] >> nth=0"], ["history-statistics", null, "[role=tab] >> nth=1"], ["history-downloads", null, "[role=tab] >> nth=2"],
 ];
-
-async function serious(panel) {
-  return panel.page.evaluate(async () => {
-    const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
-    return violations.filter((one) => ["serious", "critical"].includes(one.impact)).map((one) => `${one.id} (${one.nodes.slice(0, 3).map((node) => `${node.target.join(" ")}: ${node.any[0]?.message ?? ""}`).join("; ")})`);
-  });
-}
 
 /** Touch targets that are smaller than 20 mm (the buttons on the map: 14 mm), or stick out of the screen. */
 async function small(panel, target) {
@@ -39,12 +32,11 @@ async function small(panel, target) {
 async function walk(browser, address, { width, height, target }, language, theme) {
   const panel = await openPanel(browser, address, { width, height, language, theme });
   const problems = [];
-  await panel.page.addScriptTag({ path: axeSource() });
   for (const [name, entry, part] of pages) {
     if (entry) await panel.page.locator(entry).tap();
     await panel.page.locator(part).tap();
     const where = `${name}, ${width}x${height}, ${language}, ${theme}`;
-    for (const issue of await serious(panel)) problems.push(`${where}: ${issue}`);
+    for (const issue of await seriousIssues(panel.page)) problems.push(`${where}: ${issue}`);
     for (const issue of await small(panel, target)) problems.push(`${where}: too small or cut off: ${issue}`);
     if (shots) await panel.page.screenshot({ path: join(shots, `${name}-${width}x${height}-${language}-${theme}.png`) });
   }

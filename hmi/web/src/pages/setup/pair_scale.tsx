@@ -34,7 +34,13 @@ export function PairScale({ site, walls, ways, finish }: ScaleWay) {
   now.current = { begun, pairs };
   const { result, apply } = useMeasure(pairs.length >= 2 ? { control: pairs } : null);
 
+  // `now` at once: two quick touches may come before the page is drawn again
+  const begin = (at: XY | null) => {
+    now.current.begun = at;
+    setBegun(at);
+  };
   const keep = (next: Pair[]) => {
+    now.current.pairs = next;
     keepDraft(site.name, "pairs", { revision: "", value: next });
     setPairs(next);
   };
@@ -56,8 +62,10 @@ export function PairScale({ site, walls, ways, finish }: ScaleWay) {
     map.current = made;
     made.showSite(site, api.drawingUrl(site.walls_revision));
     made.showWalls(walls.walls);
+    made.fitWalls();
+    made.map.on("change:size", () => made.fitWalls());  // when the photograph takes its half
     const snaps = corners(walls.walls, 8 * unit);
-    return pickOn(made.map, { picked: (at) => setBegun(toPixel(at, height, unit)), corners: () => snaps, active: () => true });
+    return pickOn(made.map, { picked: (at) => begin(toPixel(at, height, unit)), corners: () => snaps, active: () => true });
   };
   const photoReady = (made: PhotoMap) => {
     photo.current = made;
@@ -66,7 +74,7 @@ export function PairScale({ site, walls, ways, finish }: ScaleWay) {
       if (!from) return;
       const { latitude, longitude } = toLatLon(at);
       keep([...old, [from[0], from[1], latitude, longitude]]);
-      setBegun(null);
+      begin(null);
     };
     const end = pickOn(made.map, { picked, corners: () => [], active: () => now.current.begun !== null });
     return () => {

@@ -86,6 +86,7 @@ export function RoutesStep({ site, walls, routes, changed, next }: { site: Site;
     if (!pen) return setChosen(nodeAt(current.value, at, reach)?.id ?? null);
     const drawn = draw(current.value, last, at, reach);
     if (drawn.plan !== current.value) current.change(drawn.plan);
+    now.current.chosen = drawn.node;  // at once: the next touch may come before the page is drawn again
     setChosen(drawn.node);
   };
   const ready = (made: FactoryMap) => {

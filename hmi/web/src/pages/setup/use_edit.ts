@@ -68,7 +68,9 @@ export function useEdit<T>(source: Source<T>): Edit<T> {
     return true;
   };
   return {
-    value: history.current.value,
+    get value() {
+      return history.current.value;
+    },
     change: (next) => {
       history.current.change(next);
       touched();
