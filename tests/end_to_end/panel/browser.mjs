@@ -85,8 +85,14 @@ export async function mapReady(panel, nth = 0) {
   }), nth);
 }
 
-/** Touches a place of the map. */
+/** Touches a place of the map, once it is on the screen. */
 export async function touchMap(panel, place, nth = 0) {
+  await panel.page.waitForFunction(([at, index]) => {
+    const { olMap } = document.querySelectorAll(".map-canvas")[index] ?? {};
+    const [u, v] = olMap?.getPixelFromCoordinate(at) ?? [-1, -1];
+    const [width, height] = olMap?.getSize() ?? [0, 0];
+    return u > 0 && v > 0 && u < width && v < height;
+  }, [place, nth], { timeout: 10_000 }).catch(() => undefined);
   const { x, y } = await pixelOf(panel, place, nth);
   const box = await panel.page.locator(".map-canvas").nth(nth).boundingBox();
   expect(x > box.x && y > box.y && x < box.x + box.width && y < box.y + box.height, `${place} lies outside the map that is shown`);

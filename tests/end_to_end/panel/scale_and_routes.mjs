@@ -49,6 +49,7 @@ async function layOver(panel) {
   await touch(panel, "Lay over photo");
   await mapReady(panel, 0);
   await panel.page.getByText("Z_m, drawing").waitFor();
+  await panel.page.locator("[data-drawing=shown]").waitFor();
   await panel.page.screenshot({ path: join(shots, `2-overlay-${size}.png`) });
 }
 

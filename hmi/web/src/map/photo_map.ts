@@ -84,7 +84,8 @@ export class PhotoMap {
   async loadDrawing(url: string, width_px: number): Promise<void> {
     this.ink = await inkOf(url, kOverlayInk);
     this.width_px = width_px;
-    this.map.render();
+    this.map.getTargetElement()?.setAttribute("data-drawing", "shown");
+    this.draw();
   }
 
   /** Takes (u, -v) of the drawing to Mercator metres. */
@@ -108,6 +109,7 @@ export class PhotoMap {
     context.setTransform(a * k, -b * k, b * k, a * k, (tx - cx) / resolution + width / 2, (cy - ty) / resolution + height / 2);
     context.fillStyle = "rgba(0, 0, 0, 0.35)";
     context.fillRect(0, 0, this.ink.width, this.ink.height);
+    context.imageSmoothingQuality = "high";  // thin lines of a drawing that is shown small
     context.drawImage(this.ink, 0, 0);
   }
 }
