@@ -5,6 +5,13 @@
 
 namespace madori::app {
 
+std::optional<std::string> node_name(const planning::RouteGraph& graph, int id) {
+  const auto index = graph.index_of(id);
+  if (!index) return std::nullopt;
+  const auto& node = graph.nodes()[*index];
+  return node.name.empty() ? std::to_string(id) : node.name;
+}
+
 std::vector<planning::WayCorner> way_corners(const planning::RouteGraph& graph,
                                              const planning::Route& route) {
   constexpr double kNoLimit = std::numeric_limits<double>::infinity();

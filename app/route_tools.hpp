@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/path.hpp"
@@ -8,6 +10,9 @@
 #include "planning/waypoints/waypoints.hpp"
 
 namespace madori::app {
+
+/// The name of a node, its number where it has none; nothing for one that is not there.
+[[nodiscard]] std::optional<std::string> node_name(const planning::RouteGraph& graph, int id);
 
 /// The corners of a route with the speed limit of the leg that leads to each.
 [[nodiscard]] std::vector<planning::WayCorner> way_corners(const planning::RouteGraph& graph,

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/result.hpp"
 #include "mapping/georeference/control_points.hpp"
 #include "mapping/georeference/known_lengths.hpp"
 #include "mapping/georeference/number_list.hpp"
 #include "mapping/georeference/overlay.hpp"
+#include "mapping/georeference/scale_choice.hpp"
 
 namespace madori::app {
 namespace {
@@ -41,13 +42,6 @@ std::vector<ScaleEstimate> given_sources(const ScaleInputs& inputs, const mappin
   return sources;
 }
 
-/// The better verdict, then the smaller uncertainty; one that is verified before one that is not.
-bool better(const ScaleEstimate& a, const ScaleEstimate& b) {
-  if (a.verdict != b.verdict) return a.verdict < b.verdict;
-  if (a.verified != b.verified) return a.verified;
-  return a.relative_uncertainty < b.relative_uncertainty;
-}
-
 }  // namespace
 
 bool ScaleInputs::empty() const {
@@ -56,16 +50,10 @@ bool ScaleInputs::empty() const {
 
 ScaleFindings find_scale(const ScaleInputs& inputs, const mapping::Site& site) {
   ScaleFindings found;
-  found.sources = given_sources(inputs, site);
-  found.best = *std::min_element(found.sources.begin(), found.sources.end(), better);
-  for (const auto& source : found.sources)
-    if (!found.best.georeference && source.verdict != Verdict::Refused)
-      found.best.georeference = source.georeference;
-  found.disagreements = mapping::disagreements(found.sources);
-  if (!found.disagreements.empty() && found.best.verdict != Verdict::Refused) {
-    found.best.verdict = Verdict::Refused;
-    found.best.reason = found.disagreements.front();
-  }
+  mapping::ScaleChoice choice = mapping::choose_scale(given_sources(inputs, site));
+  found.sources = std::move(choice.sources);
+  found.best = std::move(choice.best);
+  found.disagreements = std::move(choice.disagreements);
   if (site.scale) {
     found.sources.push_back(mapping::recorded_scale(*site.scale));
     found.sources.back().method = "site.yaml:" + site.scale->method;

@@ -14,6 +14,7 @@
 #include "app/import_report.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
+#include "app/panel/reference_lidar.hpp"
 #include "core/result.hpp"
 #include "mapping/site/site.hpp"
 #include "mapping/site/strict_yaml.hpp"
@@ -58,7 +59,7 @@ void copy_routes(const fs::path& sample, const fs::path& site) {
 void mount_lidar(const fs::path& folder) {
   mapping::Site site = mapping::load_site(folder);
   if (!site.sensors.empty()) return;
-  site.sensors.push_back({"top", "vlp16", 0.3, 0.0, 1.2, 0.0});
+  site.sensors.push_back(kReferenceLidar);
   mapping::save_site(folder, site);
 }
 

@@ -9,7 +9,7 @@
 namespace madori::app {
 namespace {
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr int kBusyMs = 5000;
 
 constexpr std::array kSetUp{
@@ -30,6 +30,12 @@ constexpr std::array kTables{
     "CREATE TABLE IF NOT EXISTS events (id INTEGER PRIMARY KEY, stamp_ns INTEGER NOT NULL, kind TEXT NOT "
     "NULL, "
     "text TEXT NOT NULL)",
+};
+
+/// From format 1: the queue can be put in another sequence.
+constexpr std::array kSequence{
+    "ALTER TABLE orders ADD COLUMN place INTEGER NOT NULL DEFAULT 0",
+    "UPDATE orders SET place = id",
 };
 
 constexpr std::array kStates{OrderState::Queued, OrderState::Running, OrderState::Done, OrderState::Cancelled,
@@ -139,7 +145,10 @@ OrderStore::OrderStore(const std::filesystem::path& file) : database_(open(file)
     throw Error(file_, "was written by a newer Madori", "update this one, or use another site folder");
   if (format() == kFormat) return;
   Transaction transaction(database_.get());
-  for (const char* sql : kTables) Statement(database_.get(), sql).run();
+  if (format() == kFormat) return;  // another program was quicker
+  if (format() < 1)
+    for (const char* sql : kTables) Statement(database_.get(), sql).run();
+  for (const char* sql : kSequence) Statement(database_.get(), sql).run();
   Statement(database_.get(), ("PRAGMA user_version=" + std::to_string(kFormat)).c_str()).run();
   transaction.commit();
 }
@@ -154,6 +163,9 @@ std::int64_t OrderStore::add(const std::vector<OrderStop>& stops, int repeat, St
       .bind(repeat, std::string(to_string(OrderState::Queued)), nanoseconds(now), nanoseconds(now))
       .run();
   const std::int64_t id = sqlite3_last_insert_rowid(database_.get());
+  Statement(database_.get(), "UPDATE orders SET place = (SELECT MAX(place) + 1 FROM orders) WHERE id = ?")
+      .bind(id)
+      .run();
   for (std::size_t i = 0; i < stops.size(); ++i)
     Statement(database_.get(), "INSERT INTO order_stops VALUES (?, ?, ?, ?, ?)")
         .bind(id, i, stops[i].node, std::string(to_string(stops[i].action)), stops[i].wait_s)
@@ -169,14 +181,15 @@ std::optional<Order> OrderStore::find(std::int64_t id) const {
 }
 
 std::vector<Order> OrderStore::list(bool open_only) const {
-  return orders_where(database_.get(),
-                      open_only ? "WHERE state IN ('queued', 'running') ORDER BY id" : "ORDER BY id");
+  return orders_where(
+      database_.get(),
+      open_only ? "WHERE state IN ('queued', 'running') ORDER BY state = 'queued', place" : "ORDER BY id");
 }
 
 std::optional<Order> OrderStore::begin_next(Stamp now) {
   Transaction transaction(database_.get());
   auto orders = orders_where(database_.get(),
-                             "WHERE state IN ('queued', 'running') ORDER BY state = 'queued', id LIMIT 1");
+                             "WHERE state IN ('queued', 'running') ORDER BY state = 'queued', place LIMIT 1");
   if (orders.empty()) return std::nullopt;
   Order& order = orders.front();
   if (order.state == OrderState::Queued) {
@@ -215,6 +228,34 @@ void OrderStore::close(std::int64_t id, OrderState state, const std::string& not
   order->note = note;
   save_progress(database_.get(), *order, now);
   transaction.commit();
+}
+
+std::vector<Order> OrderStore::ended(std::size_t newest) const {
+  return orders_where(database_.get(),
+                      "WHERE state NOT IN ('queued', 'running') ORDER BY changed_ns DESC, id DESC LIMIT ?",
+                      newest);
+}
+
+bool OrderStore::arrange(const std::vector<std::int64_t>& ids) {
+  Transaction transaction(database_.get());
+  std::vector<std::int64_t> queued;
+  std::vector<std::int64_t> places;
+  Statement query(database_.get(), "SELECT id, place FROM orders WHERE state = 'queued' ORDER BY place");
+  while (query.step()) {
+    queued.push_back(query.integer(0));
+    places.push_back(query.integer(1));
+  }
+  if (!std::is_permutation(queued.begin(), queued.end(), ids.begin(), ids.end())) return false;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    Statement(database_.get(), "UPDATE orders SET place = ? WHERE id = ?").bind(places[i], ids[i]).run();
+  transaction.commit();
+  return true;
+}
+
+Stamp OrderStore::created(std::int64_t id) const {
+  Statement query(database_.get(), "SELECT created_ns FROM orders WHERE id = ?");
+  query.bind(id);
+  return query.step() ? Stamp(Duration(query.integer(0))) : Stamp{};
 }
 
 std::int64_t OrderStore::stops_done() const {

@@ -32,9 +32,15 @@ class OrderStore {
   /// Queues an order and returns its ID.
   std::int64_t add(const std::vector<OrderStop>& stops, int repeat, Stamp now);
   [[nodiscard]] std::optional<Order> find(std::int64_t id) const;
-  /// All orders, or those that are queued or running, oldest first.
+  /// All orders, oldest first, or those that are running or queued, in the sequence of the queue.
   [[nodiscard]] std::vector<Order> list(bool open_only) const;
-  /// The running order, else the oldest queued one, which becomes running.
+  /// Orders that are neither, the last to end first.
+  [[nodiscard]] std::vector<Order> ended(std::size_t newest) const;
+  /// Puts the queued orders in this sequence. False, and nothing changes, where these are not the queued
+  /// ones.
+  bool arrange(const std::vector<std::int64_t>& ids);
+  [[nodiscard]] Stamp created(std::int64_t id) const;
+  /// The running order, else the first queued one, which becomes running.
   std::optional<Order> begin_next(Stamp now);
   /// Counts stop `next_stop` of round `round` as done, once; counting it again changes nothing. The order
   /// that it completes becomes Done.

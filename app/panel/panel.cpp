@@ -28,25 +28,29 @@ hmi::ServerOptions parse_address(const std::string& host_port) {
 
 class ServedPanel final : public Panel {
  public:
-  ServedPanel(TransportRun& run, const std::filesystem::path& site, const hmi::ServerOptions& options,
-              const std::filesystem::path& web)
-      : host_(options.host),
-        access_(site / "pins", !hmi::host_allowed(options.host, true),
+  ServedPanel(SiteRun& run, const PanelOptions& options, const hmi::ServerOptions& server)
+      : host_(server.host),
+        access_(options.site / "pins", !hmi::host_allowed(server.host, true),
                 [] { return std::chrono::steady_clock::now(); }),
-        vehicle_(run, site / "madori.db"),
-        files_(web),
-        editor_(site),
+        vehicle_(run, options.site / "madori.db", options.devices),
+        files_(options.web),
+        editor_(options.site),
         context_{access_,
                  editor_,
                  vehicle_,
                  job_,
+                 replay_,
                  iso_time_utc,
-                 [site](mapping::SiteTransaction& change, double factor) {
+                 [site = options.site](mapping::SiteTransaction& change, double factor) {
                    stage_scaled_routes(site, change, factor);
                  }},
-        server_(options, hmi::make_router(context_), access_, files_, vehicle_) {}
+        server_(server, context_, files_) {}
 
-  void observe(const CycleInput& input, const CycleState& state) override { vehicle_.observe(input, state); }
+  void begin_run() override { vehicle_.begin_run(); }
+  void observe(const CycleInput& input, const CycleState& state, const TransportRun& run) override {
+    vehicle_.observe(input, state, run);
+  }
+  void idle(const CycleInput& input) override { vehicle_.idle(input); }
   [[nodiscard]] std::string address() const override {
     return "http://" + host_ + ":" + std::to_string(server_.port()) + "/";
   }
@@ -58,21 +62,23 @@ class ServedPanel final : public Panel {
   hmi::StaticFiles files_;
   hmi::SiteEditor editor_;
   hmi::Job job_;
+  hmi::Replay replay_;
   hmi::ApiContext context_;
   hmi::Server server_;  ///< last: its threads use all of the above
 };
 
 }  // namespace
 
-std::unique_ptr<Panel> open_panel(TransportRun& run, const std::filesystem::path& site,
-                                  const std::string& host_port, const std::filesystem::path& web) {
-  if (host_port == "off") return nullptr;
-  if (!std::filesystem::exists(web / "index.html")) {
-    std::fprintf(stderr, "no panel: %s holds no built page; build it: cmake --build build/release --target panel\n",
-                 web.c_str());
+std::unique_ptr<Panel> open_panel(SiteRun& run, const PanelOptions& options) {
+  if (options.host_port == "off") return nullptr;
+  if (!std::filesystem::exists(options.web / "index.html")) {
+    std::fprintf(stderr,
+                 "no panel: %s holds no built page; build it: cmake --build build/release --target panel\n",
+                 options.web.c_str());
     return nullptr;
   }
-  return std::make_unique<ServedPanel>(run, site, parse_address(host_port), web);
+  std::filesystem::create_directories(options.site);
+  return std::make_unique<ServedPanel>(run, options, parse_address(options.host_port));
 }
 
 }  // namespace madori::app

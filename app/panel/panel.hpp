@@ -4,7 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "app/runner/transport_run.hpp"
+#include "app/runner/site_run.hpp"
+#include "app/runner/socket_link.hpp"
 
 namespace madori::app {
 
@@ -16,15 +17,23 @@ class Panel {
   Panel& operator=(const Panel&) = delete;
   virtual ~Panel() = default;
 
-  /// Call after every step of the cycle.
-  virtual void observe(const CycleInput& input, const CycleState& state) = 0;
+  /// On the cycle's thread: a run begins; after each of its steps; after a tick without a run.
+  virtual void begin_run() = 0;
+  virtual void observe(const CycleInput& input, const CycleState& state, const TransportRun& run) = 0;
+  virtual void idle(const CycleInput& input) = 0;
   [[nodiscard]] virtual std::string address() const = 0;
 };
 
-/// Serves the panel at `host_port` ("127.0.0.1:8080"; "off" or a page that was never built: no panel, and the
-/// second is said). PINs lie in `site`/pins; without loopback one is needed. Throws Error on a bad address.
-[[nodiscard]] std::unique_ptr<Panel> open_panel(TransportRun& run, const std::filesystem::path& site,
-                                                const std::string& host_port,
-                                                const std::filesystem::path& web);
+/// Where the panel is served, and of what.
+struct PanelOptions {
+  std::filesystem::path site;
+  std::string host_port = "127.0.0.1:8080";  ///< "off": no panel
+  std::filesystem::path web;  ///< the built page; where it was never built: no panel, and that is said
+  SocketOptions devices;
+};
+
+/// Serves the panel of `run`. PINs lie in `site`/pins; without loopback one is needed. Throws Error on a bad
+/// address. Null where there is no panel.
+[[nodiscard]] std::unique_ptr<Panel> open_panel(SiteRun& run, const PanelOptions& options);
 
 }  // namespace madori::app

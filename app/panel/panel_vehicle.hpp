@@ -1,43 +1,52 @@
 #pragma once
 
-#include <memory>
-#include <mutex>
+#include <filesystem>
 
-#include "app/runner/transport_run.hpp"
+#include "app/panel/live_copy.hpp"
+#include "app/panel/panel_orders.hpp"
+#include "app/runner/site_run.hpp"
+#include "app/runner/socket_link.hpp"
+#include "app/statistics/work_meter.hpp"
 #include "hmi/server/vehicle.hpp"
 
 namespace madori::app {
 
-/// A running vehicle as the touch panel sees it. The cycle only copies into it (`observe`); everything the
-/// panel asks is answered from that copy and from a database connection of its own.
+/// A vehicle as the touch panel sees it, from an empty site on. The cycle only copies into it (`observe`,
+/// `idle`); everything the panel asks is answered from that copy and from a database connection of its own.
 class PanelVehicle final : public hmi::Vehicle {
  public:
-  PanelVehicle(TransportRun& run, const std::filesystem::path& database);
+  PanelVehicle(SiteRun& run, const std::filesystem::path& database, SocketOptions devices);
 
-  /// Call after every step of the cycle, on its thread.
-  void observe(const CycleInput& input, const CycleState& state);
+  /// On the cycle's thread: a run begins; after each of its steps; after a tick without a run.
+  void begin_run() { meter_.forget_step(); }
+  void observe(const CycleInput& input, const CycleState& state, const TransportRun& run);
+  void idle(const CycleInput& input);
 
-  [[nodiscard]] hmi::LiveState live() const override;
+  [[nodiscard]] hmi::LiveState live() const override { return copy_.live(); }
   hmi::Reply command(hmi::Command command) override;
   hmi::Reply jog(const VelocityCommand& velocity) override;
-  [[nodiscard]] std::vector<hmi::OrderView> orders() const override;
-  hmi::Reply add_order(const std::vector<int>& stations, int repeat) override;
-  hmi::Reply cancel_order(long long id) override;
+  [[nodiscard]] std::vector<hmi::OrderView> orders() const override { return orders_.open(); }
+  [[nodiscard]] std::vector<hmi::OrderView> order_history() const override { return orders_.ended(); }
+  hmi::Reply add_order(const std::vector<hmi::StopView>& stops, int repeat) override;
+  hmi::Reply repeat_order(long long id) override;
+  hmi::Reply cancel_order(long long id) override { return orders_.cancel(id); }
+  hmi::Reply arrange_orders(const std::vector<long long>& ids) override { return orders_.arrange(ids); }
+  [[nodiscard]] hmi::LocateView locate() const override { return copy_.locate(); }
+  hmi::Reply search_place() override;
+  hmi::Reply set_pose(const Transform2<Map, Base>& map_from_base) override;
+  [[nodiscard]] std::vector<hmi::FoundDevice> found_devices() const override;
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const override;
   [[nodiscard]] hmi::StatisticsView statistics() const override;
-  hmi::Reply reload_site() override;
+  [[nodiscard]] std::shared_ptr<const std::string> camera_jpeg() const override;
+  [[nodiscard]] hmi::Reply may_change_site() const override;
+  void reload_site() override { run_.reload(); }
 
  private:
-  [[nodiscard]] Mode mode() const;
-  void show_scan(const CycleInput& input, const CycleState& state);
-
-  TransportRun& run_;
-  mutable std::mutex store_mutex_;
-  mutable OrderStore store_;
-  mutable std::mutex mutex_;
-  hmi::LiveState live_;
-  Mode mode_ = Mode::Paused;
-  Stamp shown_{};
+  SiteRun& run_;
+  SocketOptions devices_;
+  LiveCopy copy_;
+  PanelOrders orders_;
+  WorkMeter meter_;
 };
 
 }  // namespace madori::app

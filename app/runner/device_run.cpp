@@ -6,13 +6,13 @@
 #include <chrono>
 #include <csignal>
 #include <memory>
+#include <utility>
 
-#include "app/cycle/site_config.hpp"
 #include "app/iso_time.hpp"
 #include "app/panel/panel.hpp"
-#include "app/pose/drawing_pose.hpp"
 #include "app/recording/recorder.hpp"
 #include "app/runner/real_time.hpp"
+#include "app/runner/site_run.hpp"
 
 namespace madori::app {
 namespace {
@@ -26,40 +26,75 @@ std::string run_name() {
   return name;
 }
 
+/// The recording of each run, and the panel that looks on.
+class Onlookers {
+ public:
+  explicit Onlookers(const DeviceRunOptions& options) : options_(options) {}
+
+  void begin(TransportRun& run, Panel* panel) {
+    end();
+    if (options_.record) {
+      folder_ = options_.site / "runs" / run_name();
+      recorder_ = std::make_unique<Recorder>(folder_);
+    }
+    if (panel != nullptr) panel->begin_run();
+    run.set_tap([this, panel, &run](const auto& in, const auto& out, const auto& state) {
+      if (recorder_) recorder_->add(in, out, state);
+      if (panel != nullptr) panel->observe(in, state, run);
+    });
+    if (options_.resume && !std::exchange(resumed_, true)) {
+      run.say({OperatorWord::Confirm, {}});
+      run.say({OperatorWord::Resume, {}});
+    }
+  }
+  void end() {
+    if (recorder_ && recorder_->lost() > 0)
+      spdlog::warn("{} steps are missing in the recording {}", recorder_->lost(), recorder_->problem());
+    recorder_.reset();
+  }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  const DeviceRunOptions& options_;
+  std::filesystem::path folder_;
+  std::unique_ptr<Recorder> recorder_;
+  bool resumed_ = false;
+};
+
 }  // namespace
 
 std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
-  auto loaded = load_for_driving(options.site);
-  const auto wheels = loaded.config.odometry.wheels;
-  TransportRun vehicle(std::move(loaded.config), std::make_unique<DrawingPose>(loaded.walls),
-                       std::make_unique<SocketLink>(options.devices, wheels), {.site = options.site});
-  std::filesystem::path folder;
-  std::unique_ptr<Recorder> recorder;
-  if (options.record) {
-    folder = options.site / "runs" / run_name();
-    recorder = std::make_unique<Recorder>(folder);
-  }
-  const auto panel = open_panel(vehicle, options.site, options.hmi, options.panel_folder);
-  if (panel) spdlog::info("panel at {}", panel->address());
-  vehicle.set_tap([&](const auto& in, const auto& out, const auto& state) {
-    if (recorder) recorder->add(in, out, state);
-    if (panel) panel->observe(in, state);
-  });
+  Onlookers onlookers(options);
+  Panel* looking_on = nullptr;
+  auto link = std::make_unique<SocketLink>(options.devices, WheelGeometry{});
+  SocketLink& devices = *link;
+  SiteRun vehicle(options.site, std::move(link),
+                  {.opened =
+                       [&](TransportRun& run) {
+                         devices.set_wheels(run.config().odometry.wheels);
+                         onlookers.begin(run, looking_on);
+                       },
+                   .closing = [&] { onlookers.end(); },
+                   .idle =
+                       [&](const CycleInput& input) {
+                         if (looking_on != nullptr) looking_on->idle(input);
+                       }});
+  const auto panel = open_panel(vehicle, {options.site, options.hmi, options.panel_folder, options.devices});
+  looking_on = panel.get();
+  if (panel)
+    spdlog::info("panel at {}", panel->address());
+  else
+    vehicle.load_now();  // nobody could complete the site
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
-  if (options.resume) {
-    vehicle.say({OperatorWord::Confirm, {}});
-    vehicle.say({OperatorWord::Resume, {}});
-  }
   const auto begun = std::chrono::steady_clock::now();
-  run_in_real_time(vehicle, interrupted, [&] {
-    return options.duration_s > 0.0 &&
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() >
-               options.duration_s;
-  });
-  if (recorder && recorder->lost() > 0)
-    spdlog::warn("{} steps are missing in the recording {}", recorder->lost(), recorder->problem());
-  return folder;
+  run_in_real_time([&](Stamp now) { vehicle.tick(now); }, interrupted,
+                   [&] {
+                     return options.duration_s > 0.0 &&
+                            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() >
+                                options.duration_s;
+                   });
+  return onlookers.folder();
 }
 
 }  // namespace madori::app

@@ -5,16 +5,21 @@
 
 namespace madori::app {
 
-void run_in_real_time(TransportRun& run, const std::atomic<bool>& stop, const std::function<bool()>& done) {
+void run_in_real_time(const std::function<void(Stamp)>& tick, const std::atomic<bool>& stop,
+                      const std::function<bool()>& done) {
   constexpr auto kPeriod = std::chrono::milliseconds(20);
   auto next = std::chrono::steady_clock::now();
   while (!stop && !(done && done())) {
-    run.tick(std::chrono::system_clock::now());
+    tick(std::chrono::system_clock::now());
     next += kPeriod;
     const auto now = std::chrono::steady_clock::now();
     if (next < now) next = now;
     std::this_thread::sleep_until(next);
   }
+}
+
+void run_in_real_time(TransportRun& run, const std::atomic<bool>& stop, const std::function<bool()>& done) {
+  run_in_real_time([&run](Stamp now) { run.tick(now); }, stop, done);
 }
 
 }  // namespace madori::app

@@ -7,6 +7,11 @@
 
 namespace madori::app {
 
+/// Calls `tick` with the time every 20 ms by the steady clock until `stop` or `done()`; a tick that takes
+/// longer delays the next one.
+void run_in_real_time(const std::function<void(Stamp)>& tick, const std::atomic<bool>& stop,
+                      const std::function<bool()>& done = {});
+
 /// Ticks `run` every 20 ms by the steady clock until `stop` or `done()`. A step that takes longer delays the
 /// next one; the drive stops by itself after 200 ms of silence.
 void run_in_real_time(TransportRun& run, const std::atomic<bool>& stop,

@@ -28,6 +28,8 @@ class SocketLink final : public VehicleLink {
 
   void collect(CycleInput& input) override;
   void send(const CycleOutput& output) override;
+  /// Of the site's vehicle. On the thread that sends.
+  void set_wheels(const WheelGeometry& wheels) { wheels_ = wheels; }
   [[nodiscard]] std::string problem() const override;
   [[nodiscard]] std::uint16_t lidar_port() const { return lidar_->data_port(); }
 

@@ -10,7 +10,10 @@ Router make_router(ApiContext& context) {
   Router router;
   add_session_routes(router, context);
   add_site_routes(router, context);
+  add_import_routes(router, context);
   add_scale_routes(router, context);
+  add_tile_routes(router, context);
+  add_setup_routes(router, context);
   add_vehicle_routes(router, context);
   add_history_routes(router, context);
   return router;
@@ -31,7 +34,7 @@ void add_session_routes(Router& router, ApiContext& context) {
                    "madori_session=" + *login.token + "; HttpOnly; SameSite=Strict; Path=/";
                return response;
              }),
-             true);
+             Work::Worker);
   router.add("DELETE", "/api/session", Role::None, [&context](const Request& request) {
     context.access.logout(request.cookie("madori_session"));
     return answer(nlohmann::json::object());

@@ -6,6 +6,7 @@
 #include "hmi/server/access.hpp"
 #include "hmi/server/http.hpp"
 #include "hmi/server/job.hpp"
+#include "hmi/server/replay.hpp"
 #include "hmi/server/site_editor.hpp"
 #include "hmi/server/vehicle.hpp"
 #include "mapping/georeference/apply_scale.hpp"
@@ -18,15 +19,19 @@ struct ApiContext {
   SiteEditor& editor;
   Vehicle& vehicle;
   Job& job;
+  Replay& replay;
   std::function<std::string()> iso_time;  ///< for what is recorded with a date
   mapping::StageScaled stage_scaled;      ///< what else of the site changes with its scale: the routes
 };
 
-/// Every address below /api but the live socket (docs/reference/panel-api.md).
+/// Every address below /api but the live socket (docs/reference/panel.md).
 [[nodiscard]] Router make_router(ApiContext& context);
 
 void add_session_routes(Router& router, ApiContext& context);
 void add_site_routes(Router& router, ApiContext& context);
+void add_import_routes(Router& router, ApiContext& context);
+void add_tile_routes(Router& router, ApiContext& context);
+void add_setup_routes(Router& router, ApiContext& context);
 void add_scale_routes(Router& router, ApiContext& context);
 void add_vehicle_routes(Router& router, ApiContext& context);
 void add_history_routes(Router& router, ApiContext& context);

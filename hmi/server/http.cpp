@@ -76,7 +76,7 @@ std::string Request::cookie(std::string_view name) const {
 }
 
 Response Response::json(std::string body, int status) {
-  return {status, "application/json", std::move(body), {}};
+  return {status, "application/json", std::move(body), {}, {}};
 }
 
 Response Response::error(int status, const std::string& code, const std::string& text) {
@@ -84,8 +84,8 @@ Response Response::error(int status, const std::string& code, const std::string&
   return json(body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), status);
 }
 
-void Router::add(std::string method, std::string pattern, Role needs, Handler handler, bool long_work) {
-  routes_.push_back({std::move(method), elements_of(pattern), needs, std::move(handler), long_work});
+void Router::add(std::string method, std::string pattern, Role needs, Handler handler, Work work) {
+  routes_.push_back({std::move(method), elements_of(pattern), needs, std::move(handler), work});
 }
 
 Router::Match Router::match(Request& request) const {
@@ -104,11 +104,11 @@ Router::Match Router::match(Request& request) const {
     if (!same) continue;
     path_known = true;
     if (route.method != request.method) continue;
-    if (request.role < route.needs) return {nullptr, false, request.role == Role::None ? 401 : 403};
+    if (request.role < route.needs) return {nullptr, Work::Quick, request.role == Role::None ? 401 : 403};
     request.captures = std::move(captures);
-    return {&route.handler, route.long_work, 0};
+    return {&route.handler, route.work, 0};
   }
-  return {nullptr, false, path_known ? 405 : 404};
+  return {nullptr, Work::Quick, path_known ? 405 : 404};
 }
 
 bool parse_target(std::string_view target, Request& request) {

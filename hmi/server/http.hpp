@@ -31,6 +31,8 @@ struct Response {
   std::string content_type = "application/json";
   std::string body;
   std::map<std::string, std::string> headers;
+  /// Where set, the body comes in parts instead: called on a worker until it returns an empty one.
+  std::function<std::string()> next_part{};
 
   [[nodiscard]] static Response json(std::string body, int status = 200);
   /// {"error": {"code", "text"}}: the panel knows the code, a person the text.
@@ -39,15 +41,22 @@ struct Response {
 
 using Handler = std::function<Response(const Request&)>;
 
+/// Where a handler runs, and how much it may be sent.
+enum class Work {
+  Quick,   ///< at once, among the sockets: it must not wait for anything
+  Worker,  ///< on a worker: it may touch the disk
+  Upload,  ///< on a worker, with a body of up to ServerOptions::most_upload_bytes
+};
+
 /// Finds the handler of a method and path. A pattern's `*` stands for one path element.
 class Router {
  public:
-  /// `needs` is the least role; `long_work` handlers run on a worker and never hold up the others.
-  void add(std::string method, std::string pattern, Role needs, Handler handler, bool long_work = false);
+  /// `needs` is the least role.
+  void add(std::string method, std::string pattern, Role needs, Handler handler, Work work = Work::Quick);
 
   struct Match {
     const Handler* handler = nullptr;
-    bool long_work = false;
+    Work work = Work::Quick;
     int refusal = 0;  ///< 401, 403, 404 or 405 instead of a handler
   };
   /// Fills the request's captures. Role::None with a route that needs more gives 401, too low a role 403.
@@ -59,7 +68,7 @@ class Router {
     std::vector<std::string> elements;
     Role needs;
     Handler handler;
-    bool long_work;
+    Work work;
   };
   std::vector<Route> routes_;
 };

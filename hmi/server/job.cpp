@@ -1,12 +1,20 @@
 #include "hmi/server/job.hpp"
 
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/result.hpp"
+#include "hmi/server/wire.hpp"
+
 namespace madori::hmi {
+namespace {
+
+struct Cancelled : std::exception {};
+
+}  // namespace
 
 Job::~Job() {
+  cancel();
   if (thread_.joinable()) thread_.join();
 }
 
@@ -15,27 +23,38 @@ bool Job::start(const std::string& kind, Work work) {
   if (running_) return false;
   if (thread_.joinable()) thread_.join();
   running_ = true;
+  cancelled_ = false;
   kind_ = kind;
-  stage_ = error_ = summary_ = "";
+  stage_ = "";
+  error_ = {};
+  outcome_ = {};
   share_ = 0.0;
   thread_ = std::thread([this, work = std::move(work)] { run(work); });
   return true;
 }
 
+void Job::cancel() {
+  const std::scoped_lock lock(mutex_);
+  cancelled_ = true;
+}
+
 void Job::run(const Work& work) {
-  std::string summary;
-  std::string error;
+  Outcome outcome;
+  Notice error;
   try {
-    summary = work([this](const std::string& stage, double share) {
+    outcome = work([this](const std::string& stage, double share) {
       const std::scoped_lock lock(mutex_);
+      if (cancelled_) throw Cancelled();
       stage_ = stage;
       share_ = share;
     });
+  } catch (const Cancelled&) {
+    error = {"cancelled", {}, "cancelled; nothing has changed"};
   } catch (const std::exception& e) {
-    error = e.what();
+    error = {"job-failed", {{"reason", e.what()}}, e.what()};
   }
   const std::scoped_lock lock(mutex_);
-  summary_ = std::move(summary);
+  outcome_ = std::move(outcome);
   error_ = std::move(error);
   share_ = 1.0;
   running_ = false;
@@ -43,8 +62,13 @@ void Job::run(const Work& work) {
 
 nlohmann::json Job::state() const {
   const std::scoped_lock lock(mutex_);
-  return {{"kind", kind_},   {"running", running_}, {"stage", stage_},
-          {"share", share_}, {"error", error_},     {"summary", summary_}};
+  return {{"kind", kind_},
+          {"running", running_},
+          {"stage", stage_},
+          {"share", share_},
+          {"error", to_wire(error_)},
+          {"summary", outcome_.summary},
+          {"report", outcome_.report}};
 }
 
 }  // namespace madori::hmi

@@ -2,19 +2,25 @@
 
 #include <functional>
 #include <mutex>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
+
+#include "hmi/server/vehicle.hpp"
 
 namespace madori::hmi {
 
 /// Long work, one at a time, on a thread of its own; the panel asks how far it is.
 class Job {
  public:
-  /// Called with the stage that begins and the share done, 0..1.
+  /// Called with the stage that begins and the share done, 0..1. Throws where the job was cancelled.
   using Progress = std::function<void(const std::string& stage, double share)>;
-  /// Returns a summary in words; throws on failure.
-  using Work = std::function<std::string(const Progress&)>;
+  struct Outcome {
+    std::string summary;    ///< in words
+    nlohmann::json report;  ///< ImportSummary of an import, else null
+  };
+  /// Throws on failure.
+  using Work = std::function<Outcome(const Progress&)>;
 
   Job() = default;
   ~Job();
@@ -23,6 +29,8 @@ class Job {
 
   /// False while another one runs.
   bool start(const std::string& kind, Work work);
+  /// The running job ends at its next progress; nothing of the site has changed then.
+  void cancel();
   /// Job of hmi/schema.
   [[nodiscard]] nlohmann::json state() const;
 
@@ -32,7 +40,10 @@ class Job {
   mutable std::mutex mutex_;
   std::thread thread_;
   bool running_ = false;
-  std::string kind_, stage_, error_, summary_;
+  bool cancelled_ = false;
+  std::string kind_, stage_;
+  Notice error_;
+  Outcome outcome_;
   double share_ = 0.0;
 };
 

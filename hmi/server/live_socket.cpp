@@ -10,13 +10,10 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
-#include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "hmi/server/jog_message.hpp"
-#include "hmi/server/wire.hpp"
+#include "hmi/server/live_command.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -33,8 +30,12 @@ constexpr std::size_t kMostMessageBytes = 4096;
 
 /// What the reading, the writing and the watching coroutine of one socket share; all run on one thread.
 struct Session {
-  Session(beast::tcp_stream stream, Role r, Vehicle& v) : socket(std::move(stream)), role(r), vehicle(v) {}
-  ~Session() { end_jog(); }
+  Session(beast::tcp_stream stream, Role r, Vehicle& v, LiveFeed& f)
+      : socket(std::move(stream)), role(r), vehicle(v), feed(f) {}
+  ~Session() {
+    end_jog();
+    feed.left(this);
+  }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -46,23 +47,29 @@ struct Session {
   Socket socket;
   Role role;
   Vehicle& vehicle;
+  LiveFeed& feed;
   std::optional<Clock::time_point> jog_until;
-  std::optional<Reply> refusal;  ///< to tell with the next state
+  std::optional<Notice> refusal;  ///< to tell with the next state
   bool open = true;
 };
 
-void take_message(Session& session, const std::string& text) {
-  const auto velocity = parse_jog(text);
-  if (!velocity) {
-    session.refusal = Reply::refused("bad-message", "the message was not understood");
-  } else if (session.role < Role::Operator) {
-    session.refusal = Reply::refused("not-allowed", "only an operator may drive by hand");
-  } else {
-    const Reply reply = session.vehicle.jog(*velocity);
-    if (!reply.accepted) session.refusal = reply;
-    const bool moving = reply.accepted && *velocity != VelocityCommand{};
-    session.jog_until = moving ? std::optional(Clock::now() + kJogLife) : std::nullopt;
+void take_jog(Session& session, const VelocityCommand& velocity) {
+  if (session.role < Role::Operator) {
+    session.refusal = Reply::refused("not-allowed", "only an operator may drive by hand").reason;
+    return;
   }
+  const Reply reply = session.vehicle.jog(velocity);
+  if (!reply.accepted) session.refusal = reply.reason;
+  const bool moving = reply.accepted && velocity != VelocityCommand{};
+  session.jog_until = moving ? std::optional(Clock::now() + kJogLife) : std::nullopt;
+}
+
+void take_message(Session& session, const std::string& text) {
+  const auto command = parse_live_command(text);
+  if (command && command->jog)
+    take_jog(session, *command->jog);
+  else if (!command || !session.feed.edits(&session, command->editing))
+    session.refusal = Reply::refused("bad-message", "the message was not understood").reason;
 }
 
 asio::awaitable<void> read_messages(std::shared_ptr<Session> session) {
@@ -88,34 +95,27 @@ asio::awaitable<void> watch_jog(std::shared_ptr<Session> session) {
   }
 }
 
-std::string state_message(Session& session, const LiveState& live) {
-  const Stamp now = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
-  nlohmann::json message{{"live", to_wire(live, now)}};
-  if (session.refusal) message["refused"] = to_wire(session.refusal->reason);
-  session.refusal.reset();
-  return dump(message);
-}
-
 asio::awaitable<void> write_states(std::shared_ptr<Session> session, double rate_hz) {
   asio::steady_timer timer(co_await asio::this_coro::executor);
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate_hz));
   boost::system::error_code error;
-  std::string last_scan;
+  std::shared_ptr<const std::string> last_scan;
   while (session->open && !error) {
     timer.expires_after(period);
-    const LiveState live = session->vehicle.live();
+    session->feed.refresh(Clock::now());
+    const auto scan = session->feed.scan();
+    const std::string state = session->feed.message(session.get(), session->refusal);
+    session->refusal.reset();
     session->socket.text(true);
-    const std::string state = state_message(*session, live);
     co_await session->socket.async_write(asio::buffer(state),
                                          asio::redirect_error(asio::use_awaitable, error));
     if (error || !session->open) break;
-    std::string scan = scan_frame(live.scan);
-    if (scan != last_scan) {
+    if (scan && scan != last_scan) {
       session->socket.binary(true);
-      co_await session->socket.async_write(asio::buffer(scan),
+      co_await session->socket.async_write(asio::buffer(*scan),
                                            asio::redirect_error(asio::use_awaitable, error));
-      last_scan = std::move(scan);
+      last_scan = scan;
     }
     if (!error) co_await timer.async_wait(asio::redirect_error(asio::use_awaitable, error));
   }
@@ -127,9 +127,9 @@ asio::awaitable<void> write_states(std::shared_ptr<Session> session, double rate
 
 asio::awaitable<void> serve_live(beast::tcp_stream stream,
                                  beast::http::request<beast::http::string_body> upgrade, Role role,
-                                 Vehicle& vehicle, double rate_hz) {
+                                 Vehicle& vehicle, LiveFeed& feed, double rate_hz) {
   stream.expires_never();
-  const auto session = std::make_shared<Session>(std::move(stream), role, vehicle);
+  const auto session = std::make_shared<Session>(std::move(stream), role, vehicle, feed);
   session->socket.set_option(
       websocket::stream_base::timeout{std::chrono::seconds(5), std::chrono::seconds(6), true});
   session->socket.read_message_max(kMostMessageBytes);

@@ -7,15 +7,16 @@
 #include <boost/beast/http/string_body.hpp>
 
 #include "hmi/server/http.hpp"
+#include "hmi/server/live_feed.hpp"
 #include "hmi/server/vehicle.hpp"
 
 namespace madori::hmi {
 
-/// /api/live: sends the live state (JSON) and, when it is new, the scan (binary) at `rate_hz`; a browser that
-/// cannot keep up gets fewer frames, never old ones. Takes {"jog": {"linear": m/s, "angular": rad/s}} from
+/// /api/live: sends the feed's message (JSON) and, when it is new, the scan (binary) at `rate_hz`; a browser
+/// that cannot keep up gets fewer frames, never old ones. Takes LiveCommand of hmi/schema; jogs only from
 /// operators. A jog ends when no message came for 250 ms, and at once when the socket closes.
 boost::asio::awaitable<void> serve_live(boost::beast::tcp_stream stream,
                                         boost::beast::http::request<boost::beast::http::string_body> upgrade,
-                                        Role role, Vehicle& vehicle, double rate_hz);
+                                        Role role, Vehicle& vehicle, LiveFeed& feed, double rate_hz);
 
 }  // namespace madori::hmi

@@ -6,6 +6,7 @@
 
 #include "core/angle.hpp"
 #include "core/result.hpp"
+#include "hmi/server/json_text.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -36,7 +37,7 @@ std::string clean_name(const std::string& name) {
 
 planning::RouteNode node_from(const json& wire) {
   planning::RouteNode node;
-  node.id = wire.at("id").get<int>();
+  node.id = whole_number<int>(wire.at("id"));
   node.position = {wire.at("x").get<double>(), wire.at("y").get<double>()};
   if (node.id < 0 || !std::isfinite(node.position.x_m + node.position.y_m))
     throw Error("node " + std::to_string(node.id), "has no valid number or place", "draw it again");
@@ -64,8 +65,8 @@ planning::RouteGraph graph_from_wire(const json& edit) {
   }
   std::vector<planning::RouteLeg> legs;
   for (const auto& wire : edit.at("legs")) {
-    const auto from = index.find(wire.at(0).get<int>());
-    const auto to = index.find(wire.at(1).get<int>());
+    const auto from = index.find(whole_number<int>(wire.at(0)));
+    const auto to = index.find(whole_number<int>(wire.at(1)));
     if (from == index.end() || to == index.end())
       throw Error("leg " + wire.dump(), "joins a point that is not there", "draw it again");
     legs.push_back({from->second, to->second, 0.0, 0});

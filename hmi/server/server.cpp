@@ -1,6 +1,7 @@
 #include "hmi/server/server.hpp"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -10,13 +11,18 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "core/result.hpp"
+#include "hmi/server/gate.hpp"
+#include "hmi/server/http_message.hpp"
+#include "hmi/server/live_feed.hpp"
 #include "hmi/server/live_socket.hpp"
 #include "hmi/server/origin.hpp"
 
@@ -30,9 +36,9 @@ using tcp = asio::ip::tcp;
 using Parser = http::request_parser<http::string_body>;
 
 constexpr std::size_t kMostHeaderBytes = 16U << 10U;
-constexpr const char* kPolicy =
-    "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; object-src 'none'; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+constexpr std::size_t kMostReadAhead = 64U << 10U;
+constexpr std::size_t kMostStrangerBytes = 4096;  ///< of a body, without a session: a PIN
+constexpr std::size_t kWorkers = 2;
 
 bool is_loopback(const std::string& host) {
   return host_allowed(host, true);
@@ -46,60 +52,63 @@ void raise_descriptor_limit() {
   (void)::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-Request to_request(const http::request<http::string_body>& message) {
-  Request request;
-  request.method = std::string(message.method_string());
-  for (const auto& field : message) {
-    std::string name(field.name_string());
-    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    request.headers[name] = std::string(field.value());
-  }
-  return request;
-}
+/// One more of something, as long as it lives.
+class Counted {
+ public:
+  explicit Counted(std::size_t& count) : count_(count) { ++count_; }
+  ~Counted() { --count_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
 
-http::response<http::string_body> to_message(Response response, unsigned version, bool keep_alive,
-                                             bool head) {
-  http::response<http::string_body> message{static_cast<http::status>(response.status), version};
-  message.set(http::field::content_type, response.content_type);
-  message.set("Content-Security-Policy", kPolicy);
-  message.set("X-Content-Type-Options", "nosniff");
-  message.set("Referrer-Policy", "no-referrer");
-  message.set("Cross-Origin-Opener-Policy", "same-origin");
-  message.set("Cross-Origin-Resource-Policy", "same-origin");
-  message.set(http::field::cache_control, "no-store");
-  for (const auto& [name, value] : response.headers) message.set(name, value);
-  message.keep_alive(keep_alive);
-  message.body() = std::move(response.body);
-  message.prepare_payload();
-  if (head) message.body().clear();
-  return message;
+ private:
+  std::size_t& count_;
+};
+
+/// On Linux nice values belong to threads.
+bool run_behind_the_cycle() {
+  constexpr int kNice = 5;
+  return ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice) == 0;
 }
 
 }  // namespace
 
 struct Server::Impl {
-  Impl(const ServerOptions& o, Router r, Access& a, const StaticFiles& f, Vehicle& v)
-      : options(o), router(std::move(r)), access(a), files(f), vehicle(v), loopback(is_loopback(o.host)) {}
+  Impl(const ServerOptions& o, ApiContext& c, const StaticFiles& f)
+      : options(o),
+        access(c.access),
+        files(f),
+        vehicle(c.vehicle),
+        router(make_router(c)),
+        gate(router, is_loopback(o.host)),
+        feed(c.vehicle, c.editor, c.replay) {}
 
   void listen();
+  void run();
   asio::awaitable<void> accept_connections();
+  asio::awaitable<void> keep_feed();
   asio::awaitable<void> serve(tcp::socket socket);
   asio::awaitable<bool> serve_one(beast::tcp_stream& stream, beast::flat_buffer& buffer,
                                   const std::string& address);
-  asio::awaitable<Response> answer(Request& request, Router::Match match);
-  [[nodiscard]] Response refuse_by_header(Request& request, Router::Match& match);
-  asio::awaitable<bool> read_body(beast::tcp_stream& stream, beast::flat_buffer& buffer, Parser& parser,
-                                  bool upload);
+  asio::awaitable<void> serve_live_socket(beast::tcp_stream& stream, Parser& parser, Role role);
+  asio::awaitable<Response> answer(Request& request, const Gate::Passage& passage);
+  asio::awaitable<Response> read_body(beast::tcp_stream& stream, beast::flat_buffer& buffer, Parser& parser,
+                                      Work work, Role role);
+  asio::awaitable<void> write(beast::tcp_stream& stream, Response response, const HttpRequest& request,
+                              bool keep);
+  asio::awaitable<void> write_parts(beast::tcp_stream& stream, const std::function<std::string()>& next);
 
   ServerOptions options;
-  Router router;
   Access& access;
   const StaticFiles& files;
   Vehicle& vehicle;
-  bool loopback;
+  Router router;
+  Gate gate;
+  LiveFeed feed;
   std::size_t connections = 0;
+  std::size_t live_sockets = 0;
+  std::size_t uploads = 0;
   asio::io_context io{1};
-  asio::thread_pool workers{2};
+  asio::thread_pool workers{kWorkers};
   tcp::acceptor acceptor{io};
   std::thread thread;
 };
@@ -138,18 +147,12 @@ asio::awaitable<void> Server::Impl::accept_connections() {
 }
 
 asio::awaitable<void> Server::Impl::serve(tcp::socket socket) {
-  struct Count {
-    std::size_t& n;
-    explicit Count(std::size_t& c) : n(c) { ++n; }
-    ~Count() { --n; }
-    Count(const Count&) = delete;
-    Count& operator=(const Count&) = delete;
-  } const count(connections);
+  const Counted count(connections);
   boost::system::error_code error;
   const auto peer = socket.remote_endpoint(error);
   socket.set_option(tcp::no_delay(true), error);
   beast::tcp_stream stream(std::move(socket));
-  beast::flat_buffer buffer;
+  beast::flat_buffer buffer(kMostHeaderBytes + kMostReadAhead);
   try {
     while (co_await serve_one(stream, buffer, peer.address().to_string())) {
     }
@@ -158,65 +161,101 @@ asio::awaitable<void> Server::Impl::serve(tcp::socket socket) {
   }
 }
 
-/// Everything that can be refused before a body is read. Status 0: go on.
-Response Server::Impl::refuse_by_header(Request& request, Router::Match& match) {
-  const std::string host = request.header("host");
-  if (!host_allowed(host, loopback))
-    return Response::error(421, "wrong-host", "this server has another name");
-  const bool changes = request.method != "GET" && request.method != "HEAD";
-  const bool live = request.path == "/api/live";
-  if (!origin_allowed(request.header("origin"), host, changes || live))
-    return Response::error(403, "wrong-origin", "the request comes from another page");
-  if (live) {
-    if (request.role < Role::Viewer) return Response::error(401, "no-session", "enter a PIN first");
-    return {0, {}, {}, {}};
-  }
-  if (!request.path.starts_with("/api/")) {
-    return changes ? Response::error(405, "not-allowed", "this page can only be read")
-                   : Response{0, {}, {}, {}};
-  }
-  match = router.match(request);
-  switch (match.refusal) {
-    case 0:
-      return {0, {}, {}, {}};
-    case 401:
-      return Response::error(401, "no-session", "enter a PIN first");
-    case 403:
-      return Response::error(403, "not-allowed", "this needs an operator's or integrator's PIN");
-    case 405:
-      return Response::error(405, "wrong-method", "this address does not take that method");
-    default:
-      return Response::error(404, "not-found", "there is no such address");
+/// Works the state out while no panel looks on, so that the replay has no gaps.
+asio::awaitable<void> Server::Impl::keep_feed() {
+  asio::steady_timer timer(io);
+  boost::system::error_code error;
+  while (!error) {
+    feed.refresh(std::chrono::steady_clock::now());
+    timer.expires_after(Replay::kPeriod);
+    co_await timer.async_wait(asio::redirect_error(asio::use_awaitable, error));
   }
 }
 
-asio::awaitable<bool> Server::Impl::read_body(beast::tcp_stream& stream, beast::flat_buffer& buffer,
-                                              Parser& parser, bool upload) {
-  const std::size_t most = upload ? options.most_upload_bytes : options.most_body_bytes;
-  if (const auto length = parser.content_length(); length && *length > most) co_return false;
+/// Status 0: the body has been read.
+asio::awaitable<Response> Server::Impl::read_body(beast::tcp_stream& stream, beast::flat_buffer& buffer,
+                                                  Parser& parser, Work work, Role role) {
+  const bool upload = work == Work::Upload;
+  if (upload && uploads > 0) co_return Response::error(409, "busy", "another file is being sent");
+  std::optional<Counted> count;
+  if (upload) count.emplace(uploads);
+  const std::size_t most = role == Role::None ? kMostStrangerBytes
+                           : upload           ? options.most_upload_bytes
+                                              : options.most_body_bytes;
+  const Response too_large = Response::error(413, "too-large", "the file is too large for this server");
+  if (const auto length = parser.content_length(); length && *length > most) co_return too_large;
   parser.body_limit(most);
   stream.expires_after(upload ? std::chrono::seconds(120) : std::chrono::seconds(20));
   boost::system::error_code error;
   co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
-  if (error == http::error::body_limit) co_return false;
+  if (error == http::error::body_limit) co_return too_large;
   if (error) throw boost::system::system_error(error);
-  co_return true;
+  Response read;
+  read.status = 0;
+  co_return read;
 }
 
-asio::awaitable<Response> Server::Impl::answer(Request& request, Router::Match match) {
-  if (match.handler == nullptr) co_return files.get(request);
+asio::awaitable<Response> Server::Impl::answer(Request& request, const Gate::Passage& passage) {
+  if (passage.way == Gate::Passage::Way::Page) co_return files.get(request);
   const auto guarded = [&]() -> Response {
     try {
-      return (*match.handler)(request);
+      return (*passage.match.handler)(request);
     } catch (const Error& e) {
       return Response::error(422, "refused", e.what());
     } catch (const std::exception& e) {
       return Response::error(500, "internal", e.what());
     }
   };
-  if (!match.long_work) co_return guarded();
-  const auto on_worker = [&]() -> asio::awaitable<Response> { co_return guarded(); };
+  if (passage.match.work == Work::Quick) co_return guarded();
+  const auto on_worker = [&]() -> asio::awaitable<Response> {
+    thread_local const bool behind = run_behind_the_cycle();
+    (void)behind;
+    co_return guarded();
+  };
   co_return co_await asio::co_spawn(workers, on_worker, asio::use_awaitable);
+}
+
+asio::awaitable<void> Server::Impl::write_parts(beast::tcp_stream& stream,
+                                                const std::function<std::string()>& next) {
+  const auto on_worker = [&]() -> asio::awaitable<std::string> { co_return next(); };
+  while (true) {
+    const std::string part = co_await asio::co_spawn(workers, on_worker, asio::use_awaitable);
+    stream.expires_after(std::chrono::seconds(60));
+    if (part.empty()) break;
+    co_await asio::async_write(stream, http::make_chunk(asio::buffer(part)), asio::use_awaitable);
+  }
+  co_await asio::async_write(stream, http::make_chunk_last(), asio::use_awaitable);
+}
+
+asio::awaitable<void> Server::Impl::write(beast::tcp_stream& stream, Response response,
+                                          const HttpRequest& request, bool keep) {
+  const bool head = request.method() == http::verb::head;
+  const auto next_part = response.next_part;
+  auto message = to_message(std::move(response), request.version(), keep, head);
+  stream.expires_after(std::chrono::seconds(60));
+  if (!next_part) {
+    co_await http::async_write(stream, message, asio::use_awaitable);
+    co_return;
+  }
+  http::response_serializer<http::string_body> serializer(message);
+  co_await http::async_write_header(stream, serializer, asio::use_awaitable);
+  if (!head) co_await write_parts(stream, next_part);
+}
+
+asio::awaitable<void> Server::Impl::serve_live_socket(beast::tcp_stream& stream, Parser& parser, Role role) {
+  Response refusal;
+  if (!beast::websocket::is_upgrade(parser.get()))
+    refusal = Response::error(426, "websocket-only", "this address speaks WebSocket");
+  else if (live_sockets >= options.most_live_sockets)
+    refusal = Response::error(503, "too-many-panels", "too many panels are open: close some");
+  else
+    refusal.status = 0;
+  if (refusal.status != 0) {
+    co_await write(stream, std::move(refusal), parser.get(), false);
+    co_return;
+  }
+  const Counted count(live_sockets);
+  co_await serve_live(std::move(stream), parser.release(), role, vehicle, feed, options.live_rate_hz);
 }
 
 asio::awaitable<bool> Server::Impl::serve_one(beast::tcp_stream& stream, beast::flat_buffer& buffer,
@@ -228,45 +267,42 @@ asio::awaitable<bool> Server::Impl::serve_one(beast::tcp_stream& stream, beast::
   co_await http::async_read_header(stream, buffer, parser, asio::use_awaitable);
 
   Request request = to_request(parser.get());
-  Router::Match match;
-  Response response = Response::error(400, "bad-target", "the address is malformed");
+  request.headers["x-peer"] = address;
+  request.role = access.role_of(request.cookie("madori_session"));
+  const auto target = parser.get().target();
+  Gate::Passage passage = gate.pass({target.data(), target.size()}, request);
+  if (passage.way == Gate::Passage::Way::Live) {
+    co_await serve_live_socket(stream, parser, request.role);
+    co_return false;
+  }
+  Response response = std::move(passage.refusal);
   bool body_read = false;
-  if (parse_target(std::string_view(parser.get().target().data(), parser.get().target().size()), request)) {
-    request.headers["x-peer"] = address;
-    request.role = access.role_of(request.cookie("madori_session"));
-    response = refuse_by_header(request, match);
-  }
-  if (response.status == 0 && request.path == "/api/live") {
-    if (!beast::websocket::is_upgrade(parser.get())) {
-      response = Response::error(426, "websocket-only", "this address speaks WebSocket");
-    } else {
-      co_await serve_live(std::move(stream), parser.release(), request.role, vehicle, options.live_rate_hz);
-      co_return false;
-    }
-  }
-  if (response.status == 0) {
-    body_read = co_await read_body(stream, buffer, parser, match.long_work);
+  if (passage.way != Gate::Passage::Way::Refused) {
+    response = co_await read_body(stream, buffer, parser, passage.match.work, request.role);
+    body_read = response.status == 0;
     if (body_read) {
       request.body = std::move(parser.get().body());
-      response = co_await answer(request, match);
-    } else {
-      response = Response::error(413, "too-large", "the file is too large for this server");
+      response = co_await answer(request, passage);
     }
   }
   // A refused request's body was not read: the connection cannot be used again.
   const bool keep = parser.get().keep_alive() && (body_read || parser.is_done());
-  auto message = to_message(std::move(response), parser.get().version(), keep, request.method == "HEAD");
-  stream.expires_after(std::chrono::seconds(60));
-  co_await http::async_write(stream, message, asio::use_awaitable);
+  co_await write(stream, std::move(response), parser.get(), keep);
   co_return keep;
 }
 
-Server::Server(const ServerOptions& options, Router router, Access& access, const StaticFiles& files,
-               Vehicle& vehicle)
-    : impl_(std::make_unique<Impl>(options, std::move(router), access, files, vehicle)) {
+/// The vehicle's cycle comes first, whatever a browser asks for.
+void Server::Impl::run() {
+  (void)run_behind_the_cycle();
+  io.run();
+}
+
+Server::Server(const ServerOptions& options, ApiContext& context, const StaticFiles& files)
+    : impl_(std::make_unique<Impl>(options, context, files)) {
   impl_->listen();
   asio::co_spawn(impl_->io, impl_->accept_connections(), asio::detached);
-  impl_->thread = std::thread([this] { impl_->io.run(); });
+  asio::co_spawn(impl_->io, impl_->keep_feed(), asio::detached);
+  impl_->thread = std::thread([this] { impl_->run(); });
 }
 
 Server::~Server() {

@@ -5,10 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "hmi/server/access.hpp"
-#include "hmi/server/http.hpp"
+#include "hmi/server/api.hpp"
 #include "hmi/server/static_files.hpp"
-#include "hmi/server/vehicle.hpp"
 
 namespace madori::hmi {
 
@@ -20,6 +18,7 @@ struct ServerOptions {
   std::size_t most_upload_bytes = 256U << 20U;  ///< of a drawing, integrators only
   double header_timeout_s = 5.0;                ///< half-open connections are dropped after it
   double live_rate_hz = 10.0;
+  std::size_t most_live_sockets = 32;  ///< each costs a stream of scans
 };
 
 /// HTTP and WebSocket on one port, in threads of its own: nothing here can hold up the autonomy cycle.
@@ -27,8 +26,7 @@ struct ServerOptions {
 class Server {
  public:
   /// Binds at once; throws Error when the address is taken. The references must outlive the server.
-  Server(const ServerOptions& options, Router router, Access& access, const StaticFiles& files,
-         Vehicle& vehicle);
+  Server(const ServerOptions& options, ApiContext& context, const StaticFiles& files);
   /// Stops a jog that is held, closes every connection and joins the threads.
   ~Server();
   Server(const Server&) = delete;

@@ -2,21 +2,19 @@
 
 #include <sodium.h>
 
-#include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/result.hpp"
-#include "hmi/server/route_wire.hpp"
+#include "hmi/server/site_files.hpp"
+#include "hmi/server/wire.hpp"
 #include "mapping/drawing/drawing_picture.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
+#include "mapping/site/site_file.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/wall_map/wall_files.hpp"
-#include "planning/route_graph/route_check.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -26,68 +24,55 @@ using nlohmann::json;
 
 constexpr int kScreenPx = 3000;
 
-/// A short name of what some files hold.
-std::string hash_of(std::initializer_list<fs::path> files) {
-  crypto_generichash_state state;
-  crypto_generichash_init(&state, nullptr, 0, 16);
-  for (const auto& file : files) {
-    const std::string content = mapping::file_content(file) + '\0';
-    crypto_generichash_update(&state, reinterpret_cast<const unsigned char*>(content.data()), content.size());
-  }
-  std::array<unsigned char, 16> hash{};
-  crypto_generichash_final(&state, hash.data(), hash.size());
-  std::array<char, 33> text{};
-  sodium_bin2hex(text.data(), text.size(), hash.data(), hash.size());
-  return text.data();
-}
-
-bool has_site(const fs::path& folder) {
-  return fs::exists(folder / "site.yaml");
+/// Text that stands in one line of YAML.
+std::string one_line(std::string text) {
+  std::erase_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '"' || c == '\\'; });
+  return text;
 }
 
 json vehicle_json(const mapping::VehicleRecord& v) {
   return {{"length_m", v.length_m},
           {"width_m", v.width_m},
+          {"height_m", v.height_m},
           {"base_to_rear_m", v.base_to_rear_m},
-          {"max_speed_mps", v.max_speed_mps}};
+          {"wheel_radius_m", v.wheel_radius_m},
+          {"half_wheel_separation_m", v.half_wheel_separation_m},
+          {"max_speed_mps", v.max_speed_mps},
+          {"max_acceleration_mps2", v.max_acceleration_mps2},
+          {"max_turn_rate_radps", v.max_turn_rate_radps}};
 }
 
 json sensors_json(const std::vector<mapping::SensorRecord>& sensors) {
   json list = json::array();
-  for (const auto& s : sensors)
-    list.push_back({{"name", s.name},
-                    {"type", s.type},
-                    {"x_m", s.x_m},
-                    {"y_m", s.y_m},
-                    {"z_m", s.z_m},
-                    {"yaw_deg", s.yaw_deg}});
+  for (const auto& s : sensors) list.push_back(to_wire(s));
   return list;
 }
 
-std::vector<Segment2<Map>> drawn_walls(const fs::path& folder) {
-  std::vector<Segment2<Map>> walls;
-  if (!has_site(folder)) return walls;
-  for (const auto& wall : mapping::load_walls(folder / "walls.csv")) walls.push_back(wall.segment);
-  return walls;
+mapping::VehicleRecord vehicle_from(const json& wire) {
+  return {.wheel_radius_m = wire.at("wheel_radius_m").get<double>(),
+          .half_wheel_separation_m = wire.at("half_wheel_separation_m").get<double>(),
+          .length_m = wire.at("length_m").get<double>(),
+          .width_m = wire.at("width_m").get<double>(),
+          .height_m = wire.at("height_m").get<double>(),
+          .base_to_rear_m = wire.at("base_to_rear_m").get<double>(),
+          .max_speed_mps = wire.at("max_speed_mps").get<double>(),
+          .max_acceleration_mps2 = wire.at("max_acceleration_mps2").get<double>(),
+          .max_turn_rate_radps = wire.at("max_turn_rate_radps").get<double>()};
 }
 
-std::vector<planning::RouteFinding> findings_of(const fs::path& folder, const planning::RouteGraph& graph) {
-  planning::RouteCheckOptions options;
-  if (has_site(folder)) options.half_width_m = mapping::load_site(folder).vehicle.width_m / 2.0;
-  return planning::check_routes(graph, drawn_walls(folder), options);
+std::vector<mapping::SensorRecord> sensors_from(const json& wire) {
+  std::vector<mapping::SensorRecord> sensors;
+  for (const auto& s : wire)
+    sensors.push_back({one_line(s.at("name").get<std::string>()), one_line(s.at("type").get<std::string>()),
+                       s.at("x_m").get<double>(), s.at("y_m").get<double>(), s.at("z_m").get<double>(),
+                       s.at("yaw_deg").get<double>()});
+  return sensors;
 }
 
 }  // namespace
 
-SiteEditor::SiteEditor(fs::path folder) : folder_(std::move(folder)) {
+SiteEditor::SiteEditor(fs::path folder) : folder_(std::move(folder)), watch_(folder_) {
   if (sodium_init() < 0) throw Error("libsodium", "cannot be started", "reinstall the package libsodium23");
-}
-
-std::string SiteEditor::walls_revision() const {
-  return hash_of({folder_ / "site.yaml", folder_ / "walls.csv"});
-}
-std::string SiteEditor::routes_revision() const {
-  return hash_of({folder_ / "routes/tree.csv", folder_ / "routes/path.csv"});
 }
 
 void SiteEditor::require_revision(const json& edit, const std::string& newest) const {
@@ -102,8 +87,10 @@ json SiteEditor::site() const {
             {"georeference", nullptr},
             {"vehicle", vehicle_json({})},
             {"sensors", json::array()},
-            {"walls_revision", walls_revision()},
-            {"routes_revision", routes_revision()}};
+            {"attribution", attribution_of(folder_ / "tiles")},
+            {"walls_revision", walls_revision(folder_)},
+            {"routes_revision", routes_revision(folder_)},
+            {"vehicle_revision", vehicle_revision(folder_)}};
   if (!has_site(folder_)) return wire;
   const mapping::Site site = mapping::load_site(folder_);
   wire["name"] = site.name;
@@ -129,12 +116,12 @@ json SiteEditor::walls() const {
   const std::scoped_lock lock(mutex_);
   json list = json::array();
   for (const auto& w : drawn_walls(folder_)) list.push_back({w.a.x_m, w.a.y_m, w.b.x_m, w.b.y_m, -1.0});
-  return {{"revision", walls_revision()}, {"walls", list}};
+  return {{"revision", walls_revision(folder_)}, {"walls", list}};
 }
 
 json SiteEditor::save_walls(const json& edit) {
   const std::scoped_lock lock(mutex_);
-  require_revision(edit, walls_revision());
+  require_revision(edit, walls_revision(folder_));
   const mapping::Site site = mapping::load_site(folder_);
   mapping::Walls walls;
   for (const auto& w : edit.at("walls")) {
@@ -152,68 +139,46 @@ json SiteEditor::save_walls(const json& edit) {
       change, walls, site.drawing.width_px * unit, site.drawing.height_px * unit,
       site.scale ? mapping::WallFileOptions{} : mapping::WallFileOptions::unscaled());
   change.commit();
-  return {{"revision", walls_revision()}};
+  return {{"revision", walls_revision(folder_)}};
 }
 
-std::string SiteEditor::drawing_png() {
+json SiteEditor::revisions() const {
+  const SiteRevisions now = watch_.now();
+  return {{"drawing", now.drawing}, {"walls", now.walls}, {"routes", now.routes}, {"vehicle", now.vehicle}};
+}
+
+json SiteEditor::save_vehicle(const json& edit) {
   const std::scoped_lock lock(mutex_);
-  if (!has_site(folder_)) throw Error(folder_.string(), "has no drawing yet", "choose one in step 1");
-  const std::string revision = hash_of({folder_ / "site.yaml"});
+  if (!has_site(folder_)) throw Error(folder_.string(), "has no drawing yet", "choose one in the first step");
+  require_revision(edit, vehicle_revision(folder_));
+  mapping::Site site = mapping::load_site(folder_);
+  site.vehicle = vehicle_from(edit.at("vehicle"));
+  site.sensors = sensors_from(edit.at("sensors"));
+  mapping::SiteTransaction change(folder_);
+  const fs::path staged = change.staged("site.yaml");
+  mapping::write_new_file(staged, mapping::site_yaml(site));
+  (void)mapping::read_site_file(staged);  // refuses values out of range, with the reason
+  change.commit();
+  return {{"revision", vehicle_revision(folder_)}};
+}
+
+/// The mutex of the files is not held while the picture is drawn: that takes seconds.
+std::string SiteEditor::drawing_png() {
+  const std::scoped_lock picture(picture_mutex_);
+  std::string revision;
+  mapping::Site site;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!has_site(folder_)) throw Error(folder_.string(), "has no drawing yet", "choose one in step 1");
+    revision = drawing_revision(folder_);
+    site = mapping::load_site(folder_);
+  }
   if (revision != drawing_of_) {
-    const auto png = mapping::drawing_picture(folder_, mapping::load_site(folder_), kScreenPx);
+    const auto png = mapping::drawing_picture(folder_, site, kScreenPx);
     drawing_.assign(png.begin(), png.end());
     drawing_of_ = revision;
   }
   return drawing_;
-}
-
-json SiteEditor::routes() const {
-  const std::scoped_lock lock(mutex_);
-  if (!fs::exists(folder_ / "routes/tree.csv")) return routes_to_wire({}, {}, routes_revision());
-  const planning::ParsedRoutes parsed = planning::read_routes(folder_ / "routes");
-  auto findings = parsed.findings;
-  if (parsed.good())
-    for (auto& f : findings_of(folder_, parsed.graph)) findings.push_back(std::move(f));
-  return routes_to_wire(parsed.graph, findings, routes_revision());
-}
-
-json SiteEditor::check_routes(const json& edit) const {
-  const planning::RouteGraph graph = graph_from_wire(edit);
-  const std::scoped_lock lock(mutex_);
-  return routes_to_wire(graph, findings_of(folder_, graph), routes_revision());
-}
-
-json SiteEditor::save_routes(const json& edit) {
-  const planning::RouteGraph graph = graph_from_wire(edit);
-  const std::scoped_lock lock(mutex_);
-  require_revision(edit, routes_revision());
-  mapping::SiteTransaction change(folder_);
-  change.write("routes/tree.csv", planning::tree_csv(graph));
-  change.write("routes/path.csv", planning::path_csv(graph));
-  change.commit();
-  return routes_to_wire(graph, findings_of(folder_, graph), routes_revision());
-}
-
-json SiteEditor::import_routes(const json& csv) {
-  const auto tree = csv.at("tree").get<std::string>();
-  const auto path = csv.at("path").get<std::string>();
-  const planning::ParsedRoutes parsed = planning::parse_routes(tree, path);
-  for (const auto& finding : parsed.findings)
-    if (finding.severity == planning::Severity::Error)
-      throw Error(finding.text(), "the routes were not imported", "mend that line");
-  const std::scoped_lock lock(mutex_);
-  mapping::SiteTransaction change(folder_);
-  change.write("routes/tree.csv", tree);
-  change.write("routes/path.csv", path);
-  change.commit();
-  return routes_to_wire(parsed.graph, parsed.findings, routes_revision());
-}
-
-std::string SiteEditor::routes_file(const std::string& name) const {
-  const std::scoped_lock lock(mutex_);
-  if (!fs::exists(folder_ / "routes" / name))
-    throw Error(name, "is not there yet", "draw a route and save it");
-  return mapping::file_content(folder_ / "routes" / name);
 }
 
 }  // namespace madori::hmi

@@ -6,6 +6,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "hmi/server/revisions.hpp"
+#include "hmi/server/vehicle.hpp"
+
 namespace madori::hmi {
 
 /// Somebody else saved first: the revision that an edit is based on is no longer the newest.
@@ -23,6 +26,12 @@ class SiteEditor {
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] nlohmann::json site() const;
+  /// SiteRevisions of hmi/schema; never waits for an edit or an import.
+  [[nodiscard]] nlohmann::json revisions() const;
+  /// The five steps of Setup, with what is still missing.
+  [[nodiscard]] nlohmann::json setup_steps(const PoseEstimate& pose) const;
+  /// VehicleEdit -> Saved
+  nlohmann::json save_vehicle(const nlohmann::json& edit);
   [[nodiscard]] nlohmann::json walls() const;
   /// WallsEdit -> Saved
   nlohmann::json save_walls(const nlohmann::json& edit);
@@ -35,16 +44,18 @@ class SiteEditor {
   nlohmann::json save_routes(const nlohmann::json& edit);
   /// RoutesCsv: the two published files, kept byte for byte when they can be read.
   nlohmann::json import_routes(const nlohmann::json& csv);
+  /// RoutesCsv, byte for byte; empty texts where there are no routes yet.
+  [[nodiscard]] nlohmann::json routes_csv() const;
   /// "tree.csv" or "path.csv" as they lie on the disk.
   [[nodiscard]] std::string routes_file(const std::string& name) const;
 
  private:
-  [[nodiscard]] std::string walls_revision() const;
-  [[nodiscard]] std::string routes_revision() const;
   void require_revision(const nlohmann::json& edit, const std::string& newest) const;
 
   std::filesystem::path folder_;
-  mutable std::mutex mutex_;
+  RevisionWatch watch_;
+  mutable std::mutex mutex_;  ///< of the files
+  std::mutex picture_mutex_;
   std::string drawing_of_;  ///< the revision that drawing_ shows
   std::string drawing_;
 };

@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/pose_estimate.hpp"
 #include "core/velocity_command.hpp"
+#include "mapping/site/site.hpp"
 
 namespace madori::hmi {
 
@@ -23,8 +25,30 @@ struct DeviceStatus {
   std::string name;
   std::string type;  ///< vlp16, lms1xx, s300, drive
   bool healthy = false;
-  double age_s = 0.0;  ///< of the newest data
-  std::string detail;  ///< what it last said, in words
+  double age_s = 0.0;             ///< of the newest data
+  std::optional<double> rate_hz;  ///< revolutions or reports a second
+  Notice detail;                  ///< what it last said
+};
+
+/// Something connected that the site could use.
+struct FoundDevice {
+  std::string type;     ///< vlp16, s300, drive
+  std::string address;  ///< UDP port or serial port
+  bool heard = false;
+  Notice detail;
+  std::optional<mapping::SensorRecord> sensor;  ///< what to enter below sensors; nothing for a drive
+};
+
+/// A place where the vehicle may stand.
+struct PlaceView {
+  Transform2<Map, Base> map_from_base;
+  double score = 0.0;  ///< share of what is seen that lies on drawn walls there, 0..1
+};
+
+/// How the search for the place stands; places best first.
+struct LocateView {
+  std::string state = "blind";  ///< searching, ambiguous, located; blind before the first scan
+  std::vector<PlaceView> places;
 };
 
 /// Everything that changes by itself, at one moment.
@@ -37,12 +61,17 @@ struct LiveState {
   PoseEstimate pose;
   VelocityCommand velocity;
   std::optional<double> battery_share;  ///< 0..1
+  std::optional<double> battery_v;
+  std::optional<double> score;  ///< share of the walls seen that lie on drawn ones, 0..1
+  double odometer_m = 0.0;      ///< driven since the site began
+  bool drivable = false;        ///< the site is complete and loaded
+  bool camera = false;          ///< there is a picture
   bool emergency_stop = false;
   std::optional<long long> order_id;
-  std::string goal;                  ///< name of the station driven to
-  std::vector<Point2<Map>> path;     ///< still to drive
-  std::vector<Point2<Map>> blocked;  ///< waypoints that an obstacle covers
-  std::vector<Point2<Map>> scan;     ///< newest returns
+  std::string goal;                         ///< name of the station driven to
+  std::vector<Point2<Map>> path;            ///< still to drive
+  std::vector<Point2<Map>> blocked;         ///< waypoints that an obstacle covers
+  std::shared_ptr<const std::string> scan;  ///< newest returns as a frame of scan_frame.hpp; may be null
   std::vector<Transform2<Map, Base>> particles;
   std::vector<DeviceStatus> devices;
 };
@@ -58,11 +87,20 @@ struct Reply {
   }
 };
 
+/// A stop of an order.
+struct StopView {
+  int node = 0;                 ///< ID
+  std::string action = "pass";  ///< pass, wait, load, unload
+  double wait_s = 0.0;
+};
+
 /// An order as operators see it.
 struct OrderView {
   long long id = 0;
-  std::vector<int> stations;  ///< node IDs, in the order of the visit
-  std::string status;         ///< queued, running, done, cancelled, failed
+  std::vector<StopView> stops;
+  int round = 0;       ///< repetitions finished
+  int next_stop = 0;   ///< of the current round
+  std::string status;  ///< queued, running, done, cancelled, failed
   int repeat = 1;
   Stamp created{};
   Notice detail;
@@ -85,12 +123,25 @@ struct WallView {
   double offset_m = 0.0;  ///< of a displaced piece: where it stands, to the left of its direction
 };
 
+/// How often and how long the vehicle stood for a cause.
+struct CauseView {
+  Notice cause;
+  long long count = 0;
+  double seconds = 0.0;
+};
+
 /// Sums since the site began.
 struct StatisticsView {
   long long deliveries = 0;  ///< stops that were served
+  double distance_m = 0.0;
+  double driving_s = 0.0;
+  double standing_s = 0.0;  ///< with an order, or stopped
+  std::optional<Stamp> since;
+  std::vector<CauseView> causes;  ///< longest first
 };
 
-enum class Command { Start, Pause, Resume, Stop, Confirm };
+/// GoOn ends the stay at a stop.
+enum class Command { Start, Pause, Resume, Stop, Confirm, GoOn };
 
 /// The vehicle as the server sees it. Every member may be called from the server's threads at any time and
 /// returns at once: the autonomy cycle is never held up by a panel.
@@ -102,16 +153,34 @@ class Vehicle {
   virtual Reply command(Command command) = 0;
   /// Hold-to-run. The vehicle stops by itself when no further call comes within 250 ms.
   virtual Reply jog(const VelocityCommand& velocity) = 0;
-  [[nodiscard]] virtual std::vector<OrderView> orders() const = 0;
-  virtual Reply add_order(const std::vector<int>& stations, int repeat) = 0;
-  virtual Reply cancel_order(long long id) = 0;
 
+  [[nodiscard]] virtual std::vector<OrderView> orders() const = 0;
+  /// Orders that have ended, newest first.
+  [[nodiscard]] virtual std::vector<OrderView> order_history() const = 0;
+  virtual Reply add_order(const std::vector<StopView>& stops, int repeat) = 0;
+  virtual Reply repeat_order(long long id) = 0;
+  virtual Reply cancel_order(long long id) = 0;
+  /// `ids`: the queued orders in their new sequence, all of them.
+  virtual Reply arrange_orders(const std::vector<long long>& ids) = 0;
+
+  [[nodiscard]] virtual LocateView locate() const = 0;
+  /// Forgets the pose and looks for the place on the whole drawing.
+  virtual Reply search_place() = 0;
+  /// A person says that the vehicle stands there.
+  virtual Reply set_pose(const Transform2<Map, Base>& map_from_base) = 0;
+
+  [[nodiscard]] virtual std::vector<FoundDevice> found_devices() const = 0;
   [[nodiscard]] virtual std::vector<EventView> events(std::size_t newest) const = 0;
   [[nodiscard]] virtual StatisticsView statistics() const = 0;
   /// What is known of every piece of wall; changes slowly, so that asking every few seconds is plenty.
   [[nodiscard]] virtual std::vector<WallView> walls_seen() const { return {}; }
-  /// The walls, routes or scale on disk have changed.
-  virtual Reply reload_site() = 0;
+  /// The newest picture of the verification camera as JPEG; null where there is none.
+  [[nodiscard]] virtual std::shared_ptr<const std::string> camera_jpeg() const = 0;
+
+  /// Whether walls, routes, scale or vehicle may be changed now; refused with the reason while it drives.
+  [[nodiscard]] virtual Reply may_change_site() const = 0;
+  /// What is on the disk has changed: the vehicle takes it as soon as it stands.
+  virtual void reload_site() = 0;
 };
 
 }  // namespace madori::hmi

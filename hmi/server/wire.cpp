@@ -1,18 +1,18 @@
 #include "hmi/server/wire.hpp"
 
-#include <bit>
-#include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 namespace madori::hmi {
 namespace {
 
 using nlohmann::json;
-static_assert(std::endian::native == std::endian::little, "scan_frame copies the machine's own byte order");
-
 constexpr std::size_t kMostParticles = 400;
 constexpr std::size_t kMostPathPoints = 400;
+
+template <class Value>
+json or_null(const std::optional<Value>& value) {
+  return value ? json(*value) : json(nullptr);
+}
 
 /// At most `most` points, evenly chosen, the last one included: a picture needs no more.
 json thinned(const std::vector<Point2<Map>>& points, std::size_t most) {
@@ -47,7 +47,8 @@ json devices_to_wire(const std::vector<DeviceStatus>& devices) {
                     {"type", d.type},
                     {"healthy", d.healthy},
                     {"age_s", d.age_s},
-                    {"detail", d.detail}});
+                    {"rate_hz", or_null(d.rate_hz)},
+                    {"detail", to_wire(d.detail)}});
   return list;
 }
 
@@ -58,31 +59,45 @@ json to_wire(const Notice& notice) {
 }
 
 json to_wire(const LiveState& live, Stamp now) {
-  json wire{{"stamp", to_seconds(live.stamp)},
-            {"state", live.state},
-            {"cause", to_wire(live.cause)},
-            {"remedy", to_wire(live.remedy)},
-            {"since", to_seconds(live.since)},
-            {"pose", pose_to_wire(live.pose, now)},
-            {"speed", live.velocity.linear_mps},
-            {"turn_rate", live.velocity.angular_radps},
-            {"battery", nullptr},
-            {"emergency_stop", live.emergency_stop},
-            {"order", nullptr},
-            {"goal", live.goal},
-            {"path", thinned(live.path, kMostPathPoints)},
-            {"blocked", thinned(live.blocked, kMostPathPoints)},
-            {"particles", particles_to_wire(live.particles)},
-            {"devices", devices_to_wire(live.devices)}};
-  if (live.battery_share) wire["battery"] = *live.battery_share;
-  if (live.order_id) wire["order"] = *live.order_id;
-  return wire;
+  return {{"stamp", to_seconds(live.stamp)},
+          {"state", live.state},
+          {"cause", to_wire(live.cause)},
+          {"remedy", to_wire(live.remedy)},
+          {"since", to_seconds(live.since)},
+          {"pose", pose_to_wire(live.pose, now)},
+          {"speed", live.velocity.linear_mps},
+          {"turn_rate", live.velocity.angular_radps},
+          {"battery", or_null(live.battery_share)},
+          {"battery_v", or_null(live.battery_v)},
+          {"score", or_null(live.score)},
+          {"odometer_m", live.odometer_m},
+          {"drivable", live.drivable},
+          {"camera", live.camera},
+          {"emergency_stop", live.emergency_stop},
+          {"order", or_null(live.order_id)},
+          {"goal", live.goal},
+          {"path", thinned(live.path, kMostPathPoints)},
+          {"blocked", thinned(live.blocked, kMostPathPoints)},
+          {"particles", particles_to_wire(live.particles)},
+          {"devices", devices_to_wire(live.devices)}};
 }
 
 json to_wire(const OrderView& order) {
-  return {
-      {"id", order.id},         {"stations", order.stations},           {"status", order.status},
-      {"repeat", order.repeat}, {"created", to_seconds(order.created)}, {"detail", to_wire(order.detail)}};
+  json stops = json::array();
+  json stations = json::array();
+  for (const auto& stop : order.stops) {
+    stations.push_back(stop.node);
+    stops.push_back({{"node", stop.node}, {"action", stop.action}, {"wait_s", stop.wait_s}});
+  }
+  return {{"id", order.id},
+          {"stations", stations},
+          {"stops", stops},
+          {"round", order.round},
+          {"next_stop", order.next_stop},
+          {"status", order.status},
+          {"repeat", order.repeat},
+          {"created", to_seconds(order.created)},
+          {"detail", to_wire(order.detail)}};
 }
 
 json to_wire(const EventView& event) {
@@ -93,25 +108,51 @@ json to_wire(const EventView& event) {
 }
 
 json to_wire(const StatisticsView& statistics) {
-  return {{"deliveries", statistics.deliveries}};
+  json causes = json::array();
+  for (const auto& c : statistics.causes)
+    causes.push_back({{"cause", to_wire(c.cause)}, {"count", c.count}, {"seconds", c.seconds}});
+  return {{"deliveries", statistics.deliveries},
+          {"distance_m", statistics.distance_m},
+          {"driving_s", statistics.driving_s},
+          {"standing_s", statistics.standing_s},
+          {"since", statistics.since ? json(to_seconds(*statistics.since)) : json(nullptr)},
+          {"stops", causes}};
+}
+
+json to_wire(const LocateView& locate) {
+  json places = json::array();
+  for (const auto& p : locate.places)
+    places.push_back({{"x", p.map_from_base.x_m()},
+                      {"y", p.map_from_base.y_m()},
+                      {"yaw", p.map_from_base.yaw_rad()},
+                      {"score", p.score}});
+  return {{"state", locate.state}, {"hypotheses", places}};
+}
+
+json to_wire(const WallView& wall) {
+  const auto& [a, b] = wall.segment;
+  return {{"id", wall.id},
+          {"segment", {a.x_m, a.y_m, b.x_m, b.y_m}},
+          {"state", wall.state},
+          {"share", wall.share},
+          {"offset_m", wall.offset_m}};
+}
+
+json to_wire(const mapping::SensorRecord& s) {
+  return {{"name", s.name}, {"type", s.type}, {"x_m", s.x_m},
+          {"y_m", s.y_m},   {"z_m", s.z_m},   {"yaw_deg", s.yaw_deg}};
+}
+
+json to_wire(const FoundDevice& device) {
+  return {{"type", device.type},
+          {"address", device.address},
+          {"heard", device.heard},
+          {"detail", to_wire(device.detail)},
+          {"sensor", device.sensor ? to_wire(*device.sensor) : json(nullptr)}};
 }
 
 std::string dump(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
-std::string scan_frame(std::span<const Point2<Map>> scan) {
-  const auto count = static_cast<std::uint32_t>(scan.size());
-  std::string frame(8 + scan.size() * 8, '\0');
-  std::memcpy(frame.data(), "MDS1", 4);
-  std::memcpy(frame.data() + 4, &count, 4);
-  char* out = frame.data() + 8;
-  for (const auto& p : scan) {
-    const float xy[2] = {static_cast<float>(p.x_m), static_cast<float>(p.y_m)};
-    std::memcpy(out, xy, sizeof xy);
-    out += sizeof xy;
-  }
-  return frame;
 }
 
 }  // namespace madori::hmi

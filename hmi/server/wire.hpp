@@ -1,7 +1,6 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <span>
 #include <string>
 
 #include "core/stamp.hpp"
@@ -12,17 +11,17 @@
 namespace madori::hmi {
 
 [[nodiscard]] nlohmann::json to_wire(const Notice& notice);
-/// Everything but the scan, which goes as `scan_frame`. `now` gives the age of every value.
+/// A Live without what the vehicle does not know: locked, revisions, editors. `now` gives the ages.
 [[nodiscard]] nlohmann::json to_wire(const LiveState& live, Stamp now);
 [[nodiscard]] nlohmann::json to_wire(const OrderView& order);
 [[nodiscard]] nlohmann::json to_wire(const EventView& event);
 [[nodiscard]] nlohmann::json to_wire(const StatisticsView& statistics);
+[[nodiscard]] nlohmann::json to_wire(const LocateView& locate);
+[[nodiscard]] nlohmann::json to_wire(const WallView& wall);
+[[nodiscard]] nlohmann::json to_wire(const mapping::SensorRecord& sensor);
+[[nodiscard]] nlohmann::json to_wire(const FoundDevice& device);
 
 /// Text with broken UTF-8 replaced, as JSON wants it.
 [[nodiscard]] std::string dump(const nlohmann::json& value);
-
-/// Binary frame of a scan: "MDS1", u32 count, then count pairs of f32 (x, y) in metres, Map frame;
-/// little-endian.
-[[nodiscard]] std::string scan_frame(std::span<const Point2<Map>> scan);
 
 }  // namespace madori::hmi

@@ -4,6 +4,7 @@
 
 #include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
+#include "mapping/site/site_file.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/site/strict_yaml.hpp"
 
@@ -118,6 +119,10 @@ Site load_site(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(file))
     throw Error(folder.string(), "is no site folder (no site.yaml)",
                 "make one: madori import DRAWING --site " + folder.string());
+  return read_site_file(file);
+}
+
+Site read_site_file(const std::filesystem::path& file) {
   StrictYaml yaml = StrictYaml::load(file);
   yaml.integer("madori_site", kFormat, kFormat);
   Site site;

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "hmi/server/api.hpp"
+#include "hmi/server/scan_frame.hpp"
 #include "hmi/server/server.hpp"
 #include "tests/support/scripted_vehicle.hpp"
 
@@ -17,13 +18,14 @@ int main(int argc, char** argv) {
                      [] { return std::chrono::steady_clock::now(); });
   test::ScriptedVehicle vehicle;
   hmi::Job job;
+  hmi::Replay replay;
   hmi::StaticFiles files(argv[2]);
   hmi::SiteEditor editor(argv[1]);
-  hmi::ApiContext context{access, editor, vehicle, job, [] { return std::string("2026-01-01T00:00:00Z"); },
-                          {}};
+  hmi::ApiContext context{
+      access, editor, vehicle, job, replay, [] { return std::string("2026-01-01T00:00:00Z"); }, {}};
   hmi::ServerOptions options;
   options.port = static_cast<std::uint16_t>(std::atoi(argv[3]));
-  const hmi::Server server(options, hmi::make_router(context), access, files, vehicle);
+  const hmi::Server server(options, context, files);
   std::printf("http://127.0.0.1:%d\n", server.port());
   std::fflush(stdout);
   for (int tick = 0;; ++tick) {
@@ -43,14 +45,16 @@ int main(int argc, char** argv) {
     live.pose.health = {LocalizationState::Localized, ""};
     live.velocity = {0.25, 0.05};
     live.battery_share = 0.64;
+    live.drivable = true;
+    std::vector<Point2<Base>> scan;
     for (int i = 0; i < 20000; ++i) {
       const double a = 2 * kPi * i / 20000, r = 6.0 + 2.0 * std::sin(9 * a);
-      live.scan.push_back(live.pose.map_from_base * Point2<Base>{r * std::cos(a), r * std::sin(a)});
+      scan.push_back({r * std::cos(a), r * std::sin(a)});
     }
+    live.scan = std::make_shared<const std::string>(hmi::scan_frame(scan, live.pose.map_from_base));
     for (int i = 0; i < 40; ++i)
       live.path.push_back({45.0 + 5.0 * std::cos(0.05 * (t + i)), 35.0 + 5.0 * std::sin(0.05 * (t + i))});
-    live.devices = {{"roof lidar", "vlp16", true, 0.04, "10.0 revolutions a second"},
-                    {"drive", "drive", true, 0.01, "watchdog quiet"}};
+    live.devices = {{"roof lidar", "vlp16", true, 0.04, 10.0, {}}, {"drive", "drive", true, 0.01, 50.0, {}}};
     vehicle.show(std::move(live));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "hmi/server/vehicle.hpp"
@@ -32,15 +34,32 @@ class ScriptedVehicle : public hmi::Vehicle {
     const std::scoped_lock lock(mutex_);
     return orders_;
   }
-  hmi::Reply add_order(const std::vector<int>& stations, int repeat) override {
+  [[nodiscard]] std::vector<hmi::OrderView> order_history() const override { return {}; }
+  hmi::Reply add_order(const std::vector<hmi::StopView>& stops, int repeat) override {
     const std::scoped_lock lock(mutex_);
-    if (stations.empty()) return hmi::Reply::refused("empty-order", "an order needs a station");
+    if (stops.empty()) return hmi::Reply::refused("empty-order", "an order needs a station");
     hmi::OrderView order;
     order.id = ++last_id_;
-    order.stations = stations;
+    order.stops = stops;
     order.repeat = repeat;
     order.status = "queued";
     orders_.push_back(order);
+    return hmi::Reply::done();
+  }
+  hmi::Reply repeat_order(long long id) override {
+    const auto known = orders();
+    for (const auto& order : known)
+      if (order.id == id) return add_order(order.stops, order.repeat);
+    return hmi::Reply::refused("no-order", "there is no such order");
+  }
+  hmi::Reply arrange_orders(const std::vector<long long>& ids) override {
+    const std::scoped_lock lock(mutex_);
+    std::vector<hmi::OrderView> arranged;
+    for (const long long id : ids)
+      for (const auto& order : orders_)
+        if (order.id == id) arranged.push_back(order);
+    if (arranged.size() != orders_.size()) return hmi::Reply::refused("conflict", "the queue has changed");
+    orders_ = arranged;
     return hmi::Reply::done();
   }
   hmi::Reply cancel_order(long long id) override {
@@ -48,14 +67,44 @@ class ScriptedVehicle : public hmi::Vehicle {
     const auto removed = std::erase_if(orders_, [id](const auto& o) { return o.id == id; });
     return removed == 1 ? hmi::Reply::done() : hmi::Reply::refused("no-order", "there is no such order");
   }
-  [[nodiscard]] std::vector<hmi::EventView> events(std::size_t) const override { return {}; }
-  [[nodiscard]] hmi::StatisticsView statistics() const override { return {3}; }
-  hmi::Reply reload_site() override {
+  [[nodiscard]] hmi::LocateView locate() const override { return {"ambiguous", {{{1.0, 2.0, 0.5}, 0.8}}}; }
+  hmi::Reply search_place() override { return hmi::Reply::done(); }
+  hmi::Reply set_pose(const Transform2<Map, Base>& map_from_base) override {
     const std::scoped_lock lock(mutex_);
-    ++reloads_;
+    poses_.push_back(map_from_base);
     return hmi::Reply::done();
   }
+  [[nodiscard]] std::vector<hmi::FoundDevice> found_devices() const override {
+    return {{"vlp16",
+             "UDP 2368",
+             true,
+             {"heard", {}, "heard"},
+             mapping::SensorRecord{"top", "vlp16", 0.3, 0.0, 1.2, 0.0}}};
+  }
+  [[nodiscard]] std::vector<hmi::EventView> events(std::size_t) const override { return {}; }
+  [[nodiscard]] hmi::StatisticsView statistics() const override {
+    return {3, 120.5, 100.0, 20.0, std::nullopt, {{{"paused", {}, "paused"}, 2, 20.0}}};
+  }
+  [[nodiscard]] std::shared_ptr<const std::string> camera_jpeg() const override { return camera_; }
+  [[nodiscard]] hmi::Reply may_change_site() const override {
+    const std::scoped_lock lock(mutex_);
+    return driving_ ? hmi::Reply::refused("driving", "the vehicle is driving: pause it first")
+                    : hmi::Reply::done();
+  }
+  void reload_site() override {
+    const std::scoped_lock lock(mutex_);
+    ++reloads_;
+  }
 
+  void drive(bool driving) {
+    const std::scoped_lock lock(mutex_);
+    driving_ = driving;
+  }
+  void show_camera(std::string jpeg) { camera_ = std::make_shared<const std::string>(std::move(jpeg)); }
+  [[nodiscard]] std::vector<Transform2<Map, Base>> poses() const {
+    const std::scoped_lock lock(mutex_);
+    return poses_;
+  }
   void show(hmi::LiveState live) {
     const std::scoped_lock lock(mutex_);
     live_ = std::move(live);
@@ -85,6 +134,9 @@ class ScriptedVehicle : public hmi::Vehicle {
   std::vector<hmi::Command> commands_;
   long long last_id_ = 0;
   int reloads_ = 0;
+  bool driving_ = false;
+  std::vector<Transform2<Map, Base>> poses_;
+  std::shared_ptr<const std::string> camera_;
   bool refuse_start_ = false;
 };
 

@@ -31,6 +31,26 @@ TEST(OrderStore, AnOrderGoesThroughItsStopsAndRounds) {
   EXPECT_FALSE(store.begin_next(kNow));
 }
 
+TEST(OrderStore, TheQueueIsPutInAnotherSequenceAndKeepsItWhenOrdersJoin) {
+  const test::TemporaryFolder folder;
+  OrderStore store(folder.path() / "madori.db");
+  const auto first = store.add({{3}}, 1, kNow);
+  const auto second = store.add({{4}}, 1, kNow);
+  const auto third = store.add({{5}}, 1, kNow);
+  EXPECT_FALSE(store.arrange({third, first}));
+  EXPECT_FALSE(store.arrange({third, third, first}));
+  EXPECT_TRUE(store.arrange({third, first, second}));
+  const auto fourth = store.add({{6}}, 1, kNow);
+  std::vector<std::int64_t> taken;
+  while (const auto order = store.begin_next(kNow)) {
+    taken.push_back(order->id);
+    store.close(order->id, OrderState::Cancelled, "", kNow);
+  }
+  EXPECT_EQ(taken, (std::vector<std::int64_t>{third, first, second, fourth}));
+  EXPECT_EQ(store.ended(2).size(), 2U);
+  EXPECT_EQ(store.created(first), kNow);
+}
+
 TEST(OrderStore, CountingAStopTwiceChangesNothing) {
   const test::TemporaryFolder folder;
   OrderStore store(folder.path() / "madori.db");

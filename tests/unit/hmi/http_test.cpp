@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hmi/server/jog_message.hpp"
+#include "hmi/server/live_command.hpp"
 #include "hmi/server/origin.hpp"
 
 namespace madori::hmi {
@@ -71,14 +71,15 @@ TEST(Host, RebindingNamesAreRefusedOnLoopback) {
 }
 
 TEST(Jog, OnlyFiniteBoundedNumbersPass) {
-  ASSERT_TRUE(parse_jog(R"({"jog": {"linear": 0.3, "angular": -1}})"));
-  EXPECT_DOUBLE_EQ(parse_jog(R"({"jog": {"linear": 0.3, "angular": -1}})")->angular_radps, -1.0);
+  ASSERT_TRUE(parse_live_command(R"({"jog": {"linear": 0.3, "angular": -1}})"));
+  EXPECT_DOUBLE_EQ(parse_live_command(R"({"jog": {"linear": 0.3, "angular": -1}})")->jog->angular_radps,
+                   -1.0);
   for (const char* bad :
        {"", "{}", "[]", "null", R"({"jog": 1})", R"({"jog": {"linear": 1}})",
         R"({"jog": {"linear": "1", "angular": 0}})", R"({"jog": {"linear": 1e300, "angular": 0}})",
         R"({"jog": {"linear": 6, "angular": 0}})", R"({"jog": {"linear": 1, "angular": 0}, "x": 1})",
         R"({"jog": {"linear": 1, "angular": 0)"})
-    EXPECT_FALSE(parse_jog(bad)) << bad;
+    EXPECT_FALSE(parse_live_command(bad)) << bad;
 }
 
 }  // namespace

@@ -4,15 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "hmi/server/api.hpp"
+#include "hmi/server/scan_frame.hpp"
 #include "mapping/drawing/import_drawing.hpp"
-#include "tests/support/panel_client.hpp"
-#include "tests/support/scripted_vehicle.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/hmi/panel_fixture.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -22,41 +19,17 @@ using test::HttpAnswer;
 using test::HttpCall;
 using ::testing::HasSubstr;
 
-class ServerTest : public testing::Test {
+/// With the sample factory's drawing as the site.
+class ServerTest : public PanelTest {
  protected:
-  explicit ServerTest(bool network = false)
-      : access_(folder_.path() / "pins", network, [] { return std::chrono::steady_clock::time_point(); }) {}
-
+  explicit ServerTest(bool network = false) : PanelTest(network) {}
   void SetUp() override {
-    folder_.write("index.html", "<!doctype html><title>Madori</title>");
-    files_.emplace(folder_.path());
     mapping::ImportOptions options;
     options.drawing = std::filesystem::path(MADORI_SOURCE_DIR) / "data/sample_factory/factory.dxf";
-    options.site = folder_.path() / "site";
+    options.site = site();
     mapping::import_drawing(options);
-    editor_.emplace(folder_.path() / "site");
-    context_.emplace(ApiContext{
-        access_, *editor_, vehicle_, job_, [] { return std::string("2026-01-01T00:00:00Z"); }, {}});
-    ServerOptions server;
-    server.port = 0;
-    server.live_rate_hz = 50.0;
-    server.header_timeout_s = 1.0;
-    server_.emplace(server, make_router(*context_), access_, *files_, vehicle_);
+    PanelTest::SetUp();
   }
-  [[nodiscard]] HttpAnswer call(const std::string& method, const std::string& target,
-                                const std::string& body = "", const std::string& cookie = "") const {
-    return test::http_call(server_->port(), {method, target, body, "", "same", cookie});
-  }
-  [[nodiscard]] json get(const std::string& target) const { return json::parse(call("GET", target).body); }
-
-  test::TemporaryFolder folder_;
-  test::ScriptedVehicle vehicle_;
-  Access access_;
-  Job job_;
-  std::optional<StaticFiles> files_;
-  std::optional<SiteEditor> editor_;
-  std::optional<ApiContext> context_;
-  std::optional<Server> server_;
 };
 
 TEST_F(ServerTest, ServesThePageAndNothingBesideIt) {
@@ -90,6 +63,11 @@ TEST_F(ServerTest, OrdersAreAddedMovedAndCancelled) {
   EXPECT_EQ(call("POST", "/api/orders", R"({"stations": [3, 5], "repeat": 1})").status, 200);
   EXPECT_EQ(call("POST", "/api/orders", R"({"stations": [7], "repeat": 5})").status, 200);
   EXPECT_EQ(get("/api/orders")[1]["repeat"], 5);
+  EXPECT_EQ(call("PUT", "/api/orders/queue", R"({"ids": [2, 1]})").status, 200);
+  EXPECT_EQ(get("/api/orders")[0]["stations"], json::array({7}));
+  EXPECT_EQ(call("PUT", "/api/orders/queue", R"({"ids": [2]})").status, 409);
+  EXPECT_EQ(call("POST", "/api/orders/2/repeat", "{}").status, 200);
+  EXPECT_EQ(call("DELETE", "/api/orders/3").status, 200);
   EXPECT_EQ(call("DELETE", "/api/orders/2").status, 200);
   EXPECT_EQ(call("DELETE", "/api/orders/2").status, 409);
   EXPECT_EQ(call("DELETE", "/api/orders/x").status, 422);
@@ -151,16 +129,35 @@ TEST_F(ServerTest, DrawnRoutesAreCheckedAndSaved) {
 TEST_F(ServerTest, LiveSendsStateAndScan) {
   LiveState live;
   live.state = "driving";
-  live.scan = {{1.5, -2.25}, {3.0, 4.0}};
+  const std::vector<Point2<Base>> scan{{1.5, -2.25}, {3.0, 4.0}};
+  live.scan = std::make_shared<const std::string>(scan_frame(scan, {10.0, 20.0, 0.5}));
   vehicle_.show(live);
   test::LiveClient client(server_->port(), "same");
-  EXPECT_EQ(json::parse(client.receive_text())["live"]["state"], "driving");
-  const std::string frame = client.receive_binary();
-  ASSERT_EQ(frame.size(), 8U + 16U);
-  EXPECT_EQ(frame.substr(0, 4), "MDS1");
-  float y = 0;
-  std::memcpy(&y, frame.data() + 12, 4);
-  EXPECT_FLOAT_EQ(y, -2.25F);
+  json state;
+  do state = json::parse(client.receive_text())["live"];
+  while (state["state"] != "driving");
+  EXPECT_EQ(state["locked"]["code"], "");
+  EXPECT_EQ(state["revisions"]["walls"], get("/api/site")["walls_revision"]);
+  EXPECT_EQ(client.receive_binary(), *live.scan);
+}
+
+TEST_F(ServerTest, APanelIsToldWhatOthersEditUntilTheyLeave) {
+  const auto editors = [](test::LiveClient& client) {
+    return json::parse(client.receive_text())["live"]["editors"];
+  };
+  test::LiveClient first(server_->port(), "same");
+  first.send(R"({"editing": "walls"})");
+  {
+    test::LiveClient second(server_->port(), "same");
+    while (editors(second) != json::array({"walls"})) {
+    }
+    second.send(R"({"editing": "routes"})");
+    while (editors(first) != json::array({"routes"})) {
+    }
+    second.drop();
+  }
+  while (editors(first) != json::array()) {
+  }
 }
 
 TEST_F(ServerTest, AJogEndsWhenTheBrowserFallsSilentOrVanishes) {
@@ -206,15 +203,12 @@ TEST_F(ServerTest, ADrawingIsImportedWhileThePanelWatches) {
   std::ifstream stream(file, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(stream), {}};
   ASSERT_EQ(call("POST", "/api/site/drawing?name=..%2Fhall%20B.dxf", content).status, 200);
-  json job;
-  do job = get("/api/job");
-  while (job["running"] == true);
-  EXPECT_EQ(job["error"], "");
+  const json done = finished_job();
+  EXPECT_EQ(done["error"]["text"], "");
+  EXPECT_GT(done["report"]["walls"], 100);
   EXPECT_EQ(get("/api/site")["name"], "hall B");
   ASSERT_EQ(call("POST", "/api/site/drawing?name=bad.png", "no image").status, 200);
-  do job = get("/api/job");
-  while (job["running"] == true);
-  EXPECT_NE(job["error"], "");
+  EXPECT_EQ(finished_job()["error"]["code"], "job-failed");
   EXPECT_EQ(get("/api/site")["name"], "hall B");
 }
 

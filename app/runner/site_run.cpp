@@ -1,0 +1,135 @@
+#include "app/runner/site_run.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <utility>
+
+#include "app/pose/drawing_pose.hpp"
+#include "app/route_tools.hpp"
+
+namespace madori::app {
+namespace {
+
+/// Lends a link to one run after the other.
+class LentLink final : public VehicleLink {
+ public:
+  explicit LentLink(VehicleLink& link) : link_(link) {}
+  void collect(CycleInput& input) override { link_.collect(input); }
+  void send(const CycleOutput& output) override { link_.send(output); }
+  [[nodiscard]] std::string problem() const override { return link_.problem(); }
+
+ private:
+  VehicleLink& link_;
+};
+
+bool stands(const VehicleView& view) {
+  if (drives(view.mode) || view.mode == Mode::Waiting) return false;
+  return view.mode != Mode::Manual || view.command == VelocityCommand{};
+}
+
+}  // namespace
+
+SiteRun::SiteRun(std::filesystem::path site, std::unique_ptr<VehicleLink> link, Hooks hooks)
+    : site_(std::move(site)), link_(std::move(link)), hooks_(std::move(hooks)) {}
+
+SiteRun::~SiteRun() {
+  if (run_ && hooks_.closing) hooks_.closing();
+}
+
+SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
+  Loaded loaded;
+  try {
+    loaded.site = load_for_driving(site);
+    loaded.pose = std::make_unique<DrawingPose>(loaded.site->walls);
+  } catch (const std::exception& e) {
+    loaded.missing = e.what();
+  }
+  return loaded;
+}
+
+void SiteRun::take(Loaded loaded) {
+  if (run_ && hooks_.closing) hooks_.closing();
+  std::unique_ptr<TransportRun> next;
+  if (loaded.missing.empty()) {
+    next =
+        std::make_unique<TransportRun>(std::move(loaded.site->config), std::move(loaded.pose),
+                                       std::make_unique<LentLink>(*link_), TransportOptions{.site = site_});
+    if (hooks_.opened) hooks_.opened(*next);
+  } else {
+    spdlog::info("not ready to drive: {}", loaded.missing);
+  }
+  {
+    const std::scoped_lock lock(mutex_);
+    missing_ = loaded.missing;
+    std::swap(run_, next);
+  }
+}
+
+void SiteRun::load_now() {
+  Loaded loaded = load(site_);
+  if (!loaded.missing.empty()) throw std::runtime_error(loaded.missing);
+  {
+    const std::scoped_lock lock(mutex_);
+    wanted_ = false;
+  }
+  take(std::move(loaded));
+}
+
+void SiteRun::look_for_site() {
+  using std::chrono::seconds;
+  if (loading_.valid()) {
+    if (loading_.wait_for(seconds(0)) != std::future_status::ready || !may_change_site()) return;
+    take(loading_.get());
+  }
+  const std::scoped_lock lock(mutex_);
+  if (!std::exchange(wanted_, false)) return;
+  loading_ = std::async(std::launch::async, [site = site_] { return load(site); });
+}
+
+void SiteRun::tick(Stamp now) {
+  look_for_site();
+  if (run_) {
+    run_->tick(now);
+    return;
+  }
+  CycleInput input;
+  input.now = now;
+  link_->collect(input);
+  link_->send({});  // the drive stays disabled
+  if (hooks_.idle) hooks_.idle(input);
+}
+
+void SiteRun::reload() {
+  const std::scoped_lock lock(mutex_);
+  wanted_ = true;
+}
+
+bool SiteRun::say(const OperatorCommand& command) {
+  const std::scoped_lock lock(mutex_);
+  if (run_) run_->say(command);
+  return run_ != nullptr;
+}
+
+std::optional<VehicleView> SiteRun::view() const {
+  const std::scoped_lock lock(mutex_);
+  return run_ ? std::optional(run_->view()) : std::nullopt;
+}
+
+std::optional<std::string> SiteRun::node_name(int id) const {
+  const std::scoped_lock lock(mutex_);
+  if (!run_) return std::nullopt;
+  return app::node_name(run_->config().routes, id);
+}
+
+bool SiteRun::may_change_site() const {
+  const auto now = view();
+  return !now || stands(*now);
+}
+
+std::string SiteRun::missing() const {
+  const std::scoped_lock lock(mutex_);
+  return missing_;
+}
+
+}  // namespace madori::app

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "app/cycle/site_config.hpp"
+#include "app/runner/transport_run.hpp"
+
+namespace madori::app {
+
+/// The vehicle of a site from an empty folder on. While something is missing it only listens to the devices;
+/// once the site can be driven it runs it (TransportRun), and anew after every change of the site, as soon as
+/// the vehicle stands: no restart. A new run begins paused.
+class SiteRun {
+ public:
+  struct Hooks {
+    std::function<void(TransportRun&)> opened;    ///< a run is about to begin
+    std::function<void()> closing;                ///< the run is about to end
+    std::function<void(const CycleInput&)> idle;  ///< a tick without a run: what the devices say
+  };
+
+  SiteRun(std::filesystem::path site, std::unique_ptr<VehicleLink> link, Hooks hooks);
+  /// Waits for a site that is being loaded.
+  ~SiteRun();
+  SiteRun(const SiteRun&) = delete;
+  SiteRun& operator=(const SiteRun&) = delete;
+
+  /// Loads the site at once. Throws Error where it cannot be driven.
+  void load_now();
+  /// One step at `now`. Call every 20 ms, always from one thread.
+  void tick(Stamp now);
+
+  // From any thread:
+  /// The site has changed: load it, beside the ticks.
+  void reload();
+  /// False while there is no run.
+  bool say(const OperatorCommand& command);
+  /// Nothing while there is no run.
+  [[nodiscard]] std::optional<VehicleView> view() const;
+  /// The node's name, or its number where it has none; nothing for a node that is not in the routes.
+  [[nodiscard]] std::optional<std::string> node_name(int id) const;
+  /// The vehicle stands, and will not move before somebody lets it.
+  [[nodiscard]] bool may_change_site() const;
+  /// Why there is no run, as the site's loader says it; empty while there is one.
+  [[nodiscard]] std::string missing() const;
+  [[nodiscard]] std::string device_problem() const { return link_->problem(); }
+
+ private:
+  struct Loaded {
+    std::optional<SiteForDriving> site;
+    std::unique_ptr<PoseSource> pose;
+    std::string missing;
+  };
+  [[nodiscard]] static Loaded load(const std::filesystem::path& site);
+  void take(Loaded loaded);
+  void look_for_site();
+
+  std::filesystem::path site_;
+  std::unique_ptr<VehicleLink> link_;
+  Hooks hooks_;
+  std::future<Loaded> loading_;
+  mutable std::mutex mutex_;  ///< of what follows; the ticks hold it only to exchange the run
+  bool wanted_ = true;
+  std::string missing_ = "the site is being loaded";
+  std::unique_ptr<TransportRun> run_;
+};
+
+}  // namespace madori::app

@@ -1,0 +1,44 @@
+#include <cmath>
+
+#include "hmi/server/api.hpp"
+#include "hmi/server/api_support.hpp"
+
+namespace madori::hmi {
+namespace {
+
+using nlohmann::json;
+
+json setup_of(ApiContext& context) {
+  const LiveState live = context.vehicle.live();
+  return {{"steps", context.editor.setup_steps(live.pose)},
+          {"drivable", live.drivable},
+          {"locked", to_wire(context.vehicle.may_change_site().reason)}};
+}
+
+Transform2<Map, Base> pose_from(const json& wire) {
+  const Transform2<Map, Base> pose(wire.at("x").get<double>(), wire.at("y").get<double>(),
+                                   wire.at("yaw").get<double>());
+  constexpr double kFarthest_m = 1e5;
+  const bool good = std::isfinite(pose.yaw_rad()) && std::abs(pose.x_m()) < kFarthest_m &&
+                    std::abs(pose.y_m()) < kFarthest_m;
+  if (!good) throw Error("the pose", "does not lie on the drawing", "choose the place again");
+  return pose;
+}
+
+}  // namespace
+
+void add_setup_routes(Router& router, ApiContext& context) {
+  Vehicle& vehicle = context.vehicle;
+  router.add("GET", "/api/setup", Role::Viewer, answering([&](const Request&) { return setup_of(context); }),
+             Work::Worker);
+  router.add("GET", "/api/devices", Role::Viewer,
+             answering([&](const Request&) { return list_of(vehicle.found_devices()); }), Work::Worker);
+  router.add("GET", "/api/locate", Role::Viewer,
+             answering([&](const Request&) { return to_wire(vehicle.locate()); }));
+  router.add("POST", "/api/locate/search", Role::Operator,
+             [&](const Request&) { return answer(vehicle.search_place()); });
+  router.add("POST", "/api/vehicle/pose", Role::Operator,
+             guarded([&](const Request& r) { return answer(vehicle.set_pose(pose_from(body_of(r)))); }));
+}
+
+}  // namespace madori::hmi

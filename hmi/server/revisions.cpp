@@ -1,0 +1,101 @@
+#include "hmi/server/revisions.hpp"
+
+#include <sodium.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <string_view>
+
+#include "core/result.hpp"
+#include "mapping/site/atomic_file.hpp"
+#include "mapping/site/site.hpp"
+
+namespace madori::hmi {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string hash_of(std::initializer_list<std::string_view> parts) {
+  crypto_generichash_state state;
+  crypto_generichash_init(&state, nullptr, 0, 16);
+  constexpr unsigned char kEnd = 0;
+  for (const auto& part : parts) {
+    crypto_generichash_update(&state, reinterpret_cast<const unsigned char*>(part.data()), part.size());
+    crypto_generichash_update(&state, &kEnd, 1);
+  }
+  std::array<unsigned char, 16> hash{};
+  crypto_generichash_final(&state, hash.data(), hash.size());
+  std::array<char, 33> text{};
+  sodium_bin2hex(text.data(), text.size(), hash.data(), hash.size());
+  return text.data();
+}
+
+std::string content_of(const fs::path& file) {
+  std::error_code missing;
+  return fs::exists(file, missing) ? mapping::file_content(file) : std::string();
+}
+
+/// site.yaml with only the part that counts, as text.
+template <class Reduce>
+std::string part_of_site(const fs::path& folder, Reduce reduce) {
+  std::error_code missing;
+  if (!fs::exists(folder / "site.yaml", missing)) return "";
+  mapping::Site site = mapping::load_site(folder);
+  reduce(site);
+  return mapping::site_yaml(site);
+}
+
+/// When and where a file was last written: atomic writes give it a new inode.
+std::string touch_of(const fs::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return "-";
+  return std::to_string(status.st_ino) + '.' + std::to_string(status.st_size) + '.' +
+         std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec);
+}
+
+}  // namespace
+
+std::string walls_revision(const fs::path& site) {
+  return hash_of({content_of(site / "walls.csv")});
+}
+
+std::string routes_revision(const fs::path& site) {
+  return hash_of({content_of(site / "routes/tree.csv"), content_of(site / "routes/path.csv")});
+}
+
+std::string drawing_revision(const fs::path& site) {
+  return hash_of({part_of_site(site, [](mapping::Site& s) {
+    s.vehicle = {};
+    s.sensors.clear();
+  })});
+}
+
+std::string vehicle_revision(const fs::path& site) {
+  return hash_of({part_of_site(site, [](mapping::Site& s) {
+    s.name = "-";
+    s.drawing = {"-", 1, 1, 1, 0.0};
+    s.scale.reset();
+    s.georeference.reset();
+  })});
+}
+
+SiteRevisions RevisionWatch::now() const {
+  const std::scoped_lock lock(mutex_);
+  std::string touched;
+  for (const char* name : {"site.yaml", "walls.csv", "routes/tree.csv", "routes/path.csv"})
+    touched += touch_of(site_ / name) + ' ';
+  if (touched == touched_) return last_;
+  last_ = {"unreadable", "unreadable", "unreadable", "unreadable"};
+  try {
+    last_.walls = walls_revision(site_);
+    last_.routes = routes_revision(site_);
+    last_.drawing = drawing_revision(site_);
+    last_.vehicle = vehicle_revision(site_);
+  } catch (const std::exception&) {
+    // The panel asks for the site itself then, and is told what is wrong with it.
+  }
+  touched_ = touched;
+  return last_;
+}
+
+}  // namespace madori::hmi

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/frames.hpp"
+#include "core/point2.hpp"
+
+/// What the site_editor*.cpp share.
+namespace madori::hmi {
+
+[[nodiscard]] bool has_site(const std::filesystem::path& folder);
+/// None where there is no site yet.
+[[nodiscard]] std::vector<Segment2<Map>> drawn_walls(const std::filesystem::path& folder);
+/// Whom to name for the aerial photographs of a `tiles` folder; empty without.
+[[nodiscard]] std::string attribution_of(const std::filesystem::path& tiles);
+
+}  // namespace madori::hmi

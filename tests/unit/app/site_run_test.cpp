@@ -1,0 +1,132 @@
+// A vehicle from an empty folder on.
+#include "app/runner/site_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "app/panel/reference_lidar.hpp"
+#include "app/statistics/work_meter.hpp"
+#include "mapping/drawing/import_drawing.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace madori::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Hears nothing, and remembers whether the drive was ever enabled.
+class SilentLink final : public VehicleLink {
+ public:
+  explicit SilentLink(bool& enabled) : enabled_(enabled) {}
+  void collect(CycleInput& /*input*/) override {}
+  void send(const CycleOutput& output) override { enabled_ = enabled_ || output.enable; }
+  [[nodiscard]] std::string problem() const override { return "silent"; }
+
+ private:
+  bool& enabled_;
+};
+
+class SiteRunTest : public testing::Test {
+ protected:
+  void import() const {
+    mapping::ImportOptions options;
+    options.drawing = fs::path(MADORI_SOURCE_DIR) / "data/sample_factory/factory.dxf";
+    options.site = site_;
+    options.force = true;  // there is a madori.db already
+    mapping::import_drawing(options);
+  }
+  void draw_routes() const {
+    fs::copy(fs::path(MADORI_SOURCE_DIR) / "data/sample_factory/routes_factory", site_ / "routes",
+             fs::copy_options::overwrite_existing | fs::copy_options::recursive);
+  }
+  void mount_lidar() const {
+    mapping::Site site = mapping::load_site(site_);
+    site.sensors = {kReferenceLidar};
+    mapping::save_site(site_, site);
+  }
+  void tick_until(const std::function<bool()>& done) {
+    while (!done()) {  // the test's own limit ends this
+      now_ += std::chrono::milliseconds(20);
+      run_.tick(now_);
+      std::this_thread::yield();
+    }
+  }
+
+  test::TemporaryFolder folder_;
+  fs::path site_ = folder_.path() / "site";
+  bool enabled_ = false;
+  int opened_ = 0, closed_ = 0, idle_ = 0;
+  Stamp now_ = stamp_from_seconds(1'700'000'000.0);
+  SiteRun run_{site_,
+               std::make_unique<SilentLink>(enabled_),
+               {.opened = [this](TransportRun&) { ++opened_; },
+                .closing = [this] { ++closed_; },
+                .idle = [this](const CycleInput&) { ++idle_; }}};
+};
+
+TEST_F(SiteRunTest, ItDrivesAsSoonAsNothingIsMissing) {
+  const auto told = [this](const char* what) {
+    return [this, what] { return run_.missing().find(what) != std::string::npos; };
+  };
+  tick_until(told("site.yaml"));
+  EXPECT_FALSE(run_.say({OperatorWord::Resume, {}, {}}));
+  EXPECT_TRUE(run_.may_change_site());
+  import();
+  run_.reload();
+  tick_until(told("tree.csv"));
+  draw_routes();
+  run_.reload();
+  tick_until(told("VLP-16"));
+  mount_lidar();
+  run_.reload();
+  tick_until([this] { return run_.view().has_value(); });
+  EXPECT_EQ(run_.missing(), "");
+  EXPECT_EQ(opened_, 1);
+  EXPECT_EQ(closed_, 0);
+  EXPECT_GT(idle_, 0);
+  EXPECT_EQ(run_.view()->mode, Mode::Paused);
+  EXPECT_TRUE(run_.node_name(1));
+  EXPECT_FALSE(run_.node_name(4711));
+  EXPECT_FALSE(enabled_);
+}
+
+TEST_F(SiteRunTest, AChangeIsTakenOverByANewRunAndAFaultySiteEndsIt) {
+  import();
+  draw_routes();
+  mount_lidar();
+  tick_until([this] { return opened_ == 1; });
+  run_.reload();
+  tick_until([this] { return opened_ == 2; });
+  EXPECT_EQ(closed_, 1);
+  EXPECT_TRUE(run_.view());
+  fs::remove(site_ / "routes/tree.csv");
+  run_.reload();
+  tick_until([this] { return !run_.view(); });
+  EXPECT_EQ(closed_, 2);
+  EXPECT_NE(run_.missing(), "");
+}
+
+TEST(Statistics, SumsSurviveARestart) {
+  const test::TemporaryFolder folder;
+  const Stamp now = stamp_from_seconds(1'700'000'000.0);
+  {
+    StatisticsStore store(folder.path() / "madori.db");
+    EXPECT_FALSE(store.since());
+    Work work{12.5, 20.0, 5.0, {{"paused", {1, 5.0}}}};
+    store.add(work, now);
+    work.causes["no-order"] = {2, 1.0};
+    store.add(work, now + std::chrono::seconds(5));
+  }
+  const StatisticsStore store(folder.path() / "madori.db");
+  const Work sums = store.sums();
+  EXPECT_DOUBLE_EQ(sums.distance_m, 25.0);
+  EXPECT_EQ(sums.causes.at("paused").count, 2);
+  EXPECT_DOUBLE_EQ(sums.causes.at("paused").seconds, 10.0);
+  EXPECT_EQ(sums.causes.at("no-order").count, 2);
+  ASSERT_TRUE(store.since());
+  EXPECT_NEAR(to_seconds(*store.since() - now), 0.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace madori::app
