@@ -7,6 +7,7 @@ namespace madori::simulation {
 namespace {
 
 constexpr Duration kStatusPeriod = std::chrono::milliseconds(10);
+constexpr double kClearM = 0.1;  ///< within which nothing stands, the vehicle need not be tried every tick
 
 }  // namespace
 
@@ -77,6 +78,7 @@ void Factory::advance_vehicle(const WheelCommand* command) {
   const bool moves = next.pose.x_m() != state_.pose.x_m() || next.pose.y_m() != state_.pose.y_m() ||
                      next.pose.yaw_rad() != state_.pose.yaw_rad();
   if (!moves && bodies_.empty()) return void(state_ = next);
+  if (moves) look_around(next.pose);
   const std::string hit = touched_at(next.pose, moves);
   if (!hit.empty() && touching_.empty())
     collisions_.push_back({now(), hit, std::abs(next.linear_mps), truth().map_from_base});
@@ -91,16 +93,31 @@ void Factory::advance_vehicle(const WheelCommand* command) {
 }
 
 std::string Factory::touched_at(const Transform2<Building, Base>& pose, bool with_walls) const {
-  const auto floor = vehicle_.footprint(pose);
   const HeightRange body = vehicle_.body();
-  if (with_walls)
-    if (const Obstacle* wall = world_.obstacles().find(floor, body)) return wall->name;
+  if (with_walls && !is_clear(pose))
+    if (const Obstacle* wall = world_.obstacles().find(vehicle_.footprint(pose), body)) return wall->name;
   const double reach = std::hypot(vehicle_.record().length_m, vehicle_.record().width_m);
   for (const Body& b : bodies_) {
     if (distance_m(b.centre, pose.translation()) > reach + b.reach_m()) continue;
-    if (b.z.low_m < body.high_m && b.z.high_m > body.low_m && overlap(floor, outline(b))) return b.name;
+    if (b.z.low_m < body.high_m && b.z.high_m > body.low_m && overlap(vehicle_.footprint(pose), outline(b)))
+      return b.name;
   }
   return {};
+}
+
+/// Remembers a place with nothing that never moves within kClearM of the vehicle's outline.
+void Factory::look_around(const Transform2<Building, Base>& pose) {
+  if (is_clear(pose)) return;
+  clear_around_.reset();
+  if (world_.obstacles().find(vehicle_.footprint(pose, kClearM), vehicle_.body()) == nullptr)
+    clear_around_ = pose;
+}
+
+bool Factory::is_clear(const Transform2<Building, Base>& pose) const {
+  if (!clear_around_) return false;
+  const double turn_rad = std::abs(wrap_angle(pose.yaw_rad() - clear_around_->yaw_rad()));
+  const double reach_m = std::hypot(vehicle_.record().length_m, vehicle_.record().width_m);
+  return distance_m(pose.translation(), clear_around_->translation()) + turn_rad * reach_m < kClearM;
 }
 
 DriveTrouble Factory::trouble() const {
@@ -141,11 +158,19 @@ void Factory::set_pose(const Transform2<Map, Base>& map_from_base) {
 void Factory::inject(FaultSpec fault) {
   if (fault.kind == FaultKind::Kidnap) return set_pose(setup_.scenario.map_from_plan * fault.pose);
   fault.at_s += to_seconds(now_);
-  mailbox_.add_fault(fault);
+  mailbox_.add_fault(fault, to_seconds(now_));
 }
 
 void Factory::add_mover(const MoverSpec& spec) {
   movers_.emplace_back(spec, world_.frames());
+}
+
+void Factory::remove_mover(const std::string& name) {
+  std::erase_if(movers_, [&](const Mover& mover) { return mover.name() == name; });
+}
+
+bool Factory::is_free(const Transform2<Map, Base>& map_from_base) const {
+  return touched_at(world_.frames().building_pose(map_from_base), true).empty();
 }
 
 void Factory::set_load_kg(double load_kg) {

@@ -93,6 +93,9 @@ class Factory {
   /// Somebody more (Plan coordinates); start_s counts from the start of the simulation.
   void add_mover(const MoverSpec& spec);
   void clear_movers() { movers_.clear(); }
+  void remove_mover(const std::string& name);
+  /// Whether the vehicle could stand there without touching anything.
+  [[nodiscard]] bool is_free(const Transform2<Map, Base>& map_from_base) const;
   void set_load_kg(double load_kg);
 
  private:
@@ -101,6 +104,8 @@ class Factory {
   void advance_traffic();
   void advance_vehicle(const WheelCommand* command);
   [[nodiscard]] std::string touched_at(const Transform2<Building, Base>& pose, bool with_walls) const;
+  void look_around(const Transform2<Building, Base>& pose);
+  [[nodiscard]] bool is_clear(const Transform2<Building, Base>& pose) const;
   [[nodiscard]] DriveTrouble trouble() const;
   [[nodiscard]] ExtraSlip extra_slip() const;
 
@@ -121,6 +126,7 @@ class Factory {
   double driven_m_ = 0.0;
   Duration now_{0};
   Duration target_{0};
+  std::optional<Transform2<Building, Base>> clear_around_;  ///< nothing stands near the vehicle there
 };
 
 }  // namespace madori::simulation

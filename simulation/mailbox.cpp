@@ -24,6 +24,11 @@ void spoil_checksum(Device device, std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
+void Mailbox::add_fault(const FaultSpec& fault, double now_s) {
+  std::erase_if(faults_, [&](const FaultSpec& f) { return f.at_s + f.for_s < now_s; });
+  faults_.push_back(fault);
+}
+
 const FaultSpec* Mailbox::active(FaultKind kind, Device device, double now_s) const {
   for (const FaultSpec& f : faults_)
     if (f.kind == kind && f.device == device && now_s >= f.at_s && now_s < f.at_s + f.for_s) return &f;

@@ -21,7 +21,8 @@ class Mailbox {
  public:
   Mailbox(std::vector<FaultSpec> faults, std::uint64_t seed) : faults_(std::move(faults)), seed_(seed) {}
 
-  void add_fault(const FaultSpec& fault) { faults_.push_back(fault); }
+  /// Adds a fault, and forgets those that are over.
+  void add_fault(const FaultSpec& fault, double now_s);
   [[nodiscard]] const std::vector<FaultSpec>& faults() const { return faults_; }
   /// Whether a fault of that kind troubles the device now; the first one, else null.
   [[nodiscard]] const FaultSpec* active(FaultKind kind, Device device, double now_s) const;

@@ -10,6 +10,15 @@ namespace {
 constexpr double kTrackS = 0.5;
 constexpr Duration kMostAge = std::chrono::milliseconds(100);  // a clock that jumped is not believed
 
+/// Whether the drive was switched off and on between two statuses: its own clock, which starts at power-up
+/// and wraps after 71.6 min, has not gone on as ours has.
+bool was_switched_off(const control::wire::Status& before, const control::wire::Status& after,
+                      double passed_s) {
+  constexpr double kSlackS = 1.0;
+  const double step_s = static_cast<std::int32_t>(after.time_us - before.time_us) * 1e-6;
+  return std::abs(step_s - passed_s) > kSlackS;
+}
+
 /// Where the wheels were at a moment, between the readings around it.
 Transform2<Odom, Base> odometry_at(const std::deque<OdometryReading>& track, Stamp moment) {
   if (moment <= track.front().stamp) return track.front().odom_from_base;
@@ -66,7 +75,11 @@ void take_given_pose(CycleState& state, const GivenPose& given) {
 }  // namespace
 
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
+  bool restarted = false;
   for (const auto& status : input.drive) {
+    restarted =
+        restarted || (state.drive_heard &&
+                      was_switched_off(state.drive, status, to_seconds(input.now - *state.drive_heard)));
     state.drive = status;
     state.drive_heard = input.now;
     // The newest frame has just come; by the controller's clock the others were measured so much earlier.
@@ -78,6 +91,8 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     while (to_seconds(reading.stamp - state.track.front().stamp) > kTrackS) state.track.pop_front();
     state.pose = state.localization->on_odometry(reading);
   }
+  // Power that comes back is held like an emergency stop: nothing goes on by itself.
+  if (restarted) state.drive.state = control::wire::DriveState::EmergencyStop;
   for (const auto& command : input.commands) {
     if (command.word == OperatorWord::SetPose) take_given_pose(state, command.given_pose);
     if (command.word == OperatorWord::SearchPose) state.localization->search_anew();

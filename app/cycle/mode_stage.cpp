@@ -14,15 +14,20 @@ bool is_stopped_by_drive(const CycleState& state) {
          state.drive.state == DriveState::BumperStop;
 }
 
-bool has_fault(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
-  return state.drive.state == DriveState::Fault || state.drive.faults != control::wire::kNoFault ||
-         (state.drive_heard && is_silent(state.drive_heard, input.now, config.drive_silent_s));
+bool has_fault(const CycleState& state) {
+  return state.drive.state == DriveState::Fault || state.drive.faults != control::wire::kNoFault;
+}
+
+/// Whether the cycle is blind, or the drive deaf. Both end by themselves.
+bool misses_a_device(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  return is_silent(state.lidar_heard, input.now, config.lidar_silent_s) ||
+         is_silent(state.drive_heard, input.now, config.drive_silent_s);
 }
 
 /// Whether the way ahead lets the vehicle go on from a standstill.
 bool is_clear(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Navigation& way = state.way;
-  const bool sees = !is_silent(state.lidar_heard, input.now, config.lidar_silent_s) && !state.protective_stop;
+  const bool sees = !misses_a_device(state, input, config) && !state.protective_stop;
   const bool has_way = !way.path.empty() && !way.arrived && way.turn_free;
   const bool room = way.stop_along_m - way.along_m > kWorthGoingM;
   const bool lasting = !way.blocked_since || room;
@@ -33,8 +38,7 @@ bool is_clear(const CycleState& state, const CycleInput& input, const CycleConfi
 bool is_blocked(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Navigation& way = state.way;
   return way.path.empty() || way.arrived || !way.turn_free || state.protective_stop ||
-         is_silent(state.lidar_heard, input.now, config.lidar_silent_s) ||
-         way.stop_along_m - way.along_m < kStandsBeforeM;
+         misses_a_device(state, input, config) || way.stop_along_m - way.along_m < kStandsBeforeM;
 }
 
 std::optional<ModeEvent> event_of(OperatorWord word) {
@@ -102,12 +106,13 @@ bool may_drive(LocalizationState state) {
 void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   ModeChanges mode(state, output);
   const bool stopped = is_stopped_by_drive(state);
-  const bool fault = has_fault(state, input, config);
+  const bool fault = has_fault(state);
+  const bool deaf = is_silent(state.drive_heard, input.now, config.drive_silent_s);
   if (stopped) mode.apply(ModeEvent::EmergencyOn);
   if (fault) mode.apply(ModeEvent::FaultOn);
   for (const OperatorCommand& command : input.commands) {
     const auto event = event_of(command.word);
-    if (event == ModeEvent::Confirmed && (stopped || fault)) continue;  // the cause is still there
+    if (event == ModeEvent::Confirmed && (stopped || fault || deaf)) continue;  // the cause is still there
     if (event) mode.apply(*event);
     if (command.word == OperatorWord::Jog) {
       state.jog = command.jog;

@@ -119,12 +119,15 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
     output.order_refused = {way.target->order, way.no_way.text};
     return;
   }
-  const auto blocked = blocked_now(way, input.now, config.forget_block_s);
-  const auto route = best_route(config, state.pose.map_from_base.translation(), *goal, blocked);
+  const Point2<Map> here = state.pose.map_from_base.translation();
+  auto route = best_route(config, here, *goal, blocked_now(way, input.now, config.forget_block_s));
   if (!route) {
-    way.no_way = notice(blocked.empty() ? Cause::NoWay : Cause::NoWayWhileBlocked,
-                        {{"node", std::to_string(way.stop.node)}});
-    if (blocked.empty()) output.order_refused = {way.target->order, way.no_way.text};
+    way.blocked_legs.clear();  // every way is blocked: the vehicle goes to see whether it still is
+    route = best_route(config, here, *goal, {});
+  }
+  if (!route) {
+    way.no_way = notice(Cause::NoWay, {{"node", std::to_string(way.stop.node)}});
+    output.order_refused = {way.target->order, way.no_way.text};
     return;
   }
   way.nodes = route->nodes;

@@ -19,9 +19,7 @@ Standstill why_emergency(const CycleState& state, Stamp now) {
   return because(Cause::EmergencyStopOver, Remedy::LookAndConfirm, now);
 }
 
-Standstill why_fault(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
-  if (is_silent(state.drive_heard, input.now, config.drive_silent_s))
-    return because(Cause::DriveSilent, Remedy::CheckDrive, input.now);
+Standstill why_fault(const CycleState& state, const CycleInput& input) {
   if (state.drive.faults != control::wire::kNoFault || state.drive.state == DriveState::Fault)
     return {notice(Cause::DriveFault, {{"faults", std::to_string(state.drive.faults)}}),
             notice(Remedy::MendDrive), input.now};
@@ -45,6 +43,8 @@ Standstill why_at_stop(const OrderStop& stop, Stamp now) {
 Standstill why_waiting(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Navigation& way = state.way;
   const Stamp now = input.now;
+  if (is_silent(state.drive_heard, now, config.drive_silent_s))
+    return because(Cause::DriveSilent, Remedy::CheckDrive, now);
   if (is_silent(state.lidar_heard, now, config.lidar_silent_s))
     return because(Cause::LidarSilent, Remedy::CheckLidar, now);
   if (state.protective_stop) return because(Cause::ProtectiveField, Remedy::ClearField, now);
@@ -77,7 +77,7 @@ Standstill standstill_of(const CycleState& state, const CycleInput& input, const
     case Mode::EmergencyStop:
       return why_emergency(state, input.now);
     case Mode::Fault:
-      return why_fault(state, input, config);
+      return why_fault(state, input);
     case Mode::Waiting:
       return why_waiting(state, input, config);
   }

@@ -13,12 +13,25 @@ struct Group {
   double radius_m = 0.0;
 };
 
-/// Groups of confirmed columns that touch, with a gap of one cell allowed; by flooding over the sorted
-/// columns.
+/// Groups of confirmed columns that touch, with a gap of one cell allowed; by flooding over a grid of the
+/// cells between the outermost columns.
 class Grouping {
  public:
   explicit Grouping(const std::vector<Column>& columns) : columns_(columns), taken_(columns.size(), false) {
-    for (std::size_t i = 0; i < columns.size(); ++i) taken_[i] = !columns[i].confirmed;
+    if (columns.empty()) return;
+    x0_ = x1_ = columns.front().cell_x;
+    for (const Column& c : columns) {
+      x0_ = std::min(x0_, c.cell_x);
+      x1_ = std::max(x1_, c.cell_x);
+    }
+    y0_ = columns.front().cell_y;  // they are sorted by rows
+    y1_ = columns.back().cell_y;
+    const auto rows = static_cast<std::size_t>(y1_ - y0_ + 1);
+    slots_.assign(rows * static_cast<std::size_t>(x1_ - x0_ + 1), -1);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      taken_[i] = !columns[i].confirmed;
+      slots_[slot(columns[i].cell_x, columns[i].cell_y)] = static_cast<std::int32_t>(i);
+    }
   }
 
   std::vector<Group> groups(double widest_m) {
@@ -43,14 +56,17 @@ class Grouping {
     return members;
   }
   void take(std::int32_t x, std::int32_t y, std::vector<std::size_t>& members) {
-    const auto found =
-        std::lower_bound(columns_.begin(), columns_.end(), std::pair(y, x),
-                         [](const auto& c, auto cell) { return std::pair(c.cell_y, c.cell_x) < cell; });
-    if (found == columns_.end() || found->cell_x != x || found->cell_y != y) return;
-    const auto index = static_cast<std::size_t>(found - columns_.begin());
+    if (x < x0_ || x > x1_ || y < y0_ || y > y1_) return;
+    const std::int32_t found = slots_[slot(x, y)];
+    if (found < 0) return;
+    const auto index = static_cast<std::size_t>(found);
     if (taken_[index]) return;
     taken_[index] = true;
     members.push_back(index);
+  }
+  [[nodiscard]] std::size_t slot(std::int32_t x, std::int32_t y) const {
+    return static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(x1_ - x0_ + 1) +
+           static_cast<std::size_t>(x - x0_);
   }
   [[nodiscard]] std::optional<Group> compact(const std::vector<std::size_t>& members, double widest_m) const {
     Column box = columns_[members.front()];
@@ -70,6 +86,8 @@ class Grouping {
 
   const std::vector<Column>& columns_;
   std::vector<bool> taken_;
+  std::int32_t x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0;  ///< the outermost cells
+  std::vector<std::int32_t> slots_;                 ///< column of each cell, -1 where there is none
 };
 
 }  // namespace

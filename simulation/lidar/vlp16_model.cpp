@@ -22,10 +22,12 @@ vlp16::Return encode_echo(const Echo& echo) {
           reflectivity(echo.material)};
 }
 
-/// Place of a beam in the batch: eight neighbouring firings of one channel make one packet of rays, which
-/// stay close together.
-std::size_t place(std::size_t firing, std::size_t channel) {
-  return (firing / kGroup * vlp16::kChannels + channel) * kGroup + firing % kGroup;
+/// Place of a beam in the batch of `kept` firings. Eight neighbouring firings of one channel make one packet
+/// of rays, which stay close together; thinned firings fill the packets with the neighbouring channels'
+/// beams.
+std::size_t place(std::size_t firing, std::size_t channel, std::size_t kept) {
+  if (kept % kGroup == 0) return (firing / kGroup * vlp16::kChannels + channel) * kGroup + firing % kGroup;
+  return vlp16::ring_of(channel) * kept + firing;
 }
 
 }  // namespace
@@ -52,9 +54,7 @@ void Vlp16Model::choose_firings() {
 }
 
 void Vlp16Model::aim(const View& view) {
-  // Eight firings a group; the last group is filled up with its last firing.
-  const std::size_t groups = (kept_.size() + kGroup - 1) / kGroup;
-  beams_.reset(groups * vlp16::kChannels * kGroup);
+  beams_.reset(kept_.size() * vlp16::kChannels);
   const double channel_rad = 2.304e-6 * spec_.rate_hz * 2.0 * kPi;
   struct Laser {
     double cos_elevation, sin_elevation, cos_step, sin_step;
@@ -64,15 +64,15 @@ void Vlp16Model::aim(const View& view) {
     const double elevation = to_rad(vlp16::kElevationsDeg[c]), step = channel_rad * static_cast<double>(c);
     lasers[c] = {std::cos(elevation), std::sin(elevation), std::cos(step), std::sin(step)};
   }
-  for (std::size_t f = 0; f < groups * kGroup; ++f) {
-    const std::uint64_t firing = packet_ * firings() + kept_[std::min(f, kept_.size() - 1)];
+  for (std::size_t f = 0; f < kept_.size(); ++f) {
+    const std::uint64_t firing = packet_ * firings() + kept_[f];
     const Duration time(static_cast<std::int64_t>(firing) * kFiringNs);
     const SensorPose from = sensor_pose(view.world, view.track.at(time), mounting_);
     const double azimuth = azimuth_rad(firing), ca = std::cos(azimuth), sa = std::sin(azimuth);
     for (std::size_t c = 0; c < vlp16::kChannels; ++c) {
       const Laser& l = lasers[c];
       const double x = ca * l.cos_step - sa * l.sin_step, y = sa * l.cos_step + ca * l.sin_step;
-      beams_.set(place(f, c), from, l.cos_elevation * x, -l.cos_elevation * y, l.sin_elevation);
+      beams_.set(place(f, c, kept_.size()), from, l.cos_elevation * x, -l.cos_elevation * y, l.sin_elevation);
     }
   }
 }
@@ -85,7 +85,7 @@ void Vlp16Model::fill(vlp16::DataPacket& packet) const {
     const std::size_t f = kept_[k];
     const std::size_t block = spec_.dual_return ? f / 2 * 2 : f / 2;
     for (std::size_t c = 0; c < vlp16::kChannels; ++c) {
-      const Echoes echoes = echoes_of(beams_.hit(place(k, c)), options, random.next());
+      const Echoes echoes = echoes_of(beams_.hit(place(k, c, kept_.size())), options, random.next());
       const std::size_t index = f % 2 * vlp16::kChannels + c;
       packet.blocks[block].returns[index] = encode_echo(spec_.dual_return ? echoes.last : echoes.strongest);
       if (spec_.dual_return) packet.blocks[block + 1].returns[index] = encode_echo(echoes.strongest);

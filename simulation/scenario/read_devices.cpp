@@ -24,6 +24,7 @@ MoverSpec read_mover(StrictYaml& yaml) {
                                 {{"person", MoverKind::Person},
                                  {"forklift", MoverKind::Forklift},
                                  {"cart", MoverKind::Cart},
+                                 {"pallet", MoverKind::Pallet},
                                  {"upright_body", MoverKind::UprightBody},
                                  {"lying_body", MoverKind::LyingBody}});
   m.name = yaml.text_or("name", yaml.text("kind"));
@@ -33,6 +34,8 @@ MoverSpec read_mover(StrictYaml& yaml) {
   m.pause_s = yaml.number_or("pause_s", m.pause_s, 0.0, 86'400.0);
   m.start_s = yaml.number_or("start_s", m.start_s, 0.0, 1e7);
   m.polite_m = yaml.number_or("polite_m", m.polite_m, 0.0, 20.0);
+  m.patience_s = yaml.number_or("patience_s", m.patience_s, 0.0, 86'400.0);
+  m.yaw_deg = yaml.number_or("yaw_deg", m.yaw_deg, -360.0, 360.0);
   yaml.refuse_unknown_keys();
   return m;
 }

@@ -85,7 +85,7 @@ struct DoorSpec {
   double period_s = 30.0;  ///< by the clock: opens every so often, for hold_s
 };
 
-enum class MoverKind { Person, Forklift, Cart, UprightBody, LyingBody };
+enum class MoverKind { Person, Forklift, Cart, Pallet, UprightBody, LyingBody };
 
 /// Walks a path to and fro, or round and round. A path of one point stands.
 struct MoverSpec {
@@ -94,9 +94,11 @@ struct MoverSpec {
   std::vector<Point2<Plan>> path;
   double speed_mps = 1.2;
   bool loop = false;
-  double pause_s = 0.0;   ///< at the ends
-  double start_s = 0.0;   ///< stands until then
-  double polite_m = 0.8;  ///< stops this far before the vehicle; 0: walks into it
+  double pause_s = 0.0;     ///< at the ends
+  double start_s = 0.0;     ///< stands until then
+  double polite_m = 0.8;    ///< stops this far before the vehicle; 0: walks into it
+  double patience_s = 0.0;  ///< turns back after standing so long before the vehicle; 0: stands for ever
+  double yaw_deg = 0.0;     ///< of one that stands, Plan frame
 };
 
 /// The vehicle as it really is; the site's vehicle record is what everybody believes.

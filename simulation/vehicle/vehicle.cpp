@@ -58,9 +58,11 @@ VehicleState Vehicle::advance(const VehicleState& state, const control::WheelSpe
   return next;
 }
 
-std::vector<Point2<Building>> Vehicle::footprint(const Transform2<Building, Base>& pose) const {
+std::vector<Point2<Building>> Vehicle::footprint(const Transform2<Building, Base>& pose,
+                                                 double margin_m) const {
   const Point2<Building> middle = pose * Point2<Base>{record_.length_m / 2.0 - record_.base_to_rear_m, 0.0};
-  return rectangle(middle, pose.yaw_rad(), record_.length_m, record_.width_m);
+  return rectangle(middle, pose.yaw_rad(), record_.length_m + 2.0 * margin_m,
+                   record_.width_m + 2.0 * margin_m);
 }
 
 }  // namespace madori::simulation

@@ -33,8 +33,9 @@ class Vehicle {
   /// The state after `dt_s` with the wheels asked to turn at these speeds. `tick` numbers the steps.
   [[nodiscard]] VehicleState advance(const VehicleState& state, const control::WheelSpeeds& asked,
                                      double dt_s, const ExtraSlip& slip, std::uint64_t tick) const;
-  /// Floor outline at a pose, counter-clockwise.
-  [[nodiscard]] std::vector<Point2<Building>> footprint(const Transform2<Building, Base>& pose) const;
+  /// Floor outline at a pose, counter-clockwise, with a margin on all sides.
+  [[nodiscard]] std::vector<Point2<Building>> footprint(const Transform2<Building, Base>& pose,
+                                                        double margin_m = 0.0) const;
   /// What can touch something: from the ground clearance to the top of the load.
   [[nodiscard]] HeightRange body() const { return {spec_.ground_clearance_m, record_.height_m}; }
   [[nodiscard]] const WheelGeometry& true_wheels() const { return wheels_; }

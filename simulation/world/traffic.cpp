@@ -23,6 +23,9 @@ Body shape_of(MoverKind kind) {
     case MoverKind::Cart:
       b.half_length_m = 0.5, b.half_width_m = 0.35, b.z = {0.0, 1.1}, b.material = Material::Metal;
       break;
+    case MoverKind::Pallet:
+      b.half_length_m = 0.6, b.half_width_m = 0.4, b.z = {0.0, 0.9}, b.material = Material::Wood;
+      break;
     case MoverKind::UprightBody:
       b.half_length_m = b.half_width_m = 0.035, b.z = {0.0, 0.4}, b.round = true;
       break;
@@ -49,6 +52,7 @@ void Mover::place() {
   while (leg + 1 < ends_m_.size() && way_m_ > ends_m_[leg]) ++leg;
   if (ends_m_.empty()) {
     body_.centre = path_.front();
+    body_.yaw_rad = to_rad(spec_.yaw_deg);
     return;
   }
   const Point2<Building>&a = path_[leg], &b = path_[leg + 1];
@@ -62,17 +66,27 @@ void Mover::place() {
 bool Mover::waits_for(const VehicleCircle& vehicle) const {
   if (spec_.polite_m <= 0.0) return false;
   const double dx = vehicle.centre.x_m - body_.centre.x_m, dy = vehicle.centre.y_m - body_.centre.y_m;
-  const double ahead = dx * std::cos(body_.yaw_rad) + dy * std::sin(body_.yaw_rad);
-  return ahead > 0.0 && std::hypot(dx, dy) < spec_.polite_m + vehicle.reach_m + body_.reach_m();
+  const double distance = spec_.polite_m + vehicle.reach_m + body_.reach_m();
+  if (dx * dx + dy * dy >= distance * distance) return false;
+  return dx * std::cos(body_.yaw_rad) + dy * std::sin(body_.yaw_rad) > 0.0;
 }
 
 void Mover::advance(double now_s, double dt_s, const VehicleCircle& vehicle) {
-  if (ends_m_.empty() || now_s < spec_.start_s || now_s < paused_until_s_ || waits_for(vehicle)) return;
+  if (ends_m_.empty() || now_s < spec_.start_s || now_s < paused_until_s_) return;
+  if (waits_for(vehicle)) {
+    waited_s_ += dt_s;
+    if (spec_.patience_s <= 0.0 || waited_s_ < spec_.patience_s) return;
+    direction_ = -direction_;
+    waited_s_ = 0.0;
+    place();
+    return;
+  }
+  waited_s_ = 0.0;
   way_m_ += direction_ * spec_.speed_mps * dt_s;
   if (way_m_ >= length_m() || way_m_ <= 0.0) {
     paused_until_s_ = now_s + spec_.pause_s;
     if (spec_.loop)
-      way_m_ = 0.0;
+      way_m_ = direction_ > 0 ? 0.0 : length_m();
     else
       direction_ = way_m_ <= 0.0 ? 1 : -1;
     way_m_ = std::clamp(way_m_, 0.0, length_m());

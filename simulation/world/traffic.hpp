@@ -20,6 +20,7 @@ class Mover {
   Mover(const MoverSpec& spec, const PlanFrames& frames);
   void advance(double now_s, double dt_s, const VehicleCircle& vehicle);
   [[nodiscard]] const Body& body() const { return body_; }
+  [[nodiscard]] const std::string& name() const { return spec_.name; }
 
  private:
   void place();
@@ -33,6 +34,7 @@ class Mover {
   double way_m_ = 0.0;
   int direction_ = 1;
   double paused_until_s_ = 0.0;
+  double waited_s_ = 0.0;  ///< before the vehicle
 };
 
 /// An automatic door; its leaf is a thin box, none while it is fully open.

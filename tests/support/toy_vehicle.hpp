@@ -50,7 +50,7 @@ class ToyVehicle {
   /// One step of 20 ms. Orders are worked off as the order store would.
   void step() {
     time_s_ += kStep_s;
-    const auto micros = static_cast<std::uint32_t>(std::llround(time_s_ * 1e6));
+    const auto micros = static_cast<std::uint32_t>(std::llround((time_s_ - drive_started_s) * 1e6));
     turn_wheels();
     controller_.tick({emergency_stop, bumper, 0, angle(left_rad_), angle(right_rad_), 25'000}, micros);
     app::CycleInput input;
@@ -115,6 +115,7 @@ class ToyVehicle {
   RollingVehicle rolling;
   ToyLidar lidar;
   bool emergency_stop = false, bumper = false, drive_silent = false, lidar_silent = false;
+  double drive_started_s = 0.0;  ///< when its power came: its clock counts from there
   std::vector<app::OperatorCommand> commands;
   std::optional<app::Order> order;
   app::CycleOutput output;

@@ -78,9 +78,26 @@ TEST(AutonomyCycle, BumperAndSilentDriveAndPauseStopAtOnce) {
     if (what == 1) v->drive_silent = true;
     if (what == 2) v->say(OperatorWord::Pause);
     v->run_until([&] { return false; }, 0.5);
-    EXPECT_EQ(v->state().mode, what == 0 ? Mode::EmergencyStop : what == 1 ? Mode::Fault : Mode::Paused);
+    EXPECT_EQ(v->state().mode, what == 0 ? Mode::EmergencyStop : what == 1 ? Mode::Waiting : Mode::Paused);
     EXPECT_EQ(v->output.command, VelocityCommand{});
     EXPECT_FALSE(v->output.enable);
+  }
+}
+
+TEST(AutonomyCycle, ADriveThatWasDeafGoesOnByItselfButOneThatWasSwitchedOffDoesNot) {
+  for (const bool switched_off : {false, true}) {
+    auto v = vehicle();
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+    v->drive_silent = true;
+    v->run_until([&] { return false; }, 2.0);
+    EXPECT_EQ(v->state().mode, Mode::Waiting);
+    EXPECT_EQ(v->state().standstill.cause, notice(Cause::DriveSilent));
+    if (switched_off) v->drive_started_s = v->time_s() - 1.0;
+    v->drive_silent = false;
+    EXPECT_EQ(v->run_until([&] { return v->delivered(); }, 60.0), !switched_off);
+    if (switched_off) EXPECT_EQ(v->state().mode, Mode::EmergencyStop);
   }
 }
 

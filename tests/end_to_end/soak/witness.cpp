@@ -1,0 +1,109 @@
+#include "tests/end_to_end/soak/witness.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/segment_distance.hpp"
+
+namespace madori::soak {
+namespace {
+
+using simulation::Building;
+
+constexpr double kStepS = 0.02;
+constexpr double kSurelyWrongM = 0.5;
+constexpr double kFoundM = 0.3;
+constexpr double kGraceS = 3.0;  ///< in which a carried vehicle may still believe in its old place
+constexpr double kNearMissM = 0.1;
+
+/// How far the point lies from the path, near the place where the cycle believes to be.
+double distance_from_path(const app::Navigation& way, const Point2<Map>& at) {
+  const auto& points = way.path.points();
+  double best = 1e9;
+  const std::size_t from = way.pursuit.index > 30 ? way.pursuit.index - 30 : 0;
+  for (std::size_t i = from; i + 1 < points.size() && i < way.pursuit.index + 30; ++i)
+    best = std::min(best, distance_m(Segment2<Map>{points[i].position, points[i + 1].position}, at));
+  return best;
+}
+
+double distance_between(const std::vector<Point2<Building>>& a, const std::vector<Point2<Building>>& b) {
+  double best = 1e9;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t k = 0; k < b.size(); ++k)
+      best = std::min(best, distance_m(Segment2<Building>{a[i], a[(i + 1) % a.size()]},
+                                       Segment2<Building>{b[k], b[(k + 1) % b.size()]}));
+  return best;
+}
+
+}  // namespace
+
+double clearance_m(const simulation::Factory& factory) {
+  const auto& pose = factory.truth().building_from_base;
+  double best = 1e9;
+  std::vector<Point2<Building>> floor;
+  for (const auto& body : factory.bodies()) {
+    if (distance_m(body.centre, pose.translation()) > 3.0) continue;
+    if (body.z.low_m > factory.vehicle().body().high_m) continue;
+    if (floor.empty()) floor = factory.vehicle().footprint(pose);
+    best = std::min(best, distance_between(floor, simulation::outline(body)));
+  }
+  return best;
+}
+
+void Witness::kidnapped() {
+  kidnapped_at_ = last_kidnapping_ = factory_.now();
+  ++figures_.kidnapped;
+}
+
+void Witness::compare_pose(const app::CycleState& state) {
+  if (state.pose.health.state != LocalizationState::Localized) return;
+  const auto truth = factory_.truth().map_from_base;
+  const double error_m = distance_m(truth.translation(), state.pose.map_from_base.translation());
+  if (kidnapped_at_ && error_m < kFoundM) {
+    figures_.found_after_s.push_back(to_seconds(factory_.now() - *kidnapped_at_));
+    kidnapped_at_.reset();
+  }
+  if (last_kidnapping_ && to_seconds(factory_.now() - *last_kidnapping_) < kGraceS) return;
+  figures_.pose_error.add(error_m);
+  if (error_m > kSurelyWrongM) figures_.sure_but_wrong_s += kStepS;
+  if (state.mode == app::Mode::Driving && !state.way.path.empty() && !state.way.arrived)
+    figures_.off_route.add(distance_from_path(state.way, truth.translation()));
+}
+
+void Witness::count_events(const app::CycleInput& input, const app::CycleOutput& output) {
+  for (const auto& event : output.events) {
+    if (event.find("-> detouring") != std::string::npos) ++figures_.detours;
+    if (event.find("taking another route") != std::string::npos) ++figures_.other_routes;
+    if (!verbose_) continue;
+    const auto truth = factory_.truth().map_from_base;
+    std::printf("%10.2f  %s  (%.2f, %.2f)\n", to_seconds(input.now.time_since_epoch()) - 1'767'225'600.0,
+                event.c_str(), truth.x_m(), truth.y_m());
+  }
+}
+
+void Witness::look_for_contact() {
+  for (; collisions_ < factory_.collisions().size(); ++collisions_) {
+    const auto& c = factory_.collisions()[collisions_];
+    const bool moving = c.speed_mps >= 0.01;
+    char text[160];
+    std::snprintf(text, sizeof text, "day %d, %.1f s: %s at %.2f m/s, (%.2f, %.2f)", figures_.day,
+                  to_seconds(c.stamp.time_since_epoch()) - 1'767'225'600.0, c.what.c_str(), c.speed_mps,
+                  c.map_from_base.x_m(), c.map_from_base.y_m());
+    (moving ? figures_.collisions_moving : figures_.collisions_standing).emplace_back(text);
+    std::printf("collision: %s\n", text);
+  }
+  const bool moves = std::abs(factory_.truth().linear_mps) > 0.05;
+  const bool near = moves && clearance_m(factory_) < kNearMissM;
+  if (near && !near_) ++figures_.near_misses;
+  near_ = near;
+}
+
+void Witness::observe(const app::CycleInput& input, const app::CycleOutput& output,
+                      const app::CycleState& state) {
+  compare_pose(state);
+  count_events(input, output);
+  look_for_contact();
+  if (!app::drives(state.mode)) figures_.standstill_s[state.standstill.cause.text] += kStepS;
+}
+
+}  // namespace madori::soak

@@ -1,0 +1,212 @@
+#include "tests/end_to_end/soak/working_day.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "app/pose/drawing_pose.hpp"
+#include "app/simulated/factory_link.hpp"
+#include "planning/route_graph/route_csv.hpp"
+
+namespace madori::soak {
+namespace {
+
+constexpr Duration kStep = std::chrono::milliseconds(20);
+constexpr double kConfirmsAfterS = 3.0;     ///< an operator comes to a vehicle that asks for one
+constexpr double kTakesAwayAfterS = 120.0;  ///< to a vehicle that stands before something
+constexpr double kCarriesAfterS = 120.0;    ///< to a vehicle that does not know where it is
+
+app::SiteForDriving load(const DayOptions& options) {
+  auto loaded = app::load_for_driving(options.site);
+  if (!options.routes.empty()) loaded.config.routes = planning::load_routes(options.routes);
+  return loaded;
+}
+
+simulation::FactorySetup setup_of(const DayOptions& options, const Wishes& wishes, const Day& day,
+                                  const planning::RouteGraph& routes) {
+  auto setup = simulation::load_setup(options.site, options.scenario);
+  setup.seed = setup.scenario.seed = wishes.seed * 100'000ULL + static_cast<std::uint64_t>(day.number);
+  setup.scenario.furniture.day = day.number;
+  setup.epoch += std::chrono::hours(24) * day.number;
+  const auto& node = routes.nodes()[*routes.index_of(day.first_station)];
+  const Transform2<Map, Base> start(node.position.x_m, node.position.y_m, node.heading_rad.value_or(0.0));
+  setup.scenario.start = setup.scenario.map_from_plan.inverse() * start;
+  return setup;
+}
+
+}  // namespace
+
+WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int number)
+    : options_(options),
+      wishes_(wishes),
+      loaded_(load(options)),
+      plan_(plan_day(number, wishes, loaded_.config.routes)),
+      chance_(chance_of(wishes, number, 0)) {
+  figures_.day = number;
+  const auto setup = setup_of(options, wishes, plan_, loaded_.config.routes);
+  factory_ = std::make_shared<simulation::Factory>(setup);
+  app::TransportOptions transport;
+  transport.site = options.database;
+  transport.detours_in_step = true;
+  transport.store_poll_s = 0.5;
+  run_ = std::make_unique<app::TransportRun>(
+      loaded_.config, std::make_unique<app::DrawingPose>(loaded_.walls),
+      std::make_unique<app::FactoryLink>(factory_, loaded_.config.odometry.wheels, kStep), transport);
+  surprises_ = std::make_unique<Surprises>(*factory_, setup.scenario, run_->config());
+  witness_ = std::make_unique<Witness>(*factory_, figures_, options.verbose);
+  run_->set_tap(
+      [this](const auto& in, const auto& out, const auto& state) { witness_->observe(in, out, state); });
+  if (plan_.closed_aisle) surprises_->close_aisle(*plan_.closed_aisle);
+}
+
+Figures WorkingDay::work() {
+  const auto before = std::chrono::steady_clock::now();
+  const double cpu_before = cpu_seconds();
+  const Stamp morning = factory_->now();
+  run_->say({app::OperatorWord::Resume, {}});  // every start of the program waits for it
+  for (const Delivery& delivery : plan_.deliveries) deliver(delivery);
+  figures_.driven_m = factory_->distance_driven_m();
+  figures_.simulated_s = to_seconds(factory_->now() - morning);
+  figures_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  figures_.cpu_s = cpu_seconds() - cpu_before;
+  figures_.memory_kib = resident_kib();
+  for (const auto& entry : std::filesystem::directory_iterator(options_.database))
+    figures_.database_bytes += static_cast<long>(entry.file_size());
+  return figures_;
+}
+
+void WorkingDay::deliver(const Delivery& delivery) {
+  ++figures_.asked;
+  chance_ = chance_of(wishes_, plan_.number, wishes_.deliveries + 1 + delivery.number);
+  if (delivery.kidnapping && delivery.kidnapping->while_idle) {
+    surprises_->carry_away(chance_);
+    witness_->kidnapped();
+    wait(delivery.kidnapping->after_s);
+  }
+  kidnapping_due_ = delivery.kidnapping && !delivery.kidnapping->while_idle;
+  pallet_due_ = delivery.pallet_on_way;
+  person_due_ = delivery.person_crosses;
+  const std::size_t helped = figures_.help.size();
+  const int delivered = figures_.delivered;
+  if (delivery.dropout) {
+    factory_->inject(delivery.dropout->fault);
+    ++figures_.dropouts;
+  }
+  const auto order = run_->orders().add({{delivery.station, app::StopAction::Load, 1.0}}, 1, factory_->now());
+  const Stamp began = factory_->now();
+  while (!follow(delivery, order, began)) {
+  }
+  if (delivery.dropout && figures_.help.size() == helped && figures_.delivered > delivered)
+    ++figures_.dropouts_survived;
+  surprises_->clear();
+}
+
+bool WorkingDay::follow(const Delivery& delivery, std::int64_t order, Stamp began) {
+  tick();
+  befall(delivery, began);
+  look_after(delivery);
+  if (ticks_ % 10 != 0) return false;
+  const auto state = run_->orders().find(order);
+  if (state->state == app::OrderState::Done) return note_delivered(delivery, began), true;
+  if (state->state == app::OrderState::Refused || state->state == app::OrderState::Cancelled)
+    return note_undelivered(delivery, order, state->note), true;
+  if (to_seconds(factory_->now() - began) < options_.limit_s) return false;
+  return note_undelivered(delivery, order, "not within the time"), true;
+}
+
+/// What the plan has in store, once the vehicle is on its way.
+void WorkingDay::befall(const Delivery& delivery, Stamp began) {
+  const auto& state = run_->state();
+  const double since_s = to_seconds(factory_->now() - began);
+  if (kidnapping_due_ && since_s > delivery.kidnapping->after_s && state.mode == app::Mode::Driving) {
+    kidnapping_due_ = false;
+    surprises_->carry_away(chance_);
+    witness_->kidnapped();
+  }
+  if (!app::drives(state.mode) || ticks_ % 50 != 0) return;
+  if (pallet_due_ && surprises_->put_pallet(state.way, chance_)) pallet_due_ = false, ++figures_.pallets;
+  if (person_due_ && surprises_->send_person(state.way, chance_)) person_due_ = false, ++figures_.persons;
+}
+
+/// The operator: confirms what only a person may confirm, and takes away what blocks every way.
+void WorkingDay::look_after(const Delivery& delivery) {
+  const auto& state = run_->state();
+  const std::string because = std::string(to_string(state.mode)) + ": " + state.standstill.cause.text;
+  if (because != stands_because_ || app::drives(state.mode)) {
+    stands_because_ = because;
+    stands_since_ = factory_->now();
+    return;
+  }
+  const double stood_s = to_seconds(factory_->now() - stands_since_);
+  const bool asks = state.mode == app::Mode::EmergencyStop || state.mode == app::Mode::Fault;
+  if (state.mode == app::Mode::Paused && stood_s > 1.0) {
+    run_->say({app::OperatorWord::Resume, {}});
+    stands_since_ = factory_->now();
+  } else if (asks && stood_s > kConfirmsAfterS) {
+    if (state.drive.bumper) surprises_->carry_away(chance_);
+    run_->say({app::OperatorWord::Confirm, {}});
+    help(delivery, because, false);
+  } else if (state.mode == app::Mode::Waiting && stood_s > kTakesAwayAfterS) {
+    const auto goal = loaded_.config.routes.index_of(delivery.station);
+    const bool blocked = !surprises_->another_way(*goal);
+    if (surprises_->take_away_near(state.way.check.where)) help(delivery, because, blocked);
+    stands_since_ = factory_->now();
+  } else if (state.mode == app::Mode::Localizing && stood_s > kCarriesAfterS) {
+    surprises_->carry_away(chance_);
+    help(delivery, because, false);
+  }
+}
+
+void WorkingDay::help(const Delivery& delivery, const std::string& reason, bool every_way_blocked) {
+  figures_.help.push_back({delivery.number, reason, every_way_blocked});
+  stands_since_ = factory_->now();
+  const auto truth = factory_->truth().map_from_base;
+  std::printf("help, day %d delivery %d: %s%s; at (%.2f, %.2f)\n", plan_.number, delivery.number,
+              reason.c_str(), every_way_blocked ? " (every way blocked)" : "", truth.x_m(), truth.y_m());
+}
+
+void WorkingDay::tick() {
+  ++ticks_;
+  run_->tick(factory_->now() + kStep);
+}
+
+void WorkingDay::wait(double seconds) {
+  for (const Stamp end = factory_->now() + duration_from_seconds(seconds); factory_->now() < end;) tick();
+}
+
+void WorkingDay::note_delivered(const Delivery& delivery, Stamp began) {
+  ++figures_.delivered;
+  const auto& routes = loaded_.config.routes;
+  const auto& goal = routes.nodes()[*routes.index_of(delivery.station)];
+  const auto truth = factory_->truth().map_from_base;
+  const double off_m = distance_m(truth.translation(), goal.position);
+  figures_.goal_error.add(off_m);
+  figures_.delivery_s.push_back(to_seconds(factory_->now() - began));
+  if (goal.heading_rad)
+    figures_.goal_error_deg.push_back(to_deg(std::abs(wrap_angle(truth.yaw_rad() - *goal.heading_rad))));
+  // A delivery is one only where the goods stand at the station.
+  if (off_m > 0.5) {
+    --figures_.delivered;
+    figures_.undelivered.push_back("delivery " + std::to_string(delivery.number) + ": reported done " +
+                                   std::to_string(off_m) + " m away");
+    std::printf("%s\n", figures_.undelivered.back().c_str());
+  }
+  if (options_.verbose)
+    std::printf("day %d delivery %d to %d in %.1f s, %.3f m\n", plan_.number, delivery.number,
+                delivery.station, figures_.delivery_s.back(), off_m);
+}
+
+void WorkingDay::note_undelivered(const Delivery& delivery, std::int64_t order, const std::string& why) {
+  const auto truth = factory_->truth().map_from_base;
+  const auto& state = run_->state();
+  char text[400];
+  std::snprintf(text, sizeof text, "delivery %d to node %d: %s; %s: %s; at (%.2f, %.2f, %.0f deg); %s",
+                delivery.number, delivery.station, why.c_str(), to_string(state.mode),
+                state.standstill.cause.text.c_str(), truth.x_m(), truth.y_m(), to_deg(truth.yaw_rad()),
+                state.pose.health.reason.c_str());
+  figures_.undelivered.emplace_back(text);
+  std::printf("NOT delivered, day %d, %s\n", plan_.number, text);
+  run_->orders().close(order, app::OrderState::Cancelled, "soak: not delivered", factory_->now());
+}
+
+}  // namespace madori::soak

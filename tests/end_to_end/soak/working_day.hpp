@@ -1,0 +1,63 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "app/cycle/site_config.hpp"
+#include "app/runner/transport_run.hpp"
+#include "tests/end_to_end/soak/plan.hpp"
+#include "tests/end_to_end/soak/surprises.hpp"
+#include "tests/end_to_end/soak/witness.hpp"
+
+namespace madori::soak {
+
+struct DayOptions {
+  std::filesystem::path site;    ///< walls, vehicle, sensors
+  std::filesystem::path routes;  ///< folder of path.csv and tree.csv; empty: those of the site
+  std::filesystem::path scenario;
+  std::filesystem::path database;  ///< folder of madori.db, kept from day to day
+  double limit_s = 900.0;          ///< for one order
+  bool verbose = false;
+};
+
+/// One day in the virtual factory, lock-step: the program is started in the morning, gets its orders one
+/// after the other, and an operator who does nothing but what the table of states demands.
+class WorkingDay {
+ public:
+  /// Throws Error where site, routes or scenario cannot be used.
+  WorkingDay(const DayOptions& options, const Wishes& wishes, int number);
+  WorkingDay(const WorkingDay&) = delete;
+  WorkingDay& operator=(const WorkingDay&) = delete;
+
+  Figures work();
+
+ private:
+  void deliver(const Delivery& delivery);
+  /// True when the order has ended, one way or the other.
+  bool follow(const Delivery& delivery, std::int64_t order, Stamp began);
+  void befall(const Delivery& delivery, Stamp began);
+  void tick();
+  void wait(double seconds);
+  void look_after(const Delivery& delivery);
+  void help(const Delivery& delivery, const std::string& reason, bool every_way_blocked);
+  void note_delivered(const Delivery& delivery, Stamp began);
+  void note_undelivered(const Delivery& delivery, std::int64_t order, const std::string& why);
+
+  DayOptions options_;
+  Wishes wishes_;
+  app::SiteForDriving loaded_;
+  Day plan_;
+  Figures figures_;
+  std::shared_ptr<simulation::Factory> factory_;
+  std::unique_ptr<app::TransportRun> run_;
+  std::unique_ptr<Surprises> surprises_;
+  std::unique_ptr<Witness> witness_;
+  simulation::Random chance_;
+  bool kidnapping_due_ = false, pallet_due_ = false, person_due_ = false;
+  std::string stands_because_;
+  Stamp stands_since_{};
+  std::uint64_t ticks_ = 0;
+};
+
+}  // namespace madori::soak
