@@ -7,9 +7,44 @@ namespace madori::simulation {
 namespace {
 
 constexpr Duration kKept = std::chrono::milliseconds(200);
+constexpr double kBodySlackM =
+    0.1;  ///< the rays of a batch leave from where the vehicle is at their own time
 
 Ray ray_of(const RayPacket& p, std::size_t lane) {
   return {p.x_m[lane], p.y_m[lane], p.z_m[lane], p.dx[lane], p.dy[lane], p.dz[lane]};
+}
+
+/// The directions of a batch as seen from above: those within `half_rad` of (x, y).
+struct Fan {
+  double x = 1.0, y = 0.0, half_rad = kPi;
+
+  /// Whether a ray from (0, 0) may come within `reach` of (bx, by).
+  [[nodiscard]] bool may_meet(double bx, double by, double reach) const {
+    const double away = std::hypot(bx, by);
+    if (away <= reach) return true;
+    const double beside_rad = std::abs(std::atan2(x * by - y * bx, x * bx + y * by));
+    return beside_rad <= half_rad + std::asin(reach / away);
+  }
+};
+
+Fan fan_of(const std::vector<RayPacket>& packets, std::size_t count) {
+  double x = 0.0, y = 0.0, least_cosine = 1.0;
+  const auto each = [&](auto&& visit) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const RayPacket& p = packets[i / RayPacket::kLanes];
+      visit(static_cast<double>(p.dx[i % RayPacket::kLanes]),
+            static_cast<double>(p.dy[i % RayPacket::kLanes]));
+    }
+  };
+  each([&](double dx, double dy) { x += dx, y += dy; });
+  const double length = std::hypot(x, y);
+  if (length < 1e-3) return {};
+  x /= length;
+  y /= length;
+  each([&](double dx, double dy) {
+    least_cosine = std::min(least_cosine, (dx * x + dy * y) / std::max(std::sqrt(dx * dx + dy * dy), 1e-9));
+  });
+  return {x, y, std::acos(std::clamp(least_cosine, -1.0, 1.0)) + 1e-3};
 }
 
 }  // namespace
@@ -69,7 +104,13 @@ void BeamBatch::cast(const RayCaster& rays, const std::vector<Body>& bodies, flo
   for (std::size_t i = 0; i < packets_.size(); ++i)
     rays.cast(packets_[i],
               std::span<Hit, RayPacket::kLanes>(&hits_[i * RayPacket::kLanes], RayPacket::kLanes));
-  for (const Body& body : bodies) cast_body(body, range_max_m);
+  if (bodies.empty() || packets_.empty()) return;
+  const Fan fan = fan_of(packets_, count_);
+  for (const Body& body : bodies) {
+    const double bx = body.centre.x_m - packets_.front().x_m[0];
+    const double by = body.centre.y_m - packets_.front().y_m[0];
+    if (fan.may_meet(bx, by, body.reach_m() + kBodySlackM)) cast_body(body, range_max_m);
+  }
 }
 
 void BeamBatch::cast_body(const Body& body, float range_max_m) {

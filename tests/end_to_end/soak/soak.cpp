@@ -1,11 +1,13 @@
 // Deliveries in the virtual factory, lock-step, with real localization, over days on which the factory
 // changes; docs/reference/driving-figures.md holds the figures with the command. Every day is printed as a
-// line of JSON (--json); report.py adds days up. Exit 1 where an order was not delivered, the vehicle ran
-// into something, or somebody had to help although another way was free.
+// line of JSON (--json), an interrupted one as far as it went; report.py adds days up. Exit 1 where an order
+// was not delivered, the vehicle ran into something, or somebody had to help although another way was free.
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -15,6 +17,8 @@
 
 namespace madori::soak {
 namespace {
+
+std::atomic<bool> interrupted = false;  // NOLINT: a signal handler reaches nothing else
 
 struct Arguments {
   DayOptions day;
@@ -35,9 +39,11 @@ int run(Arguments arguments) {
   if (arguments.day.database.empty()) arguments.day.database = folder.path();
   const int end = arguments.end_day < 0 ? arguments.wishes.days : arguments.end_day;
   bool good = true;
-  for (int number = arguments.first_day; number < end; ++number) {
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  for (int number = arguments.first_day; number < end && !interrupted; ++number) {
     WorkingDay day(arguments.day, arguments.wishes, number);
-    const Figures f = day.work();
+    const Figures f = day.work(interrupted);
     good = good && is_good(f);
     std::printf(
         "day %d: %d of %d delivered, %zu + %zu collisions, %zu times help, %.0f m, %.1f x real time\n",

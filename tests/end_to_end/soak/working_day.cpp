@@ -13,6 +13,7 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(20);
 constexpr double kConfirmsAfterS = 3.0;     ///< an operator comes to a vehicle that asks for one
+constexpr double kLooksAfterS = 30.0;       ///< to a vehicle that cannot see what stands before it
 constexpr double kTakesAwayAfterS = 120.0;  ///< to a vehicle that stands before something
 constexpr double kCarriesAfterS = 120.0;    ///< to a vehicle that does not know where it is
 
@@ -59,12 +60,13 @@ WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int numb
   if (plan_.closed_aisle) surprises_->close_aisle(*plan_.closed_aisle);
 }
 
-Figures WorkingDay::work() {
+Figures WorkingDay::work(const std::atomic<bool>& stop) {
   const auto before = std::chrono::steady_clock::now();
   const double cpu_before = cpu_seconds();
   const Stamp morning = factory_->now();
-  run_->say({app::OperatorWord::Resume, {}});  // every start of the program waits for it
-  for (const Delivery& delivery : plan_.deliveries) deliver(delivery);
+  run_->say({app::OperatorWord::Resume, {}, {}});  // every start of the program waits for it
+  for (const Delivery& delivery : plan_.deliveries)
+    if (!stop) deliver(delivery);
   figures_.driven_m = factory_->distance_driven_m();
   figures_.simulated_s = to_seconds(factory_->now() - morning);
   figures_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
@@ -140,11 +142,14 @@ void WorkingDay::look_after(const Delivery& delivery) {
   const double stood_s = to_seconds(factory_->now() - stands_since_);
   const bool asks = state.mode == app::Mode::EmergencyStop || state.mode == app::Mode::Fault;
   if (state.mode == app::Mode::Paused && stood_s > 1.0) {
-    run_->say({app::OperatorWord::Resume, {}});
+    run_->say({app::OperatorWord::Resume, {}, {}});
     stands_since_ = factory_->now();
   } else if (asks && stood_s > kConfirmsAfterS) {
     if (state.drive.bumper) surprises_->carry_away(chance_);
-    run_->say({app::OperatorWord::Confirm, {}});
+    run_->say({app::OperatorWord::Confirm, {}, {}});
+    help(delivery, because, false);
+  } else if (state.mode == app::Mode::Waiting && state.way.unseen && stood_s > kLooksAfterS) {
+    run_->say({app::OperatorWord::Resume, {}, {}});
     help(delivery, because, false);
   } else if (state.mode == app::Mode::Waiting && stood_s > kTakesAwayAfterS) {
     const auto goal = loaded_.config.routes.index_of(delivery.station);
@@ -199,11 +204,19 @@ void WorkingDay::note_delivered(const Delivery& delivery, Stamp began) {
 void WorkingDay::note_undelivered(const Delivery& delivery, std::int64_t order, const std::string& why) {
   const auto truth = factory_->truth().map_from_base;
   const auto& state = run_->state();
-  char text[400];
-  std::snprintf(text, sizeof text, "delivery %d to node %d: %s; %s: %s; at (%.2f, %.2f, %.0f deg); %s",
-                delivery.number, delivery.station, why.c_str(), to_string(state.mode),
-                state.standstill.cause.text.c_str(), truth.x_m(), truth.y_m(), to_deg(truth.yaw_rad()),
-                state.pose.health.reason.c_str());
+  const auto& check = state.way.check;
+  const char* by = !check.blocked()     ? "nothing"
+                   : check.by_wall      ? "wall"
+                   : state.way.by_mover ? "mover"
+                                        : "body";
+  char text[500];
+  std::snprintf(
+      text, sizeof text,
+      "delivery %d to node %d: %s; %s: %s; at (%.2f, %.2f, %.0f deg); %s; blocked by %s at (%.2f, %.2f)%s%s",
+      delivery.number, delivery.station, why.c_str(), to_string(state.mode),
+      state.standstill.cause.text.c_str(), truth.x_m(), truth.y_m(), to_deg(truth.yaw_rad()),
+      state.pose.health.reason.c_str(), by, check.where.x_m, check.where.y_m,
+      state.way.turn_free ? "" : ", no room to turn", state.way.detour_pending ? ", detour pending" : "");
   figures_.undelivered.emplace_back(text);
   std::printf("NOT delivered, day %d, %s\n", plan_.number, text);
   run_->orders().close(order, app::OrderState::Cancelled, "soak: not delivered", factory_->now());

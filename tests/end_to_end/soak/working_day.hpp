@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -30,7 +31,8 @@ class WorkingDay {
   WorkingDay(const WorkingDay&) = delete;
   WorkingDay& operator=(const WorkingDay&) = delete;
 
-  Figures work();
+  /// Ends early, after a whole delivery, once `stop` is set.
+  Figures work(const std::atomic<bool>& stop);
 
  private:
   void deliver(const Delivery& delivery);

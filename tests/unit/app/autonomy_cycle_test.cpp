@@ -97,7 +97,9 @@ TEST(AutonomyCycle, ADriveThatWasDeafGoesOnByItselfButOneThatWasSwitchedOffDoesN
     if (switched_off) v->drive_started_s = v->time_s() - 1.0;
     v->drive_silent = false;
     EXPECT_EQ(v->run_until([&] { return v->delivered(); }, 60.0), !switched_off);
-    if (switched_off) EXPECT_EQ(v->state().mode, Mode::EmergencyStop);
+    if (switched_off) {
+      EXPECT_EQ(v->state().mode, Mode::EmergencyStop);
+    }
   }
 }
 
