@@ -10,13 +10,14 @@ namespace {
 constexpr double kTrackS = 0.5;
 constexpr Duration kMostAge = std::chrono::milliseconds(100);  // a clock that jumped is not believed
 
-/// Whether the drive was switched off and on between two statuses: its own clock, which starts at power-up
-/// and wraps after 71.6 min, has not gone on as ours has.
+/// Whether the drive was switched off and on between two statuses: its clock, which starts at power-up and
+/// wraps after 71.6 min, went back, or further on than ours. Statuses that have waited, or come twice, are no
+/// sign.
 bool was_switched_off(const control::wire::Status& before, const control::wire::Status& after,
                       double passed_s) {
   constexpr double kSlackS = 1.0;
   const double step_s = static_cast<std::int32_t>(after.time_us - before.time_us) * 1e-6;
-  return std::abs(step_s - passed_s) > kSlackS;
+  return step_s < -kSlackS || step_s > passed_s + kSlackS;
 }
 
 /// Where the wheels were at a moment, between the readings around it.
