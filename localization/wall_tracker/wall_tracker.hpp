@@ -39,7 +39,7 @@ struct WallTrackerOptions {
   double doubt_nats = 4.0;      ///< by which a pose within 2 m may fit better before: likewise
   double rival_nats = 5.0;      ///< by which another place must fit better to contradict the pose
   int rivals_to_lose = 2;       ///< contradictions in a row
-  int calm_scans = 5;           ///< after the other places were looked at in vain
+  int calm_scans = 2;           ///< after the other places were looked at in vain
 };
 
 /// What the last scan said.
