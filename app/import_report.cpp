@@ -56,6 +56,9 @@ void print_import_summary(const mapping::ImportReport& report, const std::string
               report.wall_length, unit, report.rejected);
   std::printf("skew      %.2f deg\n", report.skew_deg);
   std::printf("points    %zu sampled, %zu after the voxel grid\n", report.points_sampled, report.points);
+  double ms = 0;
+  for (const auto& stage : report.stages) ms += stage.milliseconds;
+  std::printf("time      %.2f s\n", 1e-3 * ms);
   for (const auto& note : report.notes) std::printf("note      %s\n", note.c_str());
   std::printf("look at   %s/import.png\n", site.c_str());
   if (!report.site.scale)

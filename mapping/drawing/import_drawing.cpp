@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
 #include <utility>
 
 #include "core/result.hpp"
 #include "mapping/drawing/import_picture.hpp"
+#include "mapping/georeference/scale_estimate.hpp"
+#include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/wall_map/wall.hpp"
 #include "mapping/wall_map/wall_files.hpp"
@@ -100,28 +100,19 @@ void refuse_blank(const ImportOptions& options, const GrayImage& picture) {
                     "--min-wall-length 10; drawings of furniture lines: --keep-furniture");
 }
 
-constexpr double kMetresPerInch = 0.0254;
-
 /// From a printed scale: one pixel is 1/dpi inch of paper.
-double scale_of_paper(const ImportOptions& options, const Plan& plan) {
+ScaleRecord scale_of_paper(const ImportOptions& options, const Plan& plan) {
   const double dpi = plan.vectors ? 0.0 : options.plan.dpi.value_or(plan.picture.dpi);
-  if (!(dpi > 0.0))
-    throw Error(options.drawing.string(), "has no resolution that --paper-scale could work with",
-                "state it with --dpi, or give --scale");
-  return kMetresPerInch / dpi * *options.paper_scale;
+  const ScaleEstimate paper = paper_scale(*options.paper_scale, dpi);
+  return {paper.m_per_px, paper.method, paper.error_m, paper.relative_uncertainty,
+          options.date,   paper.inputs};
 }
 
 /// Where the scale comes from, strongest first: the options, the paper, the file's own units.
 std::optional<ScaleRecord> find_scale(const ImportOptions& options, const Plan& plan) {
   if (options.m_per_px)
     return ScaleRecord{*options.m_per_px, options.scale_method, 0, 0, options.date, options.scale_inputs};
-  if (options.paper_scale)
-    return ScaleRecord{scale_of_paper(options, plan),
-                       "paper",
-                       0,
-                       0,
-                       options.date,
-                       {"--paper-scale " + std::to_string(*options.paper_scale)}};
+  if (options.paper_scale) return scale_of_paper(options, plan);
   if (plan.m_per_px) return ScaleRecord{*plan.m_per_px, plan.scale_method, 0, 0, options.date, plan.notes};
   return std::nullopt;
 }
@@ -139,18 +130,60 @@ Site make_site(const ImportOptions& options, const Plan& plan, const std::string
   return site;
 }
 
-std::string file_content(const fs::path& file) {
-  std::ostringstream content;
-  content << std::ifstream(file, std::ios::binary).rdbuf();
-  return std::move(content).str();
-}
-
 /// The files of an older import that this one does not write again.
 void remove_old_drawing(const ImportOptions& options, const std::string& drawing_name,
                         SiteTransaction& change) {
   if (!fs::exists(options.site / "site.yaml")) return;
   const std::string old = load_site(options.site).drawing.file;
   if (old != drawing_name) change.remove(old);
+}
+
+/// The exact lines of a vector drawing, or those found in its picture.
+DetectedWalls find_walls(const ImportOptions& options, Plan& plan, SiteTransaction& change,
+                         const Progress& progress) {
+  DetectedWalls found;
+  if (plan.vectors) {
+    found.walls = std::move(plan.vectors->walls);
+    found.rejected = std::move(plan.vectors->rejected);
+  } else {
+    refuse_blank(options, plan.picture);
+    DetectionOptions detection = options.detection;
+    if (const auto scale = find_scale(options, plan); scale && !detection.m_per_px)
+      detection.m_per_px = scale->m_per_px;
+    found = detect_walls(plan.picture, detection, debug_sink(options, change), progress);
+  }
+  if (found.walls.empty()) no_walls(options, plan);
+  return found;
+}
+
+PointMap stage_walls(const ImportOptions& options, const Plan& plan, const Walls& walls, double unit,
+                     bool scaled, SiteTransaction& change) {
+  WallFileOptions files = scaled ? WallFileOptions() : WallFileOptions::unscaled();
+  files.point_spacing = options.point_spacing_m.value_or(files.point_spacing);
+  files.voxel = options.voxel_m.value_or(files.voxel);
+  files.cell = options.cell_m.value_or(files.cell);
+  return stage_wall_files(change, walls, plan.picture.width_px * unit, plan.picture.height_px * unit, files);
+}
+
+void stage_site(const ImportOptions& options, const Site& site, SiteTransaction& change) {
+  change.write("site.yaml", site_yaml(site));
+  change.write(site.drawing.file, file_content(options.drawing));
+  remove_old_drawing(options, site.drawing.file, change);
+}
+
+void stage_picture(const Plan& plan, const DetectedWalls& found, std::optional<double> m_per_px,
+                   SiteTransaction& change) {
+  const auto png = import_picture(plan.picture, found.walls, found.rejected, m_per_px);
+  change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+void describe(const DetectedWalls& found, const Walls& walls, const PointMap& points, ImportReport& report) {
+  report.walls = walls.size();
+  for (const auto& wall : walls) report.wall_length += wall.segment.length_m();
+  report.rejected = found.rejected.size();
+  report.skew_deg = found.skew_deg;
+  report.points_sampled = points.sampled;
+  report.points = points.points.size();
 }
 
 }  // namespace
@@ -164,56 +197,27 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
   stages.end(plan.picture.pixels.size());
 
   SiteTransaction change(options.site);
-  DetectedWalls found;
-  if (plan.vectors) {
-    found.walls = std::move(plan.vectors->walls);
-    found.rejected = std::move(plan.vectors->rejected);
-  } else {
-    refuse_blank(options, plan.picture);
-    DetectionOptions detection = options.detection;
-    if (const auto scale = find_scale(options, plan); scale && !detection.m_per_px)
-      detection.m_per_px = scale->m_per_px;
-    found = detect_walls(plan.picture, detection, debug_sink(options, change), progress);
-  }
-  if (found.walls.empty()) no_walls(options, plan);
+  const DetectedWalls found = find_walls(options, plan, change, progress);
   report.stages.insert(report.stages.end(), found.stages.begin(), found.stages.end());
-
-  const std::string drawing_name = "drawing" + options.drawing.extension().string();
-  report.site = make_site(options, plan, drawing_name);
-  const bool scaled = report.site.scale.has_value();
-  const double unit = scaled ? report.site.scale->m_per_px : 1.0;
+  report.site = make_site(options, plan, "drawing" + options.drawing.extension().string());
+  const auto& scale = report.site.scale;
+  const double unit = scale ? scale->m_per_px : 1.0;
   const Walls walls = to_map(found.walls, plan.picture.height_px, unit);
 
   stages.begin("points", 0.85);
-  WallFileOptions files = scaled ? WallFileOptions() : WallFileOptions::unscaled();
-  files.point_spacing = options.point_spacing_m.value_or(files.point_spacing);
-  files.voxel = options.voxel_m.value_or(files.voxel);
-  files.cell = options.cell_m.value_or(files.cell);
-  const PointMap points =
-      stage_wall_files(change, walls, plan.picture.width_px * unit, plan.picture.height_px * unit, files);
+  const PointMap points = stage_walls(options, plan, walls, unit, scale.has_value(), change);
   stages.end(points.points.size());
-
   stages.begin("save", 0.9);
-  change.write("site.yaml", site_yaml(report.site));
-  change.write(drawing_name, file_content(options.drawing));
-  remove_old_drawing(options, drawing_name, change);
+  stage_site(options, report.site, change);
   stages.end(walls.size());
-
   stages.begin("picture", 0.95);
-  const auto png =
-      import_picture(plan.picture, found.walls, found.rejected, scaled ? std::optional(unit) : std::nullopt);
-  change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
-  stages.end(png.size());
+  stage_picture(plan, found, scale ? std::optional(unit) : std::nullopt, change);
+  stages.end(found.walls.size());
   stages.begin("commit", 0.98);
   change.commit();
   stages.end(1);
 
-  report.walls = walls.size();
-  for (const auto& wall : walls) report.wall_length += wall.segment.length_m();
-  report.rejected = found.rejected.size();
-  report.skew_deg = found.skew_deg;
-  report.points_sampled = points.sampled;
-  report.points = points.points.size();
+  describe(found, walls, points, report);
   report.notes = std::move(plan.notes);
   return report;
 }

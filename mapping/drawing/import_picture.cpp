@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
 #include "mapping/drawing/palette_png.hpp"
+#include "mapping/drawing/raster/skip_paper.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -84,15 +84,11 @@ class Layer {
     for (int v = top; v < picture_.rows; ++v) {
       auto* below = picture_.ptr<std::uint8_t>(v);
       auto* ink = sheet_.ptr<std::uint8_t>(v);
-      for (int u = 0; u < picture_.cols;) {
-        std::uint64_t eight = 0;
-        if (u + 8 <= picture_.cols && (std::memcpy(&eight, ink + u, 8), eight == 0)) {
-          u += 8;
-          continue;
-        }
+      const auto width = static_cast<std::size_t>(picture_.cols);
+      for (std::size_t u = skip_paper(ink, 0, width); u < width; u = skip_paper(ink, u + 1, width)) {
         if (ink[u] >= 256 / kShades)
           below[u] = static_cast<std::uint8_t>(family * kShades + ink[u] * kShades / 256);
-        ink[u++] = 0;
+        ink[u] = 0;
       }
     }
   }

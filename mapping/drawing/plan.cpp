@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 
 #include "core/result.hpp"
 #include "mapping/drawing/raster/load_image.hpp"
@@ -20,6 +21,7 @@ Plan load_plan(const std::filesystem::path& file, const PlanOptions& options) {
   if (!std::filesystem::exists(file)) throw Error(file.string(), "does not exist", "check the path");
   if (!std::filesystem::is_regular_file(file))
     throw Error(file.string(), "is no regular file", "save the drawing to a file first");
+  if (!std::ifstream(file)) throw Error(file.string(), "cannot be read", "check its permissions");
   if (extension == ".dwg")
     throw Error(file.string(), "is a DWG drawing, which only CAD programs can open",
                 "save it as DXF there and import that");

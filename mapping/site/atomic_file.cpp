@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "core/result.hpp"
@@ -74,8 +73,15 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
 }
 
 std::string file_content(const std::filesystem::path& file) {
+  constexpr std::size_t kBlock = std::size_t{1} << 18U;
   std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::string content;
+  for (std::size_t read = 0; stream; content.resize(read)) {
+    content.resize(read + kBlock);
+    stream.read(content.data() + read, static_cast<std::streamsize>(kBlock));
+    read += static_cast<std::size_t>(stream.gcount());
+  }
+  return content;
 }
 
 }  // namespace madori::mapping

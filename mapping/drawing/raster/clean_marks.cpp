@@ -6,13 +6,11 @@
 #include "mapping/drawing/raster/dash_ends.hpp"
 #include "mapping/drawing/raster/dashed_marks.hpp"
 #include "mapping/drawing/raster/pores.hpp"
-#include "mapping/drawing/raster/strokes.hpp"
 
 namespace madori::mapping {
 namespace {
 
 constexpr double kDirtInPens = 3;
-constexpr double kWidestPen = 6, kWidestPenShare = 0.002;  // thicker strokes are fills, whatever is commonest
 
 PixelSegment base_line(const TextGroup& text) {
   const double du = 0.5 * text.length_px * std::cos(text.angle_rad);
@@ -22,11 +20,10 @@ PixelSegment base_line(const TextGroup& text) {
 
 }  // namespace
 
-CleanedMarks clean_marks(GrayImage& ink, const DetectionOptions& options) {
-  const Components marks(ink);
+CleanedMarks clean_marks(GrayImage& ink, const Components& marks, double pen_px,
+                         const DetectionOptions& options) {
   CleanedMarks cleaned;
-  const double widest_pen = std::max(kWidestPen, kWidestPenShare * std::max(ink.width_px, ink.height_px));
-  cleaned.pen_px = std::min(pen_width_px(run_lengths(ink, marks)), widest_pen);
+  cleaned.pen_px = pen_px;
   std::vector<bool> drop(marks.all().size(), false);
   if (!options.keep_dashed) {
     const auto dashed = find_dashed(marks, cleaned.pen_px);

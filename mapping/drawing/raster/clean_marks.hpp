@@ -18,7 +18,9 @@ struct CleanedMarks {
   std::vector<RejectedSegment> rejected;
 };
 
-/// Erases text, dashed lines and dirt from the ink and fills the pores of dense hatching.
-[[nodiscard]] CleanedMarks clean_marks(GrayImage& ink, const DetectionOptions& options);
+/// Erases text, dashed lines and dirt from the ink and fills the pores of dense hatching. `marks` are those
+/// of the ink as it comes, `pen_px` the width of its thin pen.
+[[nodiscard]] CleanedMarks clean_marks(GrayImage& ink, const Components& marks, double pen_px,
+                                       const DetectionOptions& options);
 
 }  // namespace madori::mapping

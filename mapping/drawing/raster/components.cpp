@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
+
+#include "mapping/drawing/raster/skip_paper.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -32,16 +33,8 @@ class Forest {
   std::vector<std::int32_t> parent_;
 };
 
-/// Eight pixels at once over empty paper.
-int skip_paper(const std::uint8_t* row, int u, int width) {
-  while (u + 8 <= width) {
-    std::uint64_t eight = 0;
-    std::memcpy(&eight, row + u, 8);
-    if (eight != 0) break;
-    u += 8;
-  }
-  while (u < width && row[u] == 0) ++u;
-  return u;
+int paper_end(const std::uint8_t* row, int u, int width) {
+  return static_cast<int>(skip_paper(row, static_cast<std::size_t>(u), static_cast<std::size_t>(width)));
 }
 
 int skip_ink(const std::uint8_t* row, int u, int width) {
@@ -51,9 +44,9 @@ int skip_ink(const std::uint8_t* row, int u, int width) {
 
 void append_runs(const std::uint8_t* row, int v, int width, bool of_paper, std::vector<Run>& runs) {
   for (int u = 0; u < width;) {
-    const int first = of_paper ? skip_ink(row, u, width) : skip_paper(row, u, width);
+    const int first = of_paper ? skip_ink(row, u, width) : paper_end(row, u, width);
     if (first >= width) break;
-    u = of_paper ? skip_paper(row, first, width) : skip_ink(row, first, width);
+    u = of_paper ? paper_end(row, first, width) : skip_ink(row, first, width);
     runs.push_back({v, first, u - 1, 0});
   }
 }

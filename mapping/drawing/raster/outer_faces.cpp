@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <opencv2/imgproc.hpp>
 
 #include "mapping/drawing/raster/line_fit.hpp"
+#include "mapping/drawing/raster/skip_paper.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -46,21 +46,14 @@ cv::Mat ink_in_cells(const GrayImage& ink, const cv::Size& size) {
     auto* below = sums.ptr<float>(std::min(row.cell + 1, size.height - 1));
     const std::uint8_t* pixels =
         &ink.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(ink.width_px)];
-    for (int u = 0; u < ink.width_px;) {
-      std::uint64_t eight = 0;
-      if (u + 8 <= ink.width_px && (std::memcpy(&eight, pixels + u, 8), eight == 0)) {
-        u += 8;
-        continue;
-      }
-      if (pixels[u] != 0) {
-        const Share& column = across[static_cast<std::size_t>(u)];
-        const int next = std::min(column.cell + 1, size.width - 1);
-        here[column.cell] += (1 - row.beyond) * (1 - column.beyond);
-        here[next] += (1 - row.beyond) * column.beyond;
-        below[column.cell] += row.beyond * (1 - column.beyond);
-        below[next] += row.beyond * column.beyond;
-      }
-      ++u;
+    const auto width = static_cast<std::size_t>(ink.width_px);
+    for (std::size_t u = skip_paper(pixels, 0, width); u < width; u = skip_paper(pixels, u + 1, width)) {
+      const Share& column = across[u];
+      const int next = std::min(column.cell + 1, size.width - 1);
+      here[column.cell] += (1 - row.beyond) * (1 - column.beyond);
+      here[next] += (1 - row.beyond) * column.beyond;
+      below[column.cell] += row.beyond * (1 - column.beyond);
+      below[next] += row.beyond * column.beyond;
     }
   }
   return sums;

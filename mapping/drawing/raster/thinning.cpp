@@ -5,8 +5,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <vector>
+
+#include "mapping/drawing/raster/skip_paper.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -44,16 +45,10 @@ void clear_border(GrayImage& ink) {
 
 std::vector<std::size_t> ink_pixels(const GrayImage& ink) {
   std::vector<std::size_t> found;
+  const std::uint8_t* pixels = ink.pixels.data();
   const std::size_t size = ink.pixels.size();
-  for (std::size_t at = 0; at < size;) {
-    std::uint64_t eight = 0;
-    if (at + 8 <= size && (std::memcpy(&eight, &ink.pixels[at], 8), eight == 0)) {
-      at += 8;
-      continue;
-    }
-    if (ink.pixels[at] != 0) found.push_back(at);
-    ++at;
-  }
+  for (std::size_t at = skip_paper(pixels, 0, size); at < size; at = skip_paper(pixels, at + 1, size))
+    found.push_back(at);
   return found;
 }
 

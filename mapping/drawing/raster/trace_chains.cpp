@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 
 #include "mapping/drawing/raster/line_picture.hpp"
+#include "mapping/drawing/raster/skip_paper.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -56,17 +56,12 @@ class Tracer {
 
   [[nodiscard]] std::vector<Pixel> free_pixels() const {
     std::vector<Pixel> found;
-    const auto size = lines_.pixels.size();
-    for (std::size_t at = 0; at < size;) {
-      std::uint64_t eight = 0;
-      if (at + 8 <= size && (std::memcpy(&eight, &lines_.pixels[at], 8), eight == 0)) {
-        at += 8;
-        continue;
-      }
+    const std::uint8_t* pixels = lines_.pixels.data();
+    const std::size_t size = lines_.pixels.size();
+    for (std::size_t at = skip_paper(pixels, 0, size); at < size; at = skip_paper(pixels, at + 1, size)) {
       const Pixel p{static_cast<int>(at % static_cast<std::size_t>(lines_.width_px)),
                     static_cast<int>(at / static_cast<std::size_t>(lines_.width_px))};
       if (is_free(p)) found.push_back(p);
-      ++at;
     }
     return found;
   }

@@ -10,7 +10,7 @@ constexpr double kLongForWidth = 3;   // a strip is at least this much longer th
 constexpr double kFilledFrom = 0.75;  // ink share
 constexpr double kSidePeak =
     0.15;  // a second wall thickness has at least this share of the first one's length
-constexpr double kFilledOnly = 0.8;  // a drawing that fills its walls draws furniture with empty lines
+constexpr double kFilledOnly = 0.9;  // a drawing that fills its walls draws furniture with empty lines
 constexpr double kWidest = 2.5;      // common wall thicknesses
 constexpr double kPensDiffer = 0.12;
 constexpr double kNarrowest = 2.5;

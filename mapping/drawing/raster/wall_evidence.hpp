@@ -19,8 +19,9 @@ struct WallStyle {
   bool pens_differ = false;     ///< much is drawn with a clearly finer pen than the walls
   double filled_share = 0;      ///< of the length of all wall-like strips: how much is filled or bold
 
-  /// A stroke up to this width is finer than the pen of the walls.
-  [[nodiscard]] double finer_than_px() const { return std::min(0.72 * wall_pen_px, wall_pen_px - 1); }
+  /// A stroke up to this width is drawn with another, finer pen than the walls. Pens of a drawing differ by
+  /// the factor 2 (ISO 128-20); the rest is for what the pixel grid adds.
+  [[nodiscard]] double finer_than_px() const { return std::min(0.62 * wall_pen_px, wall_pen_px - 1); }
 };
 
 /// The peaks of the strip widths weighted by length. With no strips, 4 pens.

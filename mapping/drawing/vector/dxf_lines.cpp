@@ -11,9 +11,11 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string_view>
 
 #include "core/result.hpp"
+#include "mapping/drawing/vector/door_leaves.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -97,15 +99,23 @@ class Collector {
   DxfLine like_;
 };
 
-/// The radius where the curve is about a quarter of a circle, else 0.
-double quarter_radius(const OGRGeometry& geometry) {
-  if (wkbFlatten(geometry.getGeometryType()) != wkbLineString) return 0.0;
+/// The curve where it is about a quarter of a circle.
+std::optional<DoorSwing> quarter_arc(const OGRGeometry& geometry) {
+  if (wkbFlatten(geometry.getGeometryType()) != wkbLineString) return std::nullopt;
   const auto& curve = *geometry.toLineString();
   const int last = curve.getNumPoints() - 1;
-  if (last < 2) return 0.0;
-  const double chord = std::hypot(curve.getX(last) - curve.getX(0), curve.getY(last) - curve.getY(0));
+  if (last < 2) return std::nullopt;
+  const DxfPoint from{curve.getX(0), curve.getY(0)}, to{curve.getX(last), curve.getY(last)};
+  const double chord = std::hypot(to.x - from.x, to.y - from.y);
   const double share = curve.get_Length() / chord;  // pi / (2 sqrt 2) = 1.11 for a quarter
-  return share > 1.07 && share < 1.16 ? chord / std::sqrt(2.0) : 0.0;
+  if (!(share > 1.07 && share < 1.16)) return std::nullopt;
+  // The hinge lies half a chord from the chord's middle, on the side that the arc does not bulge to.
+  const DxfPoint between{0.5 * (from.x + to.x), 0.5 * (from.y + to.y)};
+  const double off =
+      (curve.getX(last / 2) - from.x) * (to.y - from.y) - (curve.getY(last / 2) - from.y) * (to.x - from.x);
+  const double side = off > 0 ? -0.5 : 0.5;
+  const DxfPoint hinge{between.x + side * (to.y - from.y), between.y - side * (to.x - from.x)};
+  return DoorSwing{hinge, from, to, chord / std::sqrt(2.0)};
 }
 
 void add_feature(const OGRFeature& feature, std::map<std::string, std::size_t>& layers, DxfContent& content) {
@@ -122,9 +132,12 @@ void add_feature(const OGRFeature& feature, std::map<std::string, std::size_t>& 
   like.dashed = style != nullptr && std::string(style).find("p:\"") != std::string::npos;
   like.hatch = classes.find("Hatch") != std::string::npos;
   if (classes.find("AcDbArc") != std::string::npos) {
-    const double radius = quarter_radius(*geometry);
-    like.door_arc = radius > 0.0;
-    if (like.door_arc) content.units.door_radii.push_back(radius);
+    const auto swing = quarter_arc(*geometry);
+    like.door_arc = swing.has_value();
+    if (swing) {
+      content.swings.push_back(*swing);
+      content.units.door_radii.push_back(swing->radius);
+    }
   }
   Collector(content, like).add(*geometry);
 }
@@ -164,6 +177,7 @@ DxfContent read_dxf_lines(const std::filesystem::path& file) {
   std::map<std::string, std::size_t> layers;
   for (auto&& feature : dataset->GetLayer(0)) add_feature(*feature, layers, content);
   CPLPopErrorHandler();
+  mark_door_leaves(content.lines, content.swings);
   return content;
 }
 

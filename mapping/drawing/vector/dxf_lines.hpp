@@ -14,14 +14,26 @@ struct DxfLine {
   std::size_t layer = 0;  ///< index into DxfContent::layers
   bool dashed = false;
   bool hatch = false;
-  bool door_arc = false;  ///< of a quarter circle
+  bool door_arc = false;   ///< of a quarter circle
+  bool door_leaf = false;  ///< from the middle of such an arc to one of its ends
 
   [[nodiscard]] double length() const;
+};
+
+struct DxfPoint {
+  double x = 0, y = 0;
+};
+
+/// A quarter arc, drawing units.
+struct DoorSwing {
+  DxfPoint hinge, from, to;
+  double radius = 0;
 };
 
 struct DxfContent {
   std::vector<std::string> layers;
   std::vector<DxfLine> lines;
+  std::vector<DoorSwing> swings;
   DxfUnitEvidence units;
 };
 

@@ -74,7 +74,7 @@ bool unknown_layers_are_walls(const DxfContent& content, const std::vector<Layer
   double named = 0.0, unknown = 0.0;
   for (const auto& line : content.lines) {
     const LayerKind kind = meaning[line.layer].kind;
-    if (line.hatch || line.dashed || line.door_arc) continue;
+    if (line.hatch || line.dashed || line.door_arc || line.door_leaf) continue;
     (kind == LayerKind::Wall ? named : unknown) +=
         kind == LayerKind::Wall || kind == LayerKind::Unknown ? line.length() : 0.0;
   }
@@ -87,7 +87,8 @@ std::optional<RejectReason> rejected(const DxfLine& line, const LayerMeaning& me
   if (line.hatch) return RejectReason::Hatch;
   if (meaning.kind == LayerKind::NoWall) return meaning.reason;
   if (line.dashed) return RejectReason::Dashed;
-  if (line.door_arc) return RejectReason::DoorArc;
+  const bool on_named = meaning.kind != LayerKind::Unknown;
+  if (line.door_arc || (line.door_leaf && !on_named)) return RejectReason::DoorArc;
   if (meaning.kind == LayerKind::Unknown && !unknown_is_wall) return RejectReason::Other;
   return std::nullopt;
 }

@@ -91,6 +91,38 @@ TEST(DetectWalls, ASolidWallHasTwoFaces) {
   EXPECT_GT(covered(found, {100, 100.5}, {900, 100.5}), 780);
 }
 
+double total_length(const DetectedWalls& found) {
+  double length = 0;
+  for (const PixelSegment& wall : found.walls) length += wall.length_px();
+  return length;
+}
+
+/// A CAD screen or a blueprint: the same walls, to the pixel.
+TEST(DetectWalls, BrightLinesOnADarkGround) {
+  const GrayImage plan = small_plan();
+  GrayImage screen = plan;
+  for (auto& pixel : screen.pixels) pixel = static_cast<std::uint8_t>(230 - pixel / 255 * 200);
+  const auto dark = detect_walls(plan, {}), bright = detect_walls(screen, {});
+  ASSERT_EQ(bright.walls.size(), dark.walls.size());
+  for (std::size_t i = 0; i < dark.walls.size(); ++i) EXPECT_EQ(bright.walls[i], dark.walls[i]);
+}
+
+/// However fine a drawing is scanned, its walls are the same and come in its own pixels.
+TEST(DetectWalls, ResolutionDoesNotMatter) {
+  const GrayImage plan = small_plan();
+  for (const double factor : {0.5, 2.0, 3.0}) {
+    GrayImage other =
+        paper(static_cast<int>(plan.width_px * factor), static_cast<int>(plan.height_px * factor));
+    cv::resize(cv::Mat(plan.height_px, plan.width_px, CV_8UC1, const_cast<std::uint8_t*>(plan.pixels.data())),
+               canvas(other), {other.width_px, other.height_px}, 0, 0, cv::INTER_AREA);
+    const auto found = detect_walls(other, {});
+    for (const double v : {100.5, 114.5, 786.5, 800.5})
+      EXPECT_GT(covered(found, cv::Point2d(115, v) * factor, cv::Point2d(1085, v) * factor), 960 * factor)
+          << "v = " << v << ", factor " << factor;
+    EXPECT_NEAR(total_length(found), factor * total_length(detect_walls(plan, {})), 120 * factor);
+  }
+}
+
 TEST(DetectWalls, BlankPaperHoldsNothing) {
   for (const int level : {0, 128, 255}) {
     GrayImage image = paper(300, 200);

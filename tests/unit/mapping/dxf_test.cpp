@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "core/result.hpp"
+#include "mapping/drawing/vector/door_leaves.hpp"
 #include "mapping/drawing/vector/dxf_layers.hpp"
 #include "mapping/drawing/vector/dxf_units.hpp"
 #include "mapping/drawing/vector/load_dxf.hpp"
@@ -86,6 +88,59 @@ TEST(LoadDxf, TheSampleFactoryComesOutExactly) {
   for (const auto& wall : plan.vectors->walls) found_m += wall.length_px() * *plan.m_per_px;
   EXPECT_EQ(plan.vectors->walls.size(), truth.size());
   EXPECT_NEAR(found_m, truth_m, 0.01 * truth_m);
+}
+
+DxfLine drawn(double x1, double y1, double x2, double y2) {
+  DxfLine line;
+  line.x1 = x1, line.y1 = y1, line.x2 = x2, line.y2 = y2;
+  return line;
+}
+
+TEST(DoorLeaves, OnlyWhatLiesFromHingeToArcIsALeaf) {
+  const DoorSwing door{{10, 20}, {10.9, 20}, {10, 20.9}, 0.9};
+  std::vector<DxfLine> lines{drawn(10, 20, 10, 20.9),        // the leaf
+                             drawn(10.9, 20.02, 10.04, 20),  // closed, a little inside its frame
+                             drawn(10.04, 20.9, 10.04, 20),  // the other side of a thick leaf
+                             drawn(10, 20, 10, 21.4),        // a wall that ends at the hinge
+                             drawn(10, 20, 9.1, 20),         // as long, on the other side
+                             drawn(11.5, 20, 11.5, 20.9),    // as long, elsewhere
+                             drawn(10, 20, 9.9, 20)};        // the end of the wall beside it
+  mark_door_leaves(lines, {door});
+  for (std::size_t i = 0; i < lines.size(); ++i) EXPECT_EQ(lines[i].door_leaf, i < 3) << i;
+}
+
+TEST(DoorLeaves, AnArcFarLargerThanTheDoorsIsNone) {
+  const DoorSwing door{{0, 0}, {1, 0}, {0, 1}, 1}, bay{{50, 50}, {60, 50}, {50, 60}, 10};
+  std::vector<DxfLine> lines{drawn(50, 50, 60, 50), drawn(0, 0, 1, 0)};
+  mark_door_leaves(lines, {door, door, bay});
+  EXPECT_FALSE(lines[0].door_leaf);
+  EXPECT_TRUE(lines[1].door_leaf);
+}
+
+/// On a layer without a telling name the leaf is no wall; one that its layer calls a wall stays.
+TEST(LoadDxf, ADoorOnLayerZeroLosesItsLeaf) {
+  const test::TemporaryFolder folder;
+  const auto line = [](const std::string& layer, double x1, double y1, double x2, double y2) {
+    std::ostringstream text;
+    text << "0\nLINE\n8\n"
+         << layer << "\n10\n"
+         << x1 << "\n20\n"
+         << y1 << "\n11\n"
+         << x2 << "\n21\n"
+         << y2 << "\n";
+    return text.str();
+  };
+  const std::string arc =
+      "0\nARC\n100\nAcDbEntity\n8\n0\n100\nAcDbCircle\n10\n5\n20\n0\n40\n0.9\n"
+      "100\nAcDbArc\n50\n0\n51\n90\n";
+  const std::string head = "0\nSECTION\n2\nENTITIES\n", tail = "0\nENDSEC\n0\nEOF\n";
+  const std::string walls = line("0", 0, 0, 5, 0) + line("0", 5.9, 0, 12, 0) + line("0", 0, 0, 0, 9);
+  const auto count = [&](const std::string& leaf) {
+    return load_dxf(folder.write("door.dxf", head + walls + leaf + arc + tail), {}).vectors->walls.size();
+  };
+  EXPECT_EQ(count(line("0", 5, 0, 5, 0.9)), 3U);
+  EXPECT_EQ(count(line("0", 5, 0, 5, 2.9)), 4U) << "a wall, longer than the door is wide";
+  EXPECT_EQ(count(line("WALL", 5, 0, 5, 0.9)), 4U);
 }
 
 TEST(LoadDxf, ANamedUnitIsStrongerThanTheFile) {

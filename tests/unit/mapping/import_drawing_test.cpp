@@ -191,5 +191,18 @@ TEST_F(ImportDrawing, AFolderThatCannotBeWrittenIsSaid) {
   EXPECT_THAT(refusal(o), HasSubstr("cannot be made"));
 }
 
+/// Root reads everything, so root plays nobody meanwhile.
+TEST_F(ImportDrawing, AFileThatMayNotBeReadIsSaid) {
+  constexpr uid_t kNobody = 65534;
+  const fs::path drawing = draw_room(folder_);
+  fs::permissions(folder_.path(), fs::perms::all);
+  fs::permissions(drawing, fs::perms::none);
+  const bool root = ::geteuid() == 0;
+  if (root && ::seteuid(kNobody) != 0) GTEST_SKIP() << "root cannot become another user here";
+  const std::string said = refusal(options(drawing));
+  if (root) ASSERT_EQ(::seteuid(0), 0);
+  EXPECT_THAT(said, HasSubstr("cannot be read"));
+}
+
 }  // namespace
 }  // namespace madori::mapping
