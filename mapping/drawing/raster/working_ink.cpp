@@ -41,11 +41,15 @@ std::optional<GrayImage> dark_on_bright(const GrayImage& image) {
   return turned;
 }
 
-/// By how much to resize a drawing with this pen; 1 = leave it.
+double widest_pen_px(const GrayImage& image) {
+  return std::max(kWidestPen, kWidestPenShare * std::max(image.width_px, image.height_px));
+}
+
+/// By how much to resize a drawing with this pen; 1 = leave it, also where it has fills instead of a pen.
 double working_factor(const GrayImage& image, double pen_px) {
   const double pixels = static_cast<double>(image.width_px) * image.height_px;
   if (pen_px < kFinePen && 4 * pixels <= kMostPixels) return 2;
-  if (pen_px > kCoarsePen) return 1 / std::round(pen_px / kGoodPen);
+  if (pen_px > kCoarsePen && pen_px < widest_pen_px(image)) return 1 / std::round(pen_px / kGoodPen);
   return 1;
 }
 
@@ -63,8 +67,7 @@ GrayImage resized(const GrayImage& image, double factor) {
 WorkingInk inked(const GrayImage& image, std::optional<double> threshold, double factor) {
   Binarized binary = binarize(image, threshold);
   Components marks(binary.ink);
-  const double widest_pen = std::max(kWidestPen, kWidestPenShare * std::max(image.width_px, image.height_px));
-  const double pen_px = std::min(pen_width_px(run_lengths(binary.ink, marks)), widest_pen);
+  const double pen_px = std::min(pen_width_px(run_lengths(binary.ink, marks)), widest_pen_px(image));
   return {std::move(binary.ink), std::move(marks), pen_px, factor, binary.threshold};
 }
 

@@ -116,8 +116,9 @@ TEST(DetectWalls, ResolutionDoesNotMatter) {
     cv::resize(cv::Mat(plan.height_px, plan.width_px, CV_8UC1, const_cast<std::uint8_t*>(plan.pixels.data())),
                canvas(other), {other.width_px, other.height_px}, 0, 0, cv::INTER_AREA);
     const auto found = detect_walls(other, {});
+    // 970 pixels, less the end of the dividing wall where no face can be seen
     for (const double v : {100.5, 114.5, 786.5, 800.5})
-      EXPECT_GT(covered(found, cv::Point2d(115, v) * factor, cv::Point2d(1085, v) * factor), 960 * factor)
+      EXPECT_GT(covered(found, cv::Point2d(115, v) * factor, cv::Point2d(1085, v) * factor), 940 * factor)
           << "v = " << v << ", factor " << factor;
     EXPECT_NEAR(total_length(found), factor * total_length(detect_walls(plan, {})), 120 * factor);
   }

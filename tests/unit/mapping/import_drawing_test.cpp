@@ -200,7 +200,9 @@ TEST_F(ImportDrawing, AFileThatMayNotBeReadIsSaid) {
   const bool root = ::geteuid() == 0;
   if (root && ::seteuid(kNobody) != 0) GTEST_SKIP() << "root cannot become another user here";
   const std::string said = refusal(options(drawing));
-  if (root) ASSERT_EQ(::seteuid(0), 0);
+  if (root) {
+    ASSERT_EQ(::seteuid(0), 0);
+  }
   EXPECT_THAT(said, HasSubstr("cannot be read"));
 }
 
