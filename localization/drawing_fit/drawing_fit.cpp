@@ -86,14 +86,14 @@ double sum_of_nats(const WallIndex& index, const MemoryCloud& cloud, const Trans
 
 double DrawingFit::likelihood(const MemoryCloud& cloud, const Transform2<Map, Map>& correction,
                               double sigma_m) const {
-  return sum_of_nats(index_, cloud, correction, Mixture(model_, sigma_m));
+  return sum_of_nats(*index_, cloud, correction, Mixture(model_, sigma_m));
 }
 
 Alignment DrawingFit::settle(const MemoryCloud& cloud, const Transform2<Map, Map>& start) const {
   const DrawingModel plain;
   Alignment found;
   found.correction = refine(cloud, centre_of(cloud), start, plain);
-  found.likelihood = sum_of_nats(index_, cloud, found.correction, Mixture(plain, plain.sigma_m));
+  found.likelihood = sum_of_nats(*index_, cloud, found.correction, Mixture(plain, plain.sigma_m));
   return found;
 }
 
@@ -104,7 +104,7 @@ Transform2<Map, Map> DrawingFit::refine(const MemoryCloud& cloud, const Point2<M
     const Point2<Map> pivot = correction * centre;
     Eigen::Matrix3d h = 1e-3 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
-    for_each_hit(index_, cloud, correction, [&](const CloudSurface& p, const auto& q, const auto& hit) {
+    for_each_hit(*index_, cloud, correction, [&](const CloudSurface& p, const auto& q, const auto& hit) {
       const double weight = p.weight * mixture.is_wall(hit.distance_m);
       const Eigen::Vector3d j = jacobian(hit, q, pivot);
       h += weight * j * j.transpose();
@@ -142,13 +142,13 @@ std::vector<Transform2<Map, Map>> DrawingFit::coarse(const MemoryCloud& cloud, c
     std::vector<CloudSurface> sample;
     for (std::size_t i = 0; i < cloud.size(); i += stride) {
       const Point2<Map> q = turned * Point2<Map>{cloud[i].x_m, cloud[i].y_m};
-      sample.push_back({q.x_m, q.y_m, 0.0, 0.0, 0, turned_direction(cloud[i], turned), cloud[i].weight});
+      sample.push_back({q.x_m, q.y_m, 0.0, 0.0, 0, turned_direction(cloud[i], turned), 1, cloud[i].weight});
     }
     for (int y = -reach; y <= reach; ++y) {
       for (int x = -reach; x <= reach; ++x) {
         double score = 0.0;
         for (const CloudSurface& p : sample) {
-          score += p.weight * blur[index_.centimetres(p.x_m + x * kStepM, p.y_m + y * kStepM, p.direction)];
+          score += p.weight * blur[index_->centimetres(p.x_m + x * kStepM, p.y_m + y * kStepM, p.direction)];
         }
         found.push_back({score, about(centre, x * kStepM, y * kStepM, r * kStepRad)});
       }
@@ -198,7 +198,7 @@ void DrawingFit::learn(const MemoryCloud& cloud) {
     const Mixture mixture(model_, model_.sigma_m);
     double squares = kPriorCount * kPriorSigmaM * kPriorSigmaM;
     double count = 0.0;
-    for_each_hit(index_, cloud, {}, [&](const CloudSurface& p, const auto&, const auto& hit) {
+    for_each_hit(*index_, cloud, {}, [&](const CloudSurface& p, const auto&, const auto& hit) {
       const double share = p.weight * kShare * mixture.is_wall(hit.distance_m);
       squares += share * hit.distance_m * hit.distance_m;
       count += share;
@@ -217,7 +217,7 @@ std::vector<UnaryFactor> DrawingFit::pulls(const MemoryCloud& cloud,
   }
   const double sigma = model_.sigma_m;
   const Mixture mixture(model_, sigma);
-  for_each_hit(index_, cloud, {}, [&](const CloudSurface& p, const auto& q, const auto& hit) {
+  for_each_hit(*index_, cloud, {}, [&](const CloudSurface& p, const auto& q, const auto& hit) {
     UnaryFactor& f = factors[static_cast<std::size_t>(p.keyframe)];
     const double information = p.weight * kShare * mixture.is_wall(hit.distance_m) / (sigma * sigma);
     const Eigen::Vector3d j = jacobian(hit, q, f.at.translation());
@@ -253,7 +253,7 @@ double DrawingFit::share_on_walls(const SurfaceScan& scan, const Transform2<Map,
   const Mixture mixture(model_, std::max(0.05, model_.sigma_m));
   double on_walls = 0.0;
   double all = 1e-9;
-  for_each_surface(index_, scan, pose, [&](const auto&, const WallIndex::Hit& hit, double length) {
+  for_each_surface(*index_, scan, pose, [&](const auto&, const WallIndex::Hit& hit, double length) {
     all += length;
     on_walls += hit.wall >= 0 ? length * mixture.is_wall(hit.distance_m) : 0.0;
   });
@@ -264,7 +264,7 @@ void DrawingFit::pull(const SurfaceScan& scan, const Transform2<Map, Base>& pose
                       Eigen::Vector3d& gradient) const {
   const double variance = model_.sigma_m * model_.sigma_m;
   const Mixture mixture(model_, model_.sigma_m);
-  for_each_surface(index_, scan, pose, [&](const Point2<Map>& q, const WallIndex::Hit& hit, double length) {
+  for_each_surface(*index_, scan, pose, [&](const Point2<Map>& q, const WallIndex::Hit& hit, double length) {
     if (hit.wall < 0) return;
     const double information = length / kVoxelM * kShare * mixture.is_wall(hit.distance_m) / variance;
     const Eigen::Vector3d j = jacobian(hit, q, pose.translation());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "localization/drawing_fit/memory_cloud.hpp"
@@ -34,9 +35,9 @@ struct AlignmentWindow {
 /// Fits the memory as a whole to the drawing, and turns the drawing into pulls on the keyframes.
 class DrawingFit {
  public:
-  explicit DrawingFit(const mapping::Walls& walls) : index_(walls) {}
+  explicit DrawingFit(const mapping::Walls& walls) : index_(std::make_shared<const WallIndex>(walls)) {}
 
-  [[nodiscard]] const WallIndex& index() const { return index_; }
+  [[nodiscard]] const WallIndex& index() const { return *index_; }
   [[nodiscard]] const DrawingModel& model() const { return model_; }
 
   /// Surfaces of the cloud, in walls of two metres.
@@ -66,7 +67,7 @@ class DrawingFit {
   [[nodiscard]] std::vector<Transform2<Map, Map>> coarse(const MemoryCloud& cloud, const Point2<Map>& centre,
                                                          const AlignmentWindow& window) const;
 
-  WallIndex index_;
+  std::shared_ptr<const WallIndex> index_;  ///< copies share it
   DrawingModel model_;
 };
 

@@ -30,12 +30,14 @@ std::uint64_t key_of(const CloudSurface& p, double dx = 0.0, double dy = 0.0) {
 struct Seen {
   CloudSurface surface;
   double range_sq;
+  int last_keyframe;
+  int sightings;
 };
 using Voxels = std::unordered_map<std::uint64_t, Seen>;
 
 void add_keyframe(const Memory& memory, std::size_t k, Voxels& voxels) {
   const Transform2<Map, Base>& pose = memory.poses()[k];
-  const SurfaceScan& scan = memory.keyframes()[k].scan;
+  const SurfaceScan& scan = *memory.keyframes()[k].scan;
   for (const SurfacePoint& p : scan.points) {
     if (!p.has_normal()) {
       continue;
@@ -44,12 +46,20 @@ void add_keyframe(const Memory& memory, std::size_t k, Voxels& voxels) {
     const CloudSurface surface{q.x_m, q.y_m, pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y,
                                pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y,
                                static_cast<int>(k)};
+    const int seer = static_cast<int>(k);
     const double dx = p.x_m - scan.sensor.x_m;
     const double dy = p.y_m - scan.sensor.y_m;
     const double range_sq = dx * dx + dy * dy;
-    const auto [at, fresh] = voxels.try_emplace(key_of(surface), Seen{surface, range_sq});
-    if (!fresh && range_sq < at->second.range_sq) {
-      at->second = {surface, range_sq};
+    const auto [at, fresh] = voxels.try_emplace(key_of(surface), Seen{surface, range_sq, seer, 1});
+    if (fresh) {
+      continue;
+    }
+    Seen& seen = at->second;
+    seen.sightings += seen.last_keyframe == seer ? 0 : 1;
+    seen.last_keyframe = seer;
+    if (range_sq < seen.range_sq) {
+      seen.surface = surface;
+      seen.range_sq = range_sq;
     }
   }
 }
@@ -79,6 +89,7 @@ MemoryCloud memory_cloud(const Memory& memory, std::size_t first) {
     CloudSurface p = seen.surface;
     p.weight = std::max(0.1, straightness(p, voxels));
     p.direction = WallIndex::direction_of(p.normal_x, p.normal_y);
+    p.sightings = seen.sightings;
     sorted.emplace_back(key, p);
   }
   std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

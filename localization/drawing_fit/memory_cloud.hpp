@@ -15,6 +15,7 @@ struct CloudSurface {
   double normal_y = 0.0;
   int keyframe = 0;     ///< whose sight of it counts: the one that saw it from the nearest
   int direction = 0;    ///< of its normal, WallIndex::direction_of
+  int sightings = 1;    ///< keyframes that saw it
   double weight = 0.0;  ///< 0..1, how long and straight the surface runs on: walls more than furniture
 };
 using MemoryCloud = std::vector<CloudSurface>;

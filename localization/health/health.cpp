@@ -10,6 +10,14 @@ std::string percent(double share) {
   return std::to_string(std::lround(100.0 * share)) + " %";
 }
 
+constexpr double kOnlyPlaceNats = -15.0;  // any other place this far behind
+
+/// All places were looked at, and none comes near: a bad fit is a poor drawing then, not a wrong place.
+bool is_the_only_place(const HealthEvidence& e) {
+  return e.elsewhere_nats > HealthEvidence::kNotLooked && e.elsewhere_nats < kOnlyPlaceNats &&
+         e.mirrored_nats < kOnlyPlaceNats;
+}
+
 LocalizationHealth lost(const HealthEvidence& e, const HealthLimits& limits) {
   if (e.searching) {
     return {LocalizationState::Lost, "looking for the place on the drawing: drive on slowly by hand"};
@@ -29,7 +37,8 @@ LocalizationHealth lost(const HealthEvidence& e, const HealthLimits& limits) {
   if (e.elsewhere_nats > limits.contradicted_nats) {
     return {LocalizationState::Lost, "another place on the drawing fits clearly better: wrong start pose?"};
   }
-  if (e.walls_seen > limits.enough_walls && e.fit_nats < limits.lost_nats_a_wall * e.walls_seen) {
+  if (e.walls_seen > limits.enough_walls && e.fit_nats < limits.lost_nats_a_wall * e.walls_seen &&
+      !is_the_only_place(e)) {
     return {LocalizationState::Lost, "what is seen does not fit the drawing here (" + percent(e.inliers) +
                                          " explained): wrong start pose, wrong or mirrored drawing"};
   }

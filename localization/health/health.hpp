@@ -13,10 +13,11 @@ struct HealthEvidence {
   double inliers = 0.5;      ///< share of what is seen that the drawing explains
   double sigma_m = 0.2;      ///< error of the drawing as learned
   double mirrored_nats = 0;  ///< by which the mirrored drawing explains the memory better; negative: worse
-  double elsewhere_nats = -1e9;  ///< by which the best other place explains the memory better
-  double blind_m = 0.0;          ///< driven since a scan last agreed with the memory and the wheels
-  double blind_s = 0.0;          ///< time since then
-  int blind_scans = 0;           ///< scans since then
+  static constexpr double kNotLooked = -1e9;
+  double elsewhere_nats = kNotLooked;  ///< by which the best other place explains the memory better
+  double blind_m = 0.0;                ///< driven since a scan last agreed with the memory and the wheels
+  double blind_s = 0.0;                ///< time since then
+  int blind_scans = 0;                 ///< scans since then
   double position_sigma_m = 0.0;
 };
 

@@ -37,30 +37,27 @@ Eigen::Matrix3d with_floor(const Eigen::Matrix3d& covariance) {
 
 Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPose>& initial,
                      const LocalizerOptions& options)
-    : options_(options),
-      initial_(initial.value_or(InitialPose{})),
-      model_(options.odometry),
-      memory_(options.memory),
-      anchor_(initial_.map_from_base) {
-  evidence_.has_drawing = !walls.empty();
+    : options_(options), model_(options.odometry) {
+  map_.memory = Memory(options.memory);
+  map_.start = initial.value_or(InitialPose{});
+  map_.evidence.has_drawing = !walls.empty();
+  anchor_ = map_.start.map_from_base;
   if (!walls.empty()) {
-    drawing_.emplace(walls);
-    evidence_.searching = !initial;
+    map_.drawing.emplace(walls);
+    map_.evidence.searching = !initial;
   }
 }
 
 HealthEvidence Localizer::evidence_with_time(Stamp stamp) const {
-  HealthEvidence evidence = evidence_;
+  HealthEvidence evidence = map_.evidence;
   if (evidence.blind_scans > 0) {
     evidence.blind_s = to_seconds(stamp - last_agreed_);
   }
   return evidence;
 }
 
-/// Did the drawing explain the memory before? Only then is it any use for finding the place again.
-bool Localizer::drawing_fits() const {
-  return evidence_.fit_nats > options_.health.verified_nats &&
-         evidence_.fit_nats > options_.health.good_nats_a_wall * evidence_.walls_seen;
+bool Localizer::drawing_is_exact() const {
+  return map_.drawing && map_.drawing->model().sigma_m < options_.exact_drawing_m;
 }
 
 PoseEstimate Localizer::estimate(Stamp stamp, const Transform2<Map, Base>& map_from_base) const {
@@ -101,16 +98,16 @@ MatchResult Localizer::match_from(const Transform2<Map, Base>& anchor, const Sur
   const Transform2<Map, Base> prediction = anchor * step.motion;
   const Eigen::Matrix3d covariance = with_floor(in_map_axes(step.covariance, anchor.yaw_rad()));
   const MatchPrior prior{prediction, covariance.inverse()};
-  const LocalMap map = memory_.recent_map(prediction.translation());
+  const LocalMap map = map_.memory.recent_map(prediction.translation());
   SearchWindow window;
   window.sigma_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
   window.sigma_rad = std::sqrt(covariance(2, 2));
   window.half_m = std::clamp(3.0 * window.sigma_m, std::min(0.3, 0.15 + 2.0 * step.path_m), 1.0);
   window.half_rad = std::clamp(3.0 * window.sigma_rad, 0.05, 0.8);
   ExtraPull pull;
-  if (drawing_ && drawing_->model().sigma_m < options_.exact_drawing_m) {
+  if (drawing_is_exact()) {
     pull = [&](const Transform2<Map, Base>& pose, Eigen::Matrix3d& hessian, Eigen::Vector3d& gradient) {
-      drawing_->pull(scan, pose, hessian, gradient);
+      map_.drawing->pull(scan, pose, hessian, gradient);
     };
   }
   MatchResult near = map.refine(scan, map.search(scan, prediction, window).map_from_base, prior, pull);
@@ -119,7 +116,7 @@ MatchResult Localizer::match_from(const Transform2<Map, Base>& anchor, const Sur
   }
   window.half_m = 0.5 + 0.5 * std::min(2.0, step.path_m);
   window.half_rad = 0.8;
-  const LocalMap whole = memory_.whole_map(prediction.translation());
+  const LocalMap whole = map_.memory.whole_map(prediction.translation());
   MatchResult far = whole.refine(scan, whole.search(scan, prediction, window).map_from_base, prior, pull);
   // The farther from what the wheels say, the clearer the scan must speak.
   const Transform2<Base, Base> off = prediction.inverse() * far.map_from_base;
@@ -129,61 +126,94 @@ MatchResult Localizer::match_from(const Transform2<Map, Base>& anchor, const Sur
   return far.inlier_share > near.inlier_share + margin ? far : near;
 }
 
+void Localizer::recall(Memory memory) {
+  if (started_ || map_.evidence.searching || memory.empty()) return;
+  map_.memory = std::move(memory);
+}
+
+/// Where the first scan lies in a recalled memory, near the start pose.
+std::optional<Transform2<Map, Base>> Localizer::place_in_memory(const SurfaceScan& scan) const {
+  const InitialPose& start = map_.start;
+  const LocalMap map = map_.memory.whole_map(start.map_from_base.translation());
+  const SearchWindow window{2.0 * start.sigma_m, 2.0 * start.sigma_rad, start.sigma_m, start.sigma_rad};
+  const MatchResult found = map.refine(scan, map.search(scan, start.map_from_base, window).map_from_base, {});
+  return found.inlier_share > options_.sure_inliers ? std::optional(found.map_from_base) : std::nullopt;
+}
+
 void Localizer::start(SurfaceScan scan) {
   anchor_stamp_ = scan.stamp;
   last_agreed_ = scan.stamp;
-  memory_.add({std::move(scan), 0.0}, anchor_, Eigen::Matrix3d::Zero());
+  double way_m = 0.0;
+  if (!map_.memory.empty()) {
+    const std::optional<Transform2<Map, Base>> place = place_in_memory(scan);
+    recalled_ = place.has_value();
+    if (place) {
+      anchor_ = *place;
+      map_.start = {map_.memory.poses().front(), 0.3, 0.1};  // the first keyframe is tied to it
+      way_m = options_.memory.break_open_m;                  // unknown; the old keyframes are not recent
+    } else {
+      map_.memory = Memory(options_.memory);
+    }
+  }
+  map_.memory.add(std::move(scan), way_m, anchor_, Eigen::Matrix3d::Zero());
   since_scan_ = {};
   since_keyframe_ = {};
-  if (drawing_ && evidence_.searching) {
-    next_survey_walls_ = 0.0;
-    look_everywhere();
-  } else if (drawing_) {
-    consult_drawing();
-  }
-  anchor_ = memory_.poses().back();
+  keyframes_since_thinking_ = 1;
+  started_ = true;
 }
 
 void Localizer::remember(SurfaceScan scan, const MatchResult& match) {
-  const Transform2<Map, Base> last = memory_.poses().back();
+  const Transform2<Map, Base> last = map_.memory.poses().back();
   const Eigen::Matrix3d wheels = with_floor(since_keyframe_.covariance).inverse();
   const Eigen::Matrix3d seen = in_map_axes(match.information, -last.yaw_rad());
-  const double path = memory_.keyframes().back().path_m + since_keyframe_.path_m;
-  memory_.add({std::move(scan), path}, match.map_from_base, seen + wheels);
+  map_.memory.add(std::move(scan), since_keyframe_.path_m, match.map_from_base, seen + wheels);
   since_keyframe_ = {};
-  memory_.close_loops();
-  ++keyframes_since_solve_;
-  if (is_solve_due()) {
-    keyframes_since_solve_ = 0;
-    if (drawing_ && evidence_.searching) {
-      look_everywhere();
-    } else if (drawing_) {
-      consult_drawing();
-    } else if (memory_.loops() > 0) {
-      memory_.optimise({});
-    }
+  ++keyframes_since_thinking_;
+}
+
+void Localizer::think_if_due(Stamp stamp) {
+  const std::size_t size = map_.memory.size();
+  if (!worker_.busy() && keyframes_since_thinking_ >= (size < 20 ? 1 : size < 200 ? 4 : 8)) {
+    keyframes_since_thinking_ = 0;
+    worker_.start(stamp, map_, options_);
   }
-  anchor_ = memory_.poses().back();
 }
 
-bool Localizer::is_solve_due() const {
-  const std::size_t size = memory_.size();
-  return size < 20 || keyframes_since_solve_ >= (size < 200 ? 4 : 8);
+/// What the worker found out moves the memory, and the vehicle with its newest part.
+void Localizer::take_in_thoughts(Stamp stamp) {
+  if (std::optional<MapState> thought = worker_.take(stamp, options_)) {
+    const Transform2<Map, Map> by = map_.memory.take_in(std::move(thought->memory), worker_.known());
+    thought->memory = std::move(map_.memory);
+    thought->evidence.blind_scans = map_.evidence.blind_scans;
+    thought->evidence.blind_m = map_.evidence.blind_m;
+    map_ = *std::move(thought);
+    anchor_ = by * anchor_;
+    if (late_anchor_) late_anchor_ = by * *late_anchor_;
+  }
 }
 
-/// Does the scan agree with the memory and with the drawing as scans usually do here? Once in doubt, the
-/// memory alone does not clear it: what was added since the doubt began agrees with itself anywhere.
+/// Is the match far from where the wheels say?
+bool Localizer::jumps(const MatchResult& match, const OdometryStep& step) const {
+  const Transform2<Base, Base> off = (anchor_ * step.motion).inverse() * match.map_from_base;
+  const Eigen::Matrix3d covariance = with_floor(step.covariance);
+  const Eigen::Vector3d e(off.x_m(), off.y_m(), off.yaw_rad());
+  return e.dot(covariance.inverse() * e) > 16.0;
+}
+
+/// Does the scan agree with the memory as scans usually do here? Furniture and people hide walls: that the
+/// drawing does not show what is seen is no reason for doubt while memory and wheels go on. Once in doubt,
+/// the memory alone does not clear it: what was added since the doubt began agrees with itself anywhere.
 void Localizer::note_agreement(const SurfaceScan& scan, const MatchResult& match, const OdometryStep& step) {
-  const bool drawing_speaks = drawing_ && !evidence_.searching && drawing_fits();
-  const double on_walls = drawing_speaks ? drawing_->share_on_walls(scan, match.map_from_base) : 0.0;
-  const bool exact = drawing_speaks && drawing_->model().sigma_m < options_.exact_drawing_m;
+  const bool drawing_speaks = map_.drawing && !map_.evidence.searching && map_.drawing_fits(options_.health);
+  const double on_walls = drawing_speaks ? map_.drawing->share_on_walls(scan, match.map_from_base) : 0.0;
+  const bool exact = drawing_speaks && drawing_is_exact();
   bool agrees = match.inlier_share > std::max(options_.lost_inliers, 0.5 * usual_inliers_);
-  if (exact) {  // in a furnished room of a rough drawing, few returns are on drawn walls anyway
+  if (exact && (map_.evidence.blind_scans > 0 || jumps(match, step))) {
     agrees = agrees && on_walls > 0.5 * usual_on_walls_;
   }
   if (!agrees) {
-    ++evidence_.blind_scans;
-    evidence_.blind_m += step.path_m;
+    ++map_.evidence.blind_scans;
+    map_.evidence.blind_m += step.path_m;
     return;
   }
   usual_inliers_ += 0.05 * (match.inlier_share - usual_inliers_);
@@ -191,29 +221,47 @@ void Localizer::note_agreement(const SurfaceScan& scan, const MatchResult& match
     usual_on_walls_ += 0.05 * (on_walls - usual_on_walls_);
   }
   last_agreed_ = scan.stamp;
-  evidence_.blind_scans = 0;
-  evidence_.blind_m = 0.0;
+  map_.evidence.blind_scans = 0;
+  map_.evidence.blind_m = 0.0;
 }
 
 /// What the scan says, and what the drawing's own error adds: walls that are drawn wrong lead all alike.
 void Localizer::update_covariance(const MatchResult& match) {
   const Eigen::Matrix3d floor = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
   covariance_ = (match.information + Eigen::Matrix3d::Identity()).inverse() + floor;
-  if (drawing_ && evidence_.walls_seen > 0.0) {
-    const double share = drawing_->model().sigma_m * drawing_->model().sigma_m;
-    const double walls = std::max(1.0, 0.1 * evidence_.inliers * evidence_.walls_seen);
+  if (map_.drawing && map_.evidence.walls_seen > 0.0) {
+    const double share = map_.drawing->model().sigma_m * map_.drawing->model().sigma_m;
+    const double walls = std::max(1.0, 0.1 * map_.evidence.inliers * map_.evidence.walls_seen);
     covariance_.diagonal() += Eigen::Vector3d(share, share, 0.01 * share) * (1.0 + 4.0 / walls) * 0.5;
   }
 }
 
+Memory Localizer::finished_memory() {
+  MapState state = map_;
+  state.think(options_);
+  return std::move(state.memory);
+}
+
+/// After being moved by hand: what was remembered lies elsewhere; the place is sought with a fresh memory.
+void Localizer::search_from_here(SurfaceScan scan) {
+  worker_.discard();
+  map_.memory = Memory(options_.memory);
+  map_.evidence = {};
+  map_.evidence.searching = true;
+  map_.next_survey_walls = 0.0;
+  start(std::move(scan));
+}
+
 PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
   SurfaceScan scan = make_surface_scan(stamp, sensor, to_points(points), options_.scan);
-  if (memory_.empty()) {
+  if (!started_) {
     if (!scan.points.empty()) {
       start(std::move(scan));
+      think_if_due(stamp);
     }
     return estimate(stamp, anchor_);
   }
+  take_in_thoughts(stamp);
   if (stamp < anchor_stamp_) {
     late_anchor_ = match(scan, OdometryStep{}).map_from_base;  // which of the two clocks is right shows next
     return estimate(stamp, *late_anchor_);
@@ -226,7 +274,7 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
   if (!fits) {
     matched.map_from_base = anchor_ * step.motion;
     matched.information.setZero();
-    memory_.note_break();
+    map_.memory.note_break();
     since_keyframe_.covariance += Eigen::Vector3d(0.04, 0.04, 0.25).asDiagonal();  // wheels may have slipped
   }
   if (fits) {
@@ -236,18 +284,19 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
   anchor_stamp_ = stamp;
   update_covariance(matched);
   since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
-  if (drawing_ && drawing_->model().sigma_m < options_.exact_drawing_m && !evidence_.searching &&
-      evidence_.blind_scans >= options_.health.blind_scans &&
-      judge(evidence_with_time(stamp), options_.health).state == LocalizationState::Lost && drawing_fits()) {
-    start_search();
-    start(std::move(scan));
+  if (drawing_is_exact() && !map_.evidence.searching &&
+      map_.evidence.blind_scans >= options_.health.blind_scans &&
+      judge(evidence_with_time(stamp), options_.health).state == LocalizationState::Lost &&
+      map_.drawing_fits(options_.health)) {
+    search_from_here(std::move(scan));
     return estimate(stamp, anchor_);
   }
-  const Transform2<Base, Base> moved = memory_.poses().back().inverse() * anchor_;
+  const Transform2<Base, Base> moved = map_.memory.poses().back().inverse() * anchor_;
   if (std::hypot(moved.x_m(), moved.y_m()) > options_.keyframe_m ||
       std::abs(moved.yaw_rad()) > options_.keyframe_rad) {
     remember(std::move(scan), matched);
   }
+  think_if_due(stamp);
   return estimate(stamp, anchor_);
 }
 

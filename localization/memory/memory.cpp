@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "localization/memory/fuse.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -17,22 +19,25 @@ Eigen::Matrix3d turned_into(const Eigen::Matrix3d& information, double yaw_rad) 
   return r.transpose() * information * r;
 }
 
-/// No scan match is better than this, however many points agree: 1 cm and 0.15 degrees.
-Eigen::Matrix3d limited(const Eigen::Matrix3d& information) {
-  const Eigen::Vector3d floor(1e-4, 1e-4, 7e-6);
-  const Eigen::Matrix3d regular = information + 1e-3 * Eigen::Matrix3d::Identity();
-  return (regular.inverse() + Eigen::Matrix3d(floor.asDiagonal())).inverse();
-}
-
 }  // namespace
 
 Memory::Memory(const MemoryOptions& options) : options_(options) {}
 
-std::size_t Memory::window_begin() const {
-  std::size_t begin = keyframes_.size();
-  const double newest = keyframes_.empty() ? 0.0 : keyframes_.back().path_m;
-  while (begin > 0 && static_cast<int>(keyframes_.size() - begin) < options_.window_keyframes &&
-         newest - keyframes_[begin - 1].path_m < options_.window_path_m) {
+Memory::Memory(const MemoryOptions& options, std::vector<Keyframe> keyframes,
+               std::vector<Transform2<Map, Base>> poses, std::vector<RelativeFactor> factors, int loops)
+    : options_(options),
+      keyframes_(std::move(keyframes)),
+      poses_(std::move(poses)),
+      factors_(std::move(factors)),
+      loops_(loops),
+      broken_(true),
+      looked_back_(keyframes_.size()),
+      last_loop_path_m_(keyframes_.empty() ? 0.0 : keyframes_.back().path_m) {}
+
+std::size_t Memory::window_begin(std::size_t newest) const {
+  std::size_t begin = newest + 1;
+  while (begin > 0 && static_cast<int>(newest + 1 - begin) < options_.window_keyframes &&
+         keyframes_[newest].path_m - keyframes_[begin - 1].path_m < options_.window_path_m) {
     --begin;
   }
   return begin;
@@ -41,7 +46,7 @@ std::size_t Memory::window_begin() const {
 LocalMap Memory::recent_map(const Point2<Map>& centre) const {
   std::vector<LocalMap::Piece> pieces;
   for (std::size_t i = window_begin(); i < keyframes_.size(); ++i) {
-    pieces.push_back({&keyframes_[i].scan, poses_[i]});
+    pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }
   return {pieces, centre, options_.map_radius_m};
 }
@@ -59,29 +64,31 @@ LocalMap Memory::whole_map(const Point2<Map>& centre) const {
   near.resize(std::min(near.size(), static_cast<std::size_t>(options_.nearby_keyframes)));
   std::vector<LocalMap::Piece> pieces;
   for (const auto& [d, i] : near) {
-    pieces.push_back({&keyframes_[i].scan, poses_[i]});
+    pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }
   for (std::size_t i = recent; i < keyframes_.size(); ++i) {
-    pieces.push_back({&keyframes_[i].scan, poses_[i]});
+    pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }
   return {pieces, centre, options_.map_radius_m};
 }
 
-int Memory::add(Keyframe keyframe, const Transform2<Map, Base>& map_from_base,
-                const Eigen::Matrix3d& motion_information) {
-  const int id = static_cast<int>(keyframes_.size());
+void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
+                 const Eigen::Matrix3d& motion_information) {
+  const int id = static_cast<int>(size());
+  double path = 0.0;
   if (!empty()) {
+    path = keyframes_.back().path_m + path_m;
     factors_.push_back(
         {id - 1, id, poses_.back().inverse() * map_from_base, limited(motion_information), false});
   }
-  keyframes_.push_back(std::move(keyframe));
+  keyframes_.push_back({std::make_shared<const SurfaceScan>(std::move(scan)), path, broken_});
   poses_.push_back(map_from_base);
-  return static_cast<int>(keyframes_.size()) - 1;
+  broken_ = false;
 }
 
-std::vector<Memory::LoopCandidate> Memory::loop_candidates() const {
-  const std::size_t end = window_begin();
-  const Transform2<Map, Base>& here = poses_.back();
+std::vector<Memory::LoopCandidate> Memory::loop_candidates(std::size_t newest) const {
+  const std::size_t end = window_begin(newest);
+  const Transform2<Map, Base>& here = poses_[newest];
   std::vector<LoopCandidate> found;
   std::size_t i = 0;
   while (i < end) {  // one candidate per stay in the neighbourhood
@@ -112,23 +119,23 @@ std::vector<Memory::LoopCandidate> Memory::loop_candidates() const {
   return found;
 }
 
-bool Memory::close_loop(const LoopCandidate& candidate) {
+bool Memory::close_loop(std::size_t newest, const LoopCandidate& candidate) {
   std::vector<LocalMap::Piece> pieces;
   for (std::size_t i = candidate.first; i <= candidate.last; ++i) {
-    pieces.push_back({&keyframes_[i].scan, poses_[i]});
+    pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }
-  const LocalMap map(pieces, poses_.back().translation(), options_.map_radius_m);
+  const LocalMap map(pieces, poses_[newest].translation(), options_.map_radius_m);
   if (map.empty()) {
     return false;
   }
-  const double open_m = keyframes_.back().path_m - last_loop_path_m_ + extra_open_m_;
+  const double open_m = keyframes_[newest].path_m - last_loop_path_m_ + extra_open_m_;
   SearchWindow window;
   window.sigma_m = 0.05 + options_.drift_per_m * open_m;
   window.sigma_rad = 0.01 + options_.drift_rad_per_m * open_m;
   window.half_m = std::clamp(3.0 * window.sigma_m, 0.2, 3.0);
   window.half_rad = std::clamp(3.0 * window.sigma_rad, 0.05, 0.5);
-  const SurfaceScan& scan = keyframes_.back().scan;
-  const SearchResult coarse = map.search(scan, poses_.back(), window);
+  const SurfaceScan& scan = *keyframes_[newest].scan;
+  const SearchResult coarse = map.search(scan, poses_[newest], window);
   const MatchResult match = map.refine(scan, coarse.map_from_base, {});
   if (match.inlier_share < options_.loop_inliers ||
       distance_m(match.map_from_base.translation(), coarse.map_from_base.translation()) > 0.15) {
@@ -137,7 +144,7 @@ bool Memory::close_loop(const LoopCandidate& candidate) {
   const Transform2<Map, Base>& old = poses_[candidate.nearest];
   RelativeFactor factor;
   factor.from = static_cast<int>(candidate.nearest);
-  factor.to = static_cast<int>(keyframes_.size()) - 1;
+  factor.to = static_cast<int>(newest);
   factor.motion = old.inverse() * match.map_from_base;
   factor.information = turned_into(limited(match.information), old.yaw_rad());
   factor.loop = true;
@@ -147,15 +154,91 @@ bool Memory::close_loop(const LoopCandidate& candidate) {
 
 int Memory::close_loops() {
   int closed = 0;
-  for (const LoopCandidate& candidate : loop_candidates()) {
-    closed += close_loop(candidate) ? 1 : 0;
+  for (; looked_back_ < size(); ++looked_back_) {
+    const Keyframe& keyframe = keyframes_[looked_back_];
+    extra_open_m_ = keyframe.after_break ? options_.break_open_m : extra_open_m_;
+    int here = 0;
+    for (const LoopCandidate& candidate : loop_candidates(looked_back_)) {
+      here += close_loop(looked_back_, candidate) ? 1 : 0;
+    }
+    if (here > 0) {
+      last_loop_path_m_ = keyframe.path_m;
+      extra_open_m_ = 0.0;
+    }
+    closed += here;
   }
-  if (closed > 0) {
-    loops_ += closed;
-    last_loop_path_m_ = keyframes_.back().path_m;
-    extra_open_m_ = 0.0;
-  }
+  loops_ += closed;
   return closed;
+}
+
+bool Memory::is_crowded(std::size_t k, const std::vector<char>& gone) const {
+  int beside = 0;
+  for (std::size_t i = k + 1; i < size() && beside < options_.keyframes_a_place; ++i) {
+    beside += gone[i] == 0 &&
+                      distance_m(poses_[i].translation(), poses_[k].translation()) < options_.place_m &&
+                      std::abs(wrap_angle(poses_[i].yaw_rad() - poses_[k].yaw_rad())) < options_.place_rad
+                  ? 1
+                  : 0;
+  }
+  return beside >= options_.keyframes_a_place;
+}
+
+/// The first keyframe stays: the start pose is tied to it. The recent ones stay: they are matched against.
+int Memory::fuse() {
+  std::vector<char> gone(size(), 0);
+  int fused = 0;
+  for (std::size_t k = 1; k < std::min(window_begin(), looked_back_); ++k) {
+    if (is_crowded(k, gone) && take_out(static_cast<int>(k), poses_, factors_)) {
+      gone[k] = 1;
+      ++fused;
+    }
+  }
+  if (fused > 0) forget(gone);
+  return fused;
+}
+
+void Memory::forget(const std::vector<char>& gone) {
+  std::vector<int> number(size(), 0);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < gone.size(); ++k) {
+    number[k] = static_cast<int>(kept);
+    if (gone[k] != 0) continue;
+    keyframes_[kept] = keyframes_[k];
+    poses_[kept] = poses_[k];
+    ++kept;
+  }
+  looked_back_ -= size() - kept;
+  keyframes_.resize(kept);
+  poses_.resize(kept);
+  for (RelativeFactor& f : factors_) {
+    f.from = number[static_cast<std::size_t>(f.from)];
+    f.to = number[static_cast<std::size_t>(f.to)];
+  }
+}
+
+std::size_t Memory::bytes() const {
+  std::size_t sum = poses_.size() * sizeof(poses_[0]) + factors_.size() * sizeof(factors_[0]);
+  for (const Keyframe& keyframe : keyframes_) {
+    sum += sizeof(keyframe) + sizeof(SurfaceScan) + keyframe.scan->points.size() * sizeof(SurfacePoint);
+  }
+  return sum;
+}
+
+Transform2<Map, Map> Memory::take_in(Memory other, std::size_t known) {
+  const Transform2<Map, Map> by = other.poses_.back() * poses_[known - 1].inverse();
+  const int shift = static_cast<int>(other.size()) - static_cast<int>(known);
+  for (std::size_t i = known; i < size(); ++i) {
+    other.keyframes_.push_back(keyframes_[i]);
+    other.poses_.push_back(by * poses_[i]);
+  }
+  for (const RelativeFactor& f : factors_) {  // loops are closed in the copy only
+    if (f.to >= static_cast<int>(known)) {
+      other.factors_.push_back({f.from + shift, f.to + shift, f.motion, f.information, f.loop});
+    }
+  }
+  other.broken_ = broken_;
+  *this = std::move(other);
+  return by;
 }
 
 bool Memory::optimise(const std::vector<UnaryFactor>& unary) {

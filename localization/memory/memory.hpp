@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "core/frames.hpp"
@@ -25,20 +25,26 @@ struct MemoryOptions {
   double break_open_m = 60.0;   ///< a break in the chain counts as so much driving
   double drift_per_m = 0.015;   ///< growth of the uncertainty between loops, metres a metre
   double drift_rad_per_m = 0.004;
+  double place_m = 0.6;       ///< keyframes this near to each other,
+  double place_rad = 0.35;    ///< looking the same way, are of the same place
+  int keyframes_a_place = 2;  ///< that stay when more recent ones come
 };
 
-/// A remembered scan at its pose.
+/// A remembered scan at its pose. The scan never changes: copies of a memory share it.
 struct Keyframe {
-  SurfaceScan scan;
-  double path_m = 0.0;  ///< driven since the start
+  std::shared_ptr<const SurfaceScan> scan;
+  double path_m = 0.0;       ///< driven since the start
+  bool after_break = false;  ///< the motion from its forerunner may be wrong
 };
 
 /// What the vehicle has seen itself: keyframes in a pose graph. Poses are Map frame, and are only as right as
-/// the first one and the unary factors of the drawing make them. Causal, deterministic; it grows with the way
-/// driven.
+/// the first one and the unary factors of the drawing make them. Causal, deterministic. A copy is cheap.
 class Memory {
  public:
   explicit Memory(const MemoryOptions& options = {});
+  /// As it was kept from an earlier drive. What follows is tied to it by loops only, sought in a wide window.
+  Memory(const MemoryOptions& options, std::vector<Keyframe> keyframes,
+         std::vector<Transform2<Map, Base>> poses, std::vector<RelativeFactor> factors, int loops);
 
   [[nodiscard]] bool empty() const { return keyframes_.empty(); }
   [[nodiscard]] std::size_t size() const { return keyframes_.size(); }
@@ -48,23 +54,32 @@ class Memory {
   [[nodiscard]] int loops() const { return loops_; }
 
   /// The first of the keyframes that count as recent.
-  [[nodiscard]] std::size_t window_begin() const;
+  [[nodiscard]] std::size_t window_begin() const { return empty() ? 0 : window_begin(size() - 1); }
   /// The recent surfaces around a place.
   [[nodiscard]] LocalMap recent_map(const Point2<Map>& centre) const;
   /// These, and what older keyframes near the place saw.
   [[nodiscard]] LocalMap whole_map(const Point2<Map>& centre) const;
   /// The chain of motions may be broken here: loops are sought in a wide window until one is closed.
-  void note_break() { extra_open_m_ = options_.break_open_m; }
-  /// Adds a keyframe; `motion` from the newest one with its information (axes of the newest), if there is
-  /// one.
-  int add(Keyframe keyframe, const Transform2<Map, Base>& map_from_base,
-          const Eigen::Matrix3d& motion_information);
-  /// Looks for old keyframes near the newest and ties it to them. Returns how many loops were closed.
+  void note_break() { broken_ = true; }
+  /// Adds a keyframe after `path_m` more of driving, tied to the newest one by the motion between them with
+  /// its information (axes of the newest).
+  void add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
+           const Eigen::Matrix3d& motion_information);
+  /// Looks for old keyframes near those added since the last time and ties them. Returns how many loops were
+  /// closed.
   int close_loops();
+  /// Takes out old keyframes where newer ones saw the same place, so that the memory grows with the building
+  /// and not with the way driven. Returns how many.
+  int fuse();
+  /// What the memory takes, about.
+  [[nodiscard]] std::size_t bytes() const;
   /// Solves the graph with the drawing's pulls.
   bool optimise(const std::vector<UnaryFactor>& unary);
   /// Moves the keyframes from `first` on rigidly.
   void move(const Transform2<Map, Map>& by, std::size_t first = 0);
+  /// Becomes `other`, a copy made when this memory had `known` keyframes and changed since, and what this one
+  /// has remembered since then behind it. Returns what moves this memory's newest surroundings there.
+  Transform2<Map, Map> take_in(Memory other, std::size_t known);
 
  private:
   struct LoopCandidate {
@@ -73,14 +88,19 @@ class Memory {
     std::size_t last;
     double distance_m;
   };
-  [[nodiscard]] std::vector<LoopCandidate> loop_candidates() const;
-  [[nodiscard]] bool close_loop(const LoopCandidate& candidate);
+  [[nodiscard]] std::size_t window_begin(std::size_t newest) const;
+  [[nodiscard]] bool is_crowded(std::size_t k, const std::vector<char>& gone) const;
+  void forget(const std::vector<char>& gone);
+  [[nodiscard]] std::vector<LoopCandidate> loop_candidates(std::size_t newest) const;
+  [[nodiscard]] bool close_loop(std::size_t newest, const LoopCandidate& candidate);
 
   MemoryOptions options_;
   std::vector<Keyframe> keyframes_;
   std::vector<Transform2<Map, Base>> poses_;
   std::vector<RelativeFactor> factors_;
   int loops_ = 0;
+  bool broken_ = false;          ///< since the newest keyframe
+  std::size_t looked_back_ = 0;  ///< keyframes for which loops were sought
   double last_loop_path_m_ = 0.0;
   double extra_open_m_ = 0.0;
 };

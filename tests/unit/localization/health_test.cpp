@@ -68,6 +68,19 @@ TEST(Health, MappingWithoutADrawingNeedsNoFit) {
   EXPECT_EQ(judge(e).state, LocalizationState::Localized);
 }
 
+TEST(Health, ABadFitIsNoLossWhereNoOtherPlaceComesNear) {
+  HealthEvidence e = sound();
+  e.walls_seen = 100.0;
+  e.fit_nats = 30.0;
+  e.elsewhere_nats = HealthEvidence::kNotLooked;  // nobody looked: it may be a wrong place
+  e.mirrored_nats = -40.0;
+  EXPECT_EQ(judge(e).state, LocalizationState::Lost);
+  e.elsewhere_nats = -40.0;
+  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
+  e.mirrored_nats = -5.0;  // the mirror image comes near
+  EXPECT_EQ(judge(e).state, LocalizationState::Lost);
+}
+
 TEST(Health, SearchingIsLost) {
   HealthEvidence e = sound();
   e.searching = true;

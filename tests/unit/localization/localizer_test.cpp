@@ -180,5 +180,50 @@ TEST(Localizer, AKidnappingIsNoticedWithinTwoSecondsAndMended) {
   EXPECT_LT(distance_m(last.map_from_base.translation(), after.back().truth.translation()), 0.2);
 }
 
+TEST(Localizer, TheMemoryGrowsWithTheBuildingAndNotWithTheWay) {
+  std::mt19937 engine(19);
+  const mapping::Walls walls = test::laboratory_hall();
+  const std::vector<Point2<Map>> lap{{7.0, 1.2},  {11.0, 1.2}, {14.5, 1.0}, {14.4, 4.5},
+                                     {14.0, 8.0}, {10.2, 7.6}, {7.2, 7.6},  {7.0, 4.0}};
+  std::vector<Point2<Map>> laps;
+  for (int i = 0; i < 8; ++i) laps.insert(laps.end(), lap.begin(), lap.end());
+  const auto moments = test::drive(walls, laps, bad_wheels(), engine);
+  Localizer localizer(walls, InitialPose{moments.front().truth});
+  std::size_t halfway = 0;
+  double worst_m = 0.0;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const PoseEstimate e = feed(localizer, moments[i]);
+    if (i == moments.size() / 2) halfway = localizer.memory().bytes();
+    if (2 * i > moments.size()) {
+      worst_m = std::max(worst_m, distance_m(e.map_from_base.translation(), moments[i].truth.translation()));
+    }
+  }
+  EXPECT_LT(static_cast<double>(localizer.memory().bytes()), 1.15 * static_cast<double>(halfway));
+  EXPECT_LT(localizer.memory().size(), 200u);  // 200 m of driving with a keyframe every 0.4 m or 14 degrees
+  EXPECT_LT(worst_m, 0.15);
+}
+
+TEST(Localizer, BeginsInWhatAnEarlierDriveRemembered) {
+  std::mt19937 engine(20);
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  Localizer first(walls, InitialPose{moments.front().truth});
+  for (const auto& m : moments) (void)feed(first, m);
+  const Transform2<Map, Base> truth = moments.front().truth;
+  const InitialPose rough{{truth.x_m() + 0.4, truth.y_m() - 0.3, truth.yaw_rad() + to_rad(8.0)}};
+  Localizer second(walls, rough);
+  second.recall(first.finished_memory());
+  const PoseEstimate at_once = feed(second, moments.front());
+  EXPECT_TRUE(second.has_recalled());
+  EXPECT_LT(distance_m(at_once.map_from_base.translation(), truth.translation()), 0.08);
+  const Errors errors = run(second, moments);
+  EXPECT_LT(errors.rms_m, 0.05);
+
+  Localizer elsewhere(walls, InitialPose{{17.0, 8.5, 2.0}});  // the memory was not made from here
+  elsewhere.recall(first.finished_memory());
+  (void)feed(elsewhere, moments.front());
+  EXPECT_FALSE(elsewhere.has_recalled());
+}
+
 }  // namespace
 }  // namespace madori::localization

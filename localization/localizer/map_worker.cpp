@@ -1,0 +1,27 @@
+#include "localization/localizer/map_worker.hpp"
+
+#include <utility>
+
+namespace madori::localization {
+
+void MapWorker::start(Stamp now, MapState state, const LocalizerOptions& options) {
+  started_ = now;
+  asked_ = 0;
+  known_ = state.memory.size();
+  wanted_ = true;
+  answer_ = std::async(std::launch::async, [state = std::move(state), options]() mutable {
+    state.think(options);
+    return std::move(state);
+  });
+}
+
+std::optional<MapState> MapWorker::take(Stamp now, const LocalizerOptions& options) {
+  constexpr int kScans = 100;  // for logs whose time stands still
+  if (!busy() || (to_seconds(now - started_) < options.thinking_s && ++asked_ < kScans)) {
+    return std::nullopt;
+  }
+  MapState state = answer_.get();
+  return wanted_ ? std::optional(std::move(state)) : std::nullopt;
+}
+
+}  // namespace madori::localization

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "core/frames.hpp"
+#include "core/transform2.hpp"
+#include "localization/health/health.hpp"
+#include "localization/memory/memory.hpp"
+#include "localization/memory/surface_scan.hpp"
+#include "localization/motion_model/odometry_model.hpp"
+
+namespace madori::localization {
+
+/// Where the vehicle is at the start, and how sure that is.
+struct InitialPose {
+  Transform2<Map, Base> map_from_base;
+  double sigma_m = 0.5;
+  double sigma_rad = 0.17;
+};
+
+/// One configuration for every building, log and vehicle.
+struct LocalizerOptions {
+  SurfaceScanOptions scan;
+  OdometryNoise odometry;
+  MemoryOptions memory;
+  double keyframe_m = 0.4;     ///< a new keyframe after this much driving
+  double keyframe_rad = 0.25;  ///< or turning
+  double sure_inliers = 0.6;   ///< below it, a wider search follows
+  double exact_drawing_m =
+      0.1;                    ///< a drawing more exact than this pulls on every scan, not only on the memory
+  double found_nats = 8.0;    ///< nats by which the best place of all must lead to be taken for the place
+  double search_walls = 8.0;  ///< that must have been seen before the first look at all places
+  double move_gain = 3.0;     ///< nats by which another place must explain the memory better
+  HealthLimits health;
+  double lost_inliers = 0.25;  ///< a scan that fits the memory less than this leaves the pose to the wheels
+  /// What is thought over beside the cycle is taken in at the first scan this much later, by the stamps of
+  /// the log and never by the clock, so that every replay gives the same poses.
+  double thinking_s = 1.0;
+};
+
+}  // namespace madori::localization

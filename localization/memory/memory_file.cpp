@@ -1,0 +1,192 @@
+#include "localization/memory/memory_file.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "mapping/wall_map/wall_fingerprint.hpp"
+
+namespace madori::localization {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the file is little-endian");
+
+constexpr std::string_view kMagic = "MADORIMM";
+constexpr std::uint32_t kVersion = 1;
+
+std::uint64_t fnv1a(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return hash;
+}
+
+class Writer {
+ public:
+  template <class T>
+  void put(T value) {
+    std::array<char, sizeof(T)> raw;
+    std::memcpy(raw.data(), &value, sizeof(T));
+    bytes_.append(raw.data(), raw.size());
+  }
+  void put(std::string_view text) { bytes_ += text; }
+  template <class A, class B>
+  void put(const Transform2<A, B>& t) {
+    for (const double v : {t.x_m(), t.y_m(), t.yaw_rad()}) put(v);
+  }
+  [[nodiscard]] std::string take() {
+    put(fnv1a(bytes_));
+    return std::move(bytes_);
+  }
+
+ private:
+  std::string bytes_;
+};
+
+/// Never reads beyond its bytes: what is missing reads as zero and ok() becomes false.
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  template <class T>
+  T get() {
+    T value{};
+    if (bytes_.size() < sizeof(T)) {
+      ok_ = false;
+      bytes_ = {};
+      return value;
+    }
+    std::memcpy(&value, bytes_.data(), sizeof(T));
+    bytes_.remove_prefix(sizeof(T));
+    if constexpr (std::is_floating_point_v<T>) ok_ = ok_ && std::isfinite(value);
+    return value;
+  }
+  template <class A, class B>
+  Transform2<A, B> transform() {
+    const double x = get<double>();
+    const double y = get<double>();
+    return {x, y, get<double>()};
+  }
+  /// A number of items of at least `item_bytes` each.
+  std::uint32_t count(std::size_t item_bytes) {
+    const auto n = get<std::uint32_t>();
+    ok_ = ok_ && n <= bytes_.size() / item_bytes;
+    return ok_ ? n : 0;
+  }
+  [[nodiscard]] bool ok() const { return ok_; }
+  [[nodiscard]] bool at_end() const { return ok_ && bytes_.empty(); }
+
+ private:
+  std::string_view bytes_;
+  bool ok_ = true;
+};
+
+void put_scan(Writer& out, const SurfaceScan& scan) {
+  out.put(static_cast<std::int64_t>(scan.stamp.time_since_epoch().count()));
+  out.put(scan.sensor.x_m);
+  out.put(scan.sensor.y_m);
+  out.put(static_cast<std::uint32_t>(scan.points.size()));
+  for (const SurfacePoint& p : scan.points) {
+    for (const double v : {p.x_m, p.y_m, p.normal_x, p.normal_y}) out.put(static_cast<float>(v));
+  }
+}
+
+SurfaceScan get_scan(Reader& in) {
+  SurfaceScan scan;
+  scan.stamp = Stamp(Duration(in.get<std::int64_t>()));
+  scan.sensor.x_m = in.get<double>();
+  scan.sensor.y_m = in.get<double>();
+  scan.points.resize(in.count(4 * sizeof(float)));
+  for (SurfacePoint& p : scan.points) {
+    p.x_m = in.get<float>();
+    p.y_m = in.get<float>();
+    p.normal_x = in.get<float>();
+    p.normal_y = in.get<float>();
+  }
+  return scan;
+}
+
+void put_factor(Writer& out, const RelativeFactor& f) {
+  out.put(static_cast<std::int32_t>(f.from));
+  out.put(static_cast<std::int32_t>(f.to));
+  out.put(static_cast<std::uint8_t>(f.loop ? 1 : 0));
+  out.put(f.motion);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) out.put(f.information(i, j));
+  }
+}
+
+RelativeFactor get_factor(Reader& in) {
+  RelativeFactor f;
+  f.from = in.get<std::int32_t>();
+  f.to = in.get<std::int32_t>();
+  f.loop = in.get<std::uint8_t>() != 0;
+  f.motion = in.transform<Base, Base>();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) f.information(i, j) = in.get<double>();
+  }
+  return f;
+}
+
+bool has_ends(const RelativeFactor& f, std::size_t keyframes) {
+  const int n = static_cast<int>(keyframes);
+  return f.from >= 0 && f.from < n && f.to >= 0 && f.to < n && f.from != f.to;
+}
+
+}  // namespace
+
+std::uint64_t fingerprint(const mapping::Walls& walls) {
+  return std::stoull(mapping::walls_fingerprint(walls), nullptr, 16);
+}
+
+std::string memory_bytes(const Memory& memory, std::uint64_t walls) {
+  Writer out;
+  out.put(kMagic);
+  out.put(kVersion);
+  out.put(walls);
+  out.put(static_cast<std::uint32_t>(memory.size()));
+  for (std::size_t i = 0; i < memory.size(); ++i) {
+    const Keyframe& keyframe = memory.keyframes()[i];
+    out.put(memory.poses()[i]);
+    out.put(keyframe.path_m);
+    out.put(static_cast<std::uint8_t>(keyframe.after_break ? 1 : 0));
+    put_scan(out, *keyframe.scan);
+  }
+  out.put(static_cast<std::uint32_t>(memory.factors().size()));
+  for (const RelativeFactor& f : memory.factors()) put_factor(out, f);
+  out.put(static_cast<std::int32_t>(memory.loops()));
+  return out.take();
+}
+
+Result<Memory> parse_memory(std::string_view bytes, std::uint64_t walls, const MemoryOptions& options) {
+  const auto refuse = [](const char* reason) { return Result<Memory>::failure(reason); };
+  if (!bytes.starts_with(kMagic) || bytes.size() < kMagic.size() + sizeof(std::uint64_t)) {
+    return refuse("it is no memory of Madori");
+  }
+  const std::string_view body = bytes.substr(0, bytes.size() - sizeof(std::uint64_t));
+  Reader end(bytes.substr(body.size()));
+  Reader in(body.substr(kMagic.size()));
+  if (in.get<std::uint32_t>() != kVersion) return refuse("it was written by another version");
+  if (end.get<std::uint64_t>() != fnv1a(body)) return refuse("it is damaged");
+  if (in.get<std::uint64_t>() != walls) return refuse("the walls have changed since");
+  std::vector<Keyframe> keyframes(in.count(1));
+  std::vector<Transform2<Map, Base>> poses(keyframes.size());
+  for (std::size_t i = 0; i < keyframes.size() && in.ok(); ++i) {
+    poses[i] = in.transform<Map, Base>();
+    keyframes[i].path_m = in.get<double>();
+    keyframes[i].after_break = in.get<std::uint8_t>() != 0;
+    keyframes[i].scan = std::make_shared<const SurfaceScan>(get_scan(in));
+  }
+  std::vector<RelativeFactor> factors(in.count(1));
+  for (RelativeFactor& f : factors) {
+    f = get_factor(in);
+    if (!has_ends(f, keyframes.size())) return refuse("it is damaged");
+  }
+  const int loops = in.get<std::int32_t>();
+  if (!in.at_end()) return refuse("it is damaged");
+  return Memory(options, std::move(keyframes), std::move(poses), std::move(factors), loops);
+}
+
+}  // namespace madori::localization
