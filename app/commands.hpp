@@ -18,6 +18,7 @@ void add_export(CLI::App& app);
 void add_import(CLI::App& app);
 void add_relocalize(CLI::App& app);
 void add_route(CLI::App& app);
+void add_map(CLI::App& app);
 void add_order(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_run(CLI::App& app);

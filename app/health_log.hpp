@@ -19,10 +19,10 @@ class HealthLog {
   [[nodiscard]] nlohmann::json json() const;
   /// The same in a line for people.
   [[nodiscard]] std::string summary() const;
-
- private:
+  /// Share of the time in a state, 0..1.
   [[nodiscard]] double share(LocalizationState state) const;
 
+ private:
   std::string csv_ = "timestamp,state,reason\n";
   std::array<double, 4> seconds_{};
   PoseEstimate last_;

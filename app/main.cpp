@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   madori::app::add_demo(app);
   madori::app::add_evaluate(app);
   madori::app::add_localize(app);
+  madori::app::add_map(app);
   madori::app::add_export(app);
   madori::app::add_import(app);
   madori::app::add_relocalize(app);

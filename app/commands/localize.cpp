@@ -15,6 +15,7 @@
 #include "app/trajectory_file.hpp"
 #include "app/trajectory_plot.hpp"
 #include "core/result.hpp"
+#include "localization/memory/memory_file.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
 
@@ -31,8 +32,36 @@ struct LocalizeArguments {
   std::string health_file;
   std::string plot;
   bool global = false;
+  bool memory = false;
   unsigned seed = 1;
 };
+
+constexpr const char* kMemoryFile = "memory.bin";
+
+/// What an earlier drive remembered on this site, where it is there and still of these walls.
+void recall(localization::Localizer& localizer, const std::filesystem::path& file,
+            const mapping::Walls& walls) {
+  if (!std::filesystem::exists(file)) return;
+  Result<localization::Memory> kept =
+      localization::parse_memory(mapping::file_content(file), localization::fingerprint(walls));
+  if (kept.ok()) {
+    localizer.recall(std::move(kept).value());
+  } else {
+    std::fprintf(stderr, "%s is not used: %s; a new one is begun\n", file.c_str(), kept.reason().c_str());
+  }
+}
+
+/// Kept only where the vehicle knew its place at the end.
+void keep(localization::Localizer& localizer, const PoseEstimate& last, const std::filesystem::path& file,
+          const mapping::Walls& walls) {
+  const LocalizationState state = last.health.state;
+  if (state != LocalizationState::Localized && state != LocalizationState::Degraded) {
+    std::fprintf(stderr, "%s is left as it was: the drive ended %s\n", file.c_str(), to_string(state));
+    return;
+  }
+  mapping::write_file_atomically(
+      file, localization::memory_bytes(localizer.finished_memory(), localization::fingerprint(walls)));
+}
 
 /// "x y yaw_deg", metres and degrees.
 Transform2<Map, Base> parse_pose(const std::string& text) {
@@ -60,6 +89,7 @@ void localize(const LocalizeArguments& arguments) {
   std::optional<localization::InitialPose> initial;
   if (!arguments.global) initial = localization::InitialPose{parse_pose(arguments.initial)};
   localization::Localizer localizer(walls, initial);
+  if (arguments.memory) recall(localizer, folder / kMemoryFile, walls);
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   std::string trajectory = "# timestamp x y z qx qy qz qw, Map frame\n";
   HealthLog health;
@@ -77,10 +107,13 @@ void localize(const LocalizeArguments& arguments) {
     const std::vector<std::uint8_t> png = trajectory_plot(walls, estimates);
     mapping::write_file_atomically(arguments.plot, std::string(png.begin(), png.end()));
   }
+  if (arguments.memory && !estimates.empty()) keep(localizer, estimates.back(), folder / kMemoryFile, walls);
   const nlohmann::json result = {{"scans", played.scans},
                                  {"odometry_records", played.odometry_records},
                                  {"keyframes", localizer.memory().size()},
                                  {"loop_closures", localizer.memory().loops()},
+                                 {"memory_bytes", localizer.memory().bytes()},
+                                 {"memory_recalled", localizer.has_recalled()},
                                  {"drawing_sigma_m", localizer.evidence().sigma_m},
                                  {"drawing_inliers", localizer.evidence().inliers},
                                  {"health", health.json()},
@@ -113,7 +146,10 @@ void add_localize(CLI::App& app) {
   command->add_option("--health", arguments->health_file,
                       "table of the health at every record to write (CSV)");
   command->add_option("--json", arguments->json_file, "figures; - for stdout");
-  command->add_option("--seed", arguments->seed, "of everything left to chance");
+  command->add_flag(
+      "--memory", arguments->memory,
+      "begin with what earlier drives remembered (DIR/memory.bin), and keep what this one adds");
+  command->add_option("--seed", arguments->seed, "accepted for scripts; nothing here is left to chance");
   command->callback([arguments] {
     if (!arguments->global && arguments->initial.empty()) {
       throw CLI::RequiredError("--initial or --global");
