@@ -19,9 +19,6 @@ export function parseScan(frame: ArrayBuffer): Scan | null {
   if (frame.byteLength < 8) return null;
   const view = new DataView(frame);
   const count = view.getUint32(4, true);
-  // a server that is a version behind: "MDS1", pairs of f32, Map frame
-  if (view.getUint32(0, false) === 0x4d445331 && frame.byteLength === 8 + 8 * count)
-    return { x: 0, y: 0, yaw: 0, points: new Float32Array(frame, 8, 2 * count) };
   if (view.getUint32(0, false) !== 0x4d445332 || frame.byteLength !== kHeaderBytes + 4 * count) return null;
   const unit = view.getFloat32(32, true);
   const steps = new Int16Array(frame, kHeaderBytes, 2 * count);

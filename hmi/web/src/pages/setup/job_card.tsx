@@ -20,8 +20,7 @@ export function JobCard({ kind, done, ended }: { kind: string; done: (job: Job) 
         if (!open) return;
         setJob(state);
         if (state.running) return void setTimeout(() => void ask(), kAsk_ms);
-        const { code = "", text = String(state.error), values = {} } = state.error;  // a plain text from a server a version behind
-        if (text !== "") tell(code, text, values);
+        if (state.error.text !== "") tell(state.error.code, state.error.text, state.error.values);
         else done(state);
         ended();
       } catch {

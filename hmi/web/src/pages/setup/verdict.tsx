@@ -1,11 +1,6 @@
-import type { Notice, ScaleResult } from "../../api_types";
+import type { ScaleResult } from "../../api_types";
 import { noticeText, useText } from "../../i18n";
 import { Icon } from "../../ui/icon";
-
-/** The reason of the verdict and the notes; one sentence from a server that is a version behind. */
-function notices(result: ScaleResult): Notice[] {
-  return result.reason ? [result.reason, ...result.notes] : [{ code: "", values: {}, text: result.text }];
-}
 
 /** What to think of a scale, in words, and the published overlay's numbers that it stands for. */
 export function Verdict({ result }: { result: ScaleResult }) {
@@ -15,8 +10,8 @@ export function Verdict({ result }: { result: ScaleResult }) {
     <div class={bad ? "caution verdict" : "card verdict"} role="status" data-verdict={result.verdict} data-m-per-px={result.m_per_px}>
       <h3>{bad ? <Icon name="warning" /> : <Icon name="good" />} {t(`scale.verdict.${result.verdict}`)}</h3>
       <p>{t("scale.result", { scale: (1000 * result.m_per_px).toFixed(3), percent: (100 * result.relative_uncertainty).toFixed(2) })}</p>
-      {notices(result).filter((note) => note.text !== "").map((note) => <p key={note.code + note.text}>{noticeText(t, "scale", note)}</p>)}
-      {(result.disagreements ?? []).map((line) => <p key={line}>{line}</p>)}
+      {[result.reason, ...result.notes].filter((note) => note.text !== "").map((note) => <p key={note.code + note.text}>{noticeText(t, "scale", note)}</p>)}
+      {result.disagreements.map((line) => <p key={line}>{line}</p>)}
       {result.overlay && (
         <p class="quiet">{t("scale.published", { zm: result.overlay.layout_zoom.toFixed(3), zp: result.overlay.photo_zoom.toFixed(3), zoom: result.overlay.zoom })}</p>
       )}
