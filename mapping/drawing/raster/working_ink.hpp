@@ -17,8 +17,8 @@ struct WorkingInk {
   double threshold = 0;  ///< on a paper of 255
 };
 
-/// Binarizes a drawing at a resolution at which the pixel grid neither swallows a fine pen nor multiplies the
-/// work of a coarse one. Bright lines on a dark ground (a CAD screen, a blueprint) are turned round first.
+/// Binarizes a drawing at a resolution at which a coarse pen neither multiplies the work nor changes what is
+/// found. Bright lines on a dark ground (a CAD screen, a blueprint) are turned round first.
 [[nodiscard]] WorkingInk working_ink(const GrayImage& drawing, std::optional<double> threshold);
 
 /// The same options, their lengths in pixels of a picture resized by the factor.
