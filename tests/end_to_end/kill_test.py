@@ -231,6 +231,8 @@ def main():
         ledger.faults.append(f"the vehicle stood at {visits}, the database counted {counted}")
     if moved:
         ledger.faults.append(f"the vehicle moved {len(moved)} times before anybody confirmed")
+    if time.time() - factory.truth.newest()["received"] > 30.0:
+        ledger.faults.append("the ground truth was lost on the way")
     if collisions:
         ledger.faults.append(f"{collisions} collisions")
     print(f"{arguments.kills} kills, {confirmed} of them after the operator had confirmed; {len(ledger.given)} orders, "

@@ -26,6 +26,7 @@ class TruthListener:
             self.rest += self.wire.recv(4096)
         self.rest = self.rest.split(b"\r\n\r\n", 1)[1]
         self.wire.settimeout(None)
+        self.said = time.time()
         threading.Thread(target=self.listen, daemon=True).start()
 
     def take(self, count):
@@ -37,6 +38,11 @@ class TruthListener:
         head, self.rest = self.rest[:count], self.rest[count:]
         return head
 
+    def say(self, kind, payload):
+        """One masked control frame (the mask is zero)."""
+        self.said = time.time()
+        self.wire.sendall(bytes([0x80 | kind, 0x80 | len(payload)]) + b"\0\0\0\0" + payload)
+
     def listen(self):
         try:
             while True:
@@ -47,6 +53,10 @@ class TruthListener:
                 elif size == 127:
                     size = int.from_bytes(self.take(8), "big")
                 payload = self.take(size)
+                if first & 15 == 9:
+                    self.say(10, payload)  # a pong
+                if time.time() - self.said > 30.0:
+                    self.say(9, b"")  # the server hangs up on who says nothing for 300 s
                 if first & 15 == 1:
                     message = json.loads(payload)
                     message["received"] = time.time()
