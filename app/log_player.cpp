@@ -8,30 +8,40 @@
 namespace madori::app {
 namespace {
 
-PoseEstimate locate(const sensors::ScanRecord& record, localization::Localizer& localizer) {
+/// A scan ready to be localized.
+struct Seen {
+  Stamp stamp{};
+  localization::ScanPoints points;
+  Point2<Base> sensor;
+};
+
+Seen seen(const sensors::ScanRecord& record, localization::Localizer& localizer) {
   if (record.odom_from_base) {
     (void)localizer.on_odometry({record.scan.stamp, *record.odom_from_base});
   }
-  return localizer.on_scan(record.scan.stamp, localization::scan_points(record.scan, record.base_from_lidar),
-                           record.base_from_lidar.translation());
+  return {record.scan.stamp, localization::scan_points(record.scan, record.base_from_lidar),
+          record.base_from_lidar.translation()};
 }
 
-PoseEstimate locate(const sensors::CloudRecord& record, localization::Localizer& localizer) {
-  return localizer.on_scan(record.cloud.stamp, localization::extract_walls(sensors::cloud_in_base(record)),
-                           record.base_from_lidar.translation());
+Seen seen(const sensors::CloudRecord& record, localization::Localizer& /*localizer*/) {
+  return {record.cloud.stamp, localization::extract_walls(sensors::cloud_in_base(record)),
+          record.base_from_lidar.translation()};
 }
 
 }  // namespace
 
 PlayedLog play_log(sensors::LogReader& log, localization::Localizer& localizer,
-                   const std::function<void(const PoseEstimate&)>& sink) {
+                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans) {
   PlayedLog played;
   const auto timed = [&](const auto& record) {
     ++played.scans;
     const auto before = std::chrono::steady_clock::now();
-    sink(locate(record, localizer));
+    const Seen scan = seen(record, localizer);
+    const PoseEstimate estimate = localizer.on_scan(scan.stamp, scan.points, scan.sensor);
+    sink(estimate);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
     played.scan_ms.push_back(took.count());
+    if (scans) scans(scan.points, scan.sensor, estimate);
   };
   while (const auto record = log.next()) {
     if (const auto* odometry = std::get_if<OdometryReading>(&*record)) {

@@ -15,8 +15,12 @@ struct PlayedLog {
   std::vector<double> scan_ms;  ///< time of each scan's step
 };
 
+/// Sees the wall points of every scan (Base frame), where the lidar sits, and the scan's pose.
+using ScanSink =
+    std::function<void(const localization::ScanPoints&, const Point2<Base>&, const PoseEstimate&)>;
+
 /// Runs a log through the localizer in the order of its records, and hands out the pose of every record.
 PlayedLog play_log(sensors::LogReader& log, localization::Localizer& localizer,
-                   const std::function<void(const PoseEstimate&)>& sink);
+                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans = {});
 
 }  // namespace madori::app

@@ -39,13 +39,14 @@ std::vector<ScaleEstimate> given_sources(const ScaleInputs& inputs, const mappin
     sources.push_back(mapping::fit_overlay(mapping::parse_overlay(inputs.overlay), site.drawing.width_px,
                                            site.drawing.height_px));
   if (!inputs.paper.empty()) sources.push_back(paper(inputs, site));
+  if (inputs.measured) sources.push_back(*inputs.measured);
   return sources;
 }
 
 }  // namespace
 
 bool ScaleInputs::empty() const {
-  return known.empty() && control.empty() && overlay.empty() && paper.empty();
+  return known.empty() && control.empty() && overlay.empty() && paper.empty() && !measured;
 }
 
 ScaleFindings find_scale(const ScaleInputs& inputs, const mapping::Site& site) {

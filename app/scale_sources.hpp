@@ -14,8 +14,9 @@ struct ScaleInputs {
   std::vector<std::string> known;
   std::vector<std::string> control;
   std::string overlay;
-  std::string paper;          ///< "1:200"
-  std::optional<double> dpi;  ///< stronger than the site's
+  std::string paper;                               ///< "1:200"
+  std::optional<double> dpi;                       ///< stronger than the site's
+  std::optional<mapping::ScaleEstimate> measured;  ///< while driving (self-calibration)
 
   [[nodiscard]] bool empty() const;
 };

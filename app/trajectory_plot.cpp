@@ -3,99 +3,122 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <string>
 
-#include "mapping/drawing/palette_png.hpp"
+#include "app/plot/map_canvas.hpp"
 
 namespace madori::app {
 namespace {
 
-constexpr std::array<mapping::PaletteColour, 7> kColours{{{255, 255, 255},  // paper
-                                                          {150, 150, 150},  // walls
-                                                          {20, 150, 40},    // the four states in their order
-                                                          {235, 180, 0},
-                                                          {30, 80, 230},
-                                                          {220, 30, 30},
-                                                          {120, 120, 120}}};  // ticks
-constexpr std::uint8_t kWall = 1;
-constexpr std::uint8_t kFirstState = 2;
-constexpr std::uint8_t kTick = 6;
-constexpr double kMarginM = 1.0;
-constexpr double kJumpM = 2.0;  // a pose this far from its forerunner was found anew: no line between them
+constexpr double kJumpM = 2.0;  // a pose this far from its forerunner was found anew: no line between
+constexpr double kEllipseEveryM = 3.0;
+constexpr double kMarkEveryM = 0.4;
+constexpr double kSigmas = 2.0;
+constexpr double kLongestEllipseM = 3.0;
 
-/// A sheet of palette indices over a piece of the Map.
-class Sheet {
+/// The four states in their order.
+constexpr std::array<Colour, 4> kColours{colours::kGreen, colours::kOrange, colours::kBlue,
+                                         colours::kVermillion};
+constexpr std::array<Mark, 4> kMarks{Mark::Line, Mark::Dashed, Mark::Dot, Mark::Crossed};
+constexpr std::array kStates{LocalizationState::Localized, LocalizationState::Degraded,
+                             LocalizationState::Ambiguous, LocalizationState::Lost};
+
+const Colour& colour_of(LocalizationState state) {
+  return kColours[static_cast<std::size_t>(state)];
+}
+
+/// Draws the way step by step; marks and ellipses every so many metres.
+class WayPainter {
  public:
-  Sheet(const mapping::Walls& walls, const std::vector<PoseEstimate>& estimates, int widest_px) {
-    for (const mapping::Wall& wall : walls) {
-      include(wall.segment.a);
-      include(wall.segment.b);
-    }
-    for (const PoseEstimate& e : estimates) include(e.map_from_base.translation());
-    const double wide = high_.x_m - low_.x_m + 2.0 * kMarginM;
-    const double tall = high_.y_m - low_.y_m + 2.0 * kMarginM;
-    px_per_m_ = widest_px / std::max(wide, tall);
-    width_ = std::max(1, static_cast<int>(wide * px_per_m_));
-    height_ = std::max(1, static_cast<int>(tall * px_per_m_));
-    pixels_.assign(static_cast<std::size_t>(width_) * height_, 0);
-  }
+  explicit WayPainter(MapCanvas& canvas) : canvas_(canvas) {}
 
-  void line(const Point2<Map>& a, const Point2<Map>& b, std::uint8_t colour, int thick) {
-    const int steps = static_cast<int>(std::ceil(distance_m(a, b) * px_per_m_)) + 1;
-    for (int i = 0; i <= steps; ++i) {
-      const double f = static_cast<double>(i) / steps;
-      dot({a.x_m + f * (b.x_m - a.x_m), a.y_m + f * (b.y_m - a.y_m)}, colour, thick);
+  void step(const PoseEstimate& from, const PoseEstimate& to) {
+    const Segment2<Map> s{from.map_from_base.translation(), to.map_from_base.translation()};
+    if (s.length_m() > kJumpM) return;
+    way_m_ += s.length_m();
+    const Colour& colour = colour_of(to.health.state);
+    switch (to.health.state) {
+      case LocalizationState::Localized:
+        return canvas_.line(s, colour, 2);
+      case LocalizationState::Degraded:  // 0.4 m drawn, 0.4 m left out
+        if (std::fmod(way_m_, 2.0 * kMarkEveryM) < kMarkEveryM) canvas_.line(s, colour, 3);
+        return;
+      case LocalizationState::Ambiguous:
+      case LocalizationState::Lost:
+        if (way_m_ - marked_m_ < kMarkEveryM) return;
+        marked_m_ = way_m_;
+        return to.health.state == LocalizationState::Lost ? canvas_.cross(s.b, colour, 4)
+                                                          : canvas_.dot(s.b, colour, 3);
     }
   }
-  [[nodiscard]] std::vector<std::uint8_t> png() const {
-    return mapping::palette_png(width_, height_, pixels_, kColours);
+  void uncertainty(const PoseEstimate& e) {
+    if (way_m_ - ellipse_m_ < kEllipseEveryM) return;
+    ellipse_m_ = way_m_;
+    canvas_.ellipse(e.map_from_base.translation(), e.covariance.topLeftCorner<2, 2>(), kSigmas,
+                    kLongestEllipseM, colours::kPurple);
   }
 
  private:
-  void include(const Point2<Map>& p) {
-    if (!started_) low_ = high_ = p;
-    started_ = true;
-    low_ = {std::min(low_.x_m, p.x_m), std::min(low_.y_m, p.y_m)};
-    high_ = {std::max(high_.x_m, p.x_m), std::max(high_.y_m, p.y_m)};
-  }
-  void dot(const Point2<Map>& p, std::uint8_t colour, int thick) {
-    const int u = static_cast<int>((p.x_m - low_.x_m + kMarginM) * px_per_m_);
-    const int v = height_ - 1 - static_cast<int>((p.y_m - low_.y_m + kMarginM) * px_per_m_);
-    for (int y = v; y < v + thick; ++y)
-      for (int x = u; x < u + thick; ++x)
-        if (x >= 0 && y >= 0 && x < width_ && y < height_)
-          pixels_[static_cast<std::size_t>(y) * width_ + x] = colour;
-  }
-
-  bool started_ = false;
-  Point2<Map> low_;
-  Point2<Map> high_;
-  double px_per_m_ = 1.0;
-  int width_ = 1;
-  int height_ = 1;
-  std::vector<std::uint8_t> pixels_;
+  MapCanvas& canvas_;
+  double way_m_ = 0.0;
+  double marked_m_ = -1e9;
+  double ellipse_m_ = -1e9;
 };
+
+/// The state over time, in equal parts; where nothing is known yet, the paper's colour.
+std::vector<Colour> health_strip(const std::vector<PoseEstimate>& estimates) {
+  constexpr int kParts = 600;
+  std::vector<Colour> parts(kParts, colours::kPaper);
+  const auto later = [](const PoseEstimate& a, const PoseEstimate& b) { return a.stamp < b.stamp; };
+  const auto [first, last] = std::minmax_element(estimates.begin(), estimates.end(), later);
+  const double all_s = std::max(1e-9, to_seconds(last->stamp - first->stamp));
+  int painted = 0;
+  for (const PoseEstimate& e : estimates) {
+    const int part = static_cast<int>((kParts - 1) * to_seconds(e.stamp - first->stamp) / all_s);
+    for (; painted <= part; ++painted) parts[static_cast<std::size_t>(painted)] = colour_of(e.health.state);
+  }
+  return parts;
+}
+
+std::vector<LegendEntry> legend_of(const std::vector<PoseEstimate>& estimates) {
+  std::vector<LegendEntry> entries;
+  for (const LocalizationState state : kStates) {
+    const auto count = std::count_if(estimates.begin(), estimates.end(),
+                                     [&](const PoseEstimate& e) { return e.health.state == state; });
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%s: %.1f %% of the poses", to_string(state),
+                  100.0 * static_cast<double>(count) / static_cast<double>(estimates.size()));
+    const auto i = static_cast<std::size_t>(state);
+    entries.push_back({kMarks[i], kColours[i], 3, text.data()});
+  }
+  entries.push_back({Mark::Ellipse, colours::kPurple, 1, "uncertainty of the position, 2 sigma, every 3 m"});
+  entries.push_back({Mark::Line, colours::kGrey, 2, "the drawing's walls"});
+  return entries;
+}
 
 }  // namespace
 
 std::vector<std::uint8_t> trajectory_plot(const mapping::Walls& walls,
-                                          const std::vector<PoseEstimate>& estimates, int widest_px) {
-  Sheet sheet(walls, estimates, widest_px);
-  for (const mapping::Wall& wall : walls) sheet.line(wall.segment.a, wall.segment.b, kWall, 2);
-  double since_tick_m = 0.0;
+                                          const std::vector<PoseEstimate>& estimates, int longest_px) {
+  std::vector<Point2<Map>> way;
+  for (const PoseEstimate& e : estimates) way.push_back(e.map_from_base.translation());
+  MapCanvas canvas(walls, way, longest_px);
+  canvas.walls(walls, colours::kGrey, 2);
+  canvas.title("Where the vehicle was on the drawing");
+  if (estimates.empty()) return canvas.png();
+  WayPainter painter(canvas);
   for (std::size_t i = 1; i < estimates.size(); ++i) {
-    const Transform2<Map, Base>& pose = estimates[i].map_from_base;
-    const Point2<Map> before = estimates[i - 1].map_from_base.translation();
-    const double moved_m = distance_m(before, pose.translation());
-    if (moved_m > kJumpM) continue;
-    since_tick_m += moved_m;
-    if (since_tick_m > 1.0) {
-      sheet.line(pose.translation(), pose * Point2<Base>{0.3, 0.0}, kTick, 1);
-      since_tick_m = 0.0;
-    }
-    const auto state = static_cast<std::uint8_t>(estimates[i].health.state);
-    sheet.line(before, pose.translation(), static_cast<std::uint8_t>(kFirstState + state), 2);
+    painter.step(estimates[i - 1], estimates[i]);
+    painter.uncertainty(estimates[i]);
   }
-  return sheet.png();
+  canvas.dot(way.front(), colours::kInk, 5);
+  canvas.text({way.front().x_m + 8.0 / canvas.px_per_m(), way.front().y_m}, "start", colours::kInk);
+  canvas.dot(way.back(), colours::kInk, 5);
+  canvas.text({way.back().x_m + 8.0 / canvas.px_per_m(), way.back().y_m}, "end", colours::kInk);
+  canvas.strip(health_strip(estimates), "health over time");
+  canvas.legend(legend_of(estimates));
+  return canvas.png();
 }
 
 }  // namespace madori::app

@@ -8,10 +8,11 @@
 
 namespace madori::app {
 
-/// A picture (PNG bytes) of the drawing in grey and the way on it: green LOCALIZED, yellow DEGRADED, blue
-/// AMBIGUOUS, red LOST; a tick ahead every metre of the way. About `widest_px` on the longer side.
+/// A picture (PNG bytes) of the drawing in grey and the way on it, by the health at each pose: LOCALIZED a
+/// solid line, DEGRADED dashed, AMBIGUOUS dots, LOST crosses; the uncertainty (2 sigma) every few metres,
+/// start and end, and a strip with the health over time. About `longest_px` on the longer side.
 [[nodiscard]] std::vector<std::uint8_t> trajectory_plot(const mapping::Walls& walls,
                                                         const std::vector<PoseEstimate>& estimates,
-                                                        int widest_px = 1400);
+                                                        int longest_px = 1400);
 
 }  // namespace madori::app

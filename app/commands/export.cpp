@@ -4,6 +4,9 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/learned/learned_drawing.hpp"
+#include "app/plot/reliability_plot.hpp"
+#include "localization/wall_reliability/reliability_file.hpp"
 #include "mapping/georeference/geojson.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "planning/route_graph/route_csv.hpp"
@@ -24,20 +27,47 @@ mapping::GeoContent content_of(const std::filesystem::path& site) {
   return content;
 }
 
+struct ExportArguments {
+  std::string site;
+  std::string geojson;
+  std::string reliability;
+};
+
+void write_geojson(const ExportArguments& arguments) {
+  const std::string text =
+      mapping::site_geojson(mapping::load_site(arguments.site), content_of(arguments.site));
+  if (arguments.geojson == "-")
+    std::fputs(text.c_str(), stdout);
+  else
+    mapping::write_file_atomically(arguments.geojson, text);
+}
+
+/// The picture of what the lidar has seen of the drawn walls so far.
+void write_reliability(const ExportArguments& arguments) {
+  const std::filesystem::path folder(arguments.site);
+  (void)mapping::load_scaled_site(folder);
+  const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
+  localization::WallReliability reliability(walls);
+  const std::string message = localization::load_reliability(folder / kReliabilityFile, reliability);
+  if (!message.empty()) std::fprintf(stderr, "%s\n", message.c_str());
+  const std::vector<std::uint8_t> png = reliability_plot(walls, reliability);
+  mapping::write_file_atomically(arguments.reliability, std::string(png.begin(), png.end()));
+}
+
 }  // namespace
 
 void add_export(CLI::App& app) {
-  auto site = std::make_shared<std::string>();
-  auto file = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("export", "write a site for other programs");
-  command->add_option("site", *site, "the site folder")->required();
-  command->add_option("--geojson", *file, "GeoJSON, WGS84 (QGIS and others); - for stdout")->required();
-  command->callback([site, file] {
-    const std::string text = mapping::site_geojson(mapping::load_site(*site), content_of(*site));
-    if (*file == "-")
-      std::fputs(text.c_str(), stdout);
-    else
-      mapping::write_file_atomically(*file, text);
+  auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* command = app.add_subcommand("export", "write a site for other programs, and pictures of it");
+  command->add_option("site", arguments->site, "the site folder")->required();
+  command->add_option("--geojson", arguments->geojson, "GeoJSON, WGS84 (QGIS and others); - for stdout");
+  command->add_option("--reliability", arguments->reliability,
+                      "picture of what the lidar has seen of the drawn walls (PNG)");
+  command->callback([arguments] {
+    if (arguments->geojson.empty() && arguments->reliability.empty())
+      throw CLI::RequiredError("--geojson or --reliability");
+    if (!arguments->geojson.empty()) write_geojson(*arguments);
+    if (!arguments->reliability.empty()) write_reliability(*arguments);
   });
 }
 

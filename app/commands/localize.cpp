@@ -10,12 +10,17 @@
 #include "app/commands.hpp"
 #include "app/health_log.hpp"
 #include "app/json_output.hpp"
+#include "app/learned/calibration_file.hpp"
+#include "app/learned/learned_drawing.hpp"
 #include "app/log_options.hpp"
 #include "app/log_player.hpp"
+#include "app/plot/reliability_plot.hpp"
 #include "app/trajectory_file.hpp"
 #include "app/trajectory_plot.hpp"
 #include "core/result.hpp"
+#include "localization/drawing_learner/drawing_learner.hpp"
 #include "localization/memory/memory_file.hpp"
+#include "localization/wall_reliability/reliability_file.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
 
@@ -31,8 +36,10 @@ struct LocalizeArguments {
   std::string json_file;
   std::string health_file;
   std::string plot;
+  std::string walls_plot;
   bool global = false;
   bool memory = false;
+  bool learn = false;
   unsigned seed = 1;
 };
 
@@ -82,23 +89,51 @@ double percentile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
+/// From the localizer's own memory, whose keyframes the lidar has tied together, where there is one.
+localization::SelfCalibration calibrate(const localization::DrawingLearner& learner,
+                                        const localization::Localizer& localizer,
+                                        const mapping::Walls& walls) {
+  const localization::Memory& memory = localizer.memory();
+  std::vector<localization::CalibrationKeyframe> keyframes;
+  for (std::size_t i = 0; i < memory.size(); ++i)
+    keyframes.push_back({memory.poses()[i], localization::surface_pieces(*memory.keyframes()[i].scan)});
+  const localization::WallIndex index(walls);
+  const auto tied = localization::self_calibrate(index, keyframes, memory.factors());
+  const auto alone = learner.calibrate();
+  return tied.converged && tied.uniform_sigma() < alone.uniform_sigma() ? tied : alone;
+}
+
 void localize(const LocalizeArguments& arguments) {
   const std::filesystem::path folder(arguments.site);
   const mapping::Site site = mapping::load_scaled_site(folder);
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
   std::optional<localization::InitialPose> initial;
   if (!arguments.global) initial = localization::InitialPose{parse_pose(arguments.initial)};
-  localization::Localizer localizer(walls, initial);
+  const LearnedDrawing learned = load_learned_drawing(folder, walls);
+  for (const std::string& message : learned.messages) std::fprintf(stderr, "%s\n", message.c_str());
+  localization::Localizer localizer(learned.drawing.walls, initial);
+  localization::DrawingLearner learner(walls);
+  (void)localization::load_reliability(folder / kReliabilityFile, learner.reliability());
   if (arguments.memory) recall(localizer, folder / kMemoryFile, walls);
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   std::string trajectory = "# timestamp x y z qx qy qz qw, Map frame\n";
   HealthLog health;
   std::vector<PoseEstimate> estimates;
-  const PlayedLog played = play_log(*log, localizer, [&](const PoseEstimate& e) {
-    trajectory += tum_line(e.stamp, e.map_from_base);
-    health.add(e);
-    estimates.push_back(e);
-  });
+  const PlayedLog played = play_log(
+      *log, localizer,
+      [&](const PoseEstimate& e) {
+        trajectory += tum_line(e.stamp, e.map_from_base);
+        health.add(e);
+        estimates.push_back(e);
+      },
+      [&](const localization::ScanPoints& points, const Point2<Base>& sensor, const PoseEstimate& e) {
+        learner.observe(points, sensor, e);
+      });
+  const localization::SelfCalibration calibration = calibrate(learner, localizer, walls);
+  if (arguments.learn) {
+    localization::save_reliability(folder / kReliabilityFile, learner.reliability());
+    (void)keep_calibration(folder, walls, calibration);
+  }
   mapping::write_file_atomically(arguments.out, trajectory);
   if (!arguments.health_file.empty()) {
     mapping::write_file_atomically(arguments.health_file, health.csv());
@@ -108,6 +143,10 @@ void localize(const LocalizeArguments& arguments) {
     mapping::write_file_atomically(arguments.plot, std::string(png.begin(), png.end()));
   }
   if (arguments.memory && !estimates.empty()) keep(localizer, estimates.back(), folder / kMemoryFile, walls);
+  if (!arguments.walls_plot.empty()) {
+    const std::vector<std::uint8_t> png = reliability_plot(walls, learner.reliability());
+    mapping::write_file_atomically(arguments.walls_plot, std::string(png.begin(), png.end()));
+  }
   const nlohmann::json result = {{"scans", played.scans},
                                  {"odometry_records", played.odometry_records},
                                  {"keyframes", localizer.memory().size()},
@@ -117,13 +156,16 @@ void localize(const LocalizeArguments& arguments) {
                                  {"drawing_sigma_m", localizer.evidence().sigma_m},
                                  {"drawing_inliers", localizer.evidence().inliers},
                                  {"health", health.json()},
+                                 {"self_calibration", to_json(calibration)},
+                                 {"walls", to_json(learner.reliability())},
                                  {"scan_ms_median", percentile(played.scan_ms, 0.5)},
                                  {"scan_ms_p99", percentile(played.scan_ms, 0.99)},
                                  {"seed", arguments.seed}};
   write_json(arguments.json_file, result);
   std::fprintf(arguments.json_file == "-" ? stderr : stdout,
-               "%d scans, %d odometry records; %s written\n%s\n", played.scans, played.odometry_records,
-               arguments.out.c_str(), health.summary().c_str());
+               "%d scans, %d odometry records; %s written\n%s\n%s%s", played.scans, played.odometry_records,
+               arguments.out.c_str(), health.summary().c_str(), describe(calibration).c_str(),
+               arguments.learn ? "what was learned is kept with the site\n" : "");
 }
 
 }  // namespace
@@ -145,6 +187,10 @@ void add_localize(CLI::App& app) {
   command->add_option("--plot", arguments->plot, "picture of the way on the drawing to write (PNG)");
   command->add_option("--health", arguments->health_file,
                       "table of the health at every record to write (CSV)");
+  command->add_option("--walls-plot", arguments->walls_plot,
+                      "picture of which drawn walls were confirmed, missed or seen displaced (PNG)");
+  command->add_flag("--learn", arguments->learn,
+                    "keep what was learned of the walls and of the scale with the site");
   command->add_option("--json", arguments->json_file, "figures; - for stdout");
   command->add_flag(
       "--memory", arguments->memory,

@@ -7,6 +7,8 @@
 
 #include "app/commands.hpp"
 #include "app/json_output.hpp"
+#include "app/learned/learned_drawing.hpp"
+#include "app/plot/localizability_plot.hpp"
 #include "app/route_tools.hpp"
 #include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -30,6 +32,7 @@ struct RouteArguments {
   double spacing_m = 0.1;
   std::string out;
   std::string json_file;
+  std::string localizability;
   bool check = false;
   bool symmetric = false;
 };
@@ -97,6 +100,19 @@ std::size_t node_named(const planning::RouteGraph& graph, const std::string& nam
   throw Error("node " + name, "is not in the routes", "madori route DIR --check lists what the files hold");
 }
 
+/// How well the site's walls, as far as they are to be believed, will fix the pose along `path`.
+json forecast(const RouteArguments& arguments, const Path& path) {
+  const fs::path folder(arguments.site);
+  (void)mapping::load_scaled_site(folder);
+  const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
+  const LearnedDrawing learned = load_learned_drawing(folder, walls);
+  const auto map = forecast_localizability(learned.drawing.walls, learned.drawing.weights, path);
+  const std::vector<std::uint8_t> png = localizability_plot(walls, map);
+  mapping::write_file_atomically(arguments.localizability, std::string(png.begin(), png.end()));
+  std::fprintf(text_stream(arguments), "%s\n", describe(map).c_str());
+  return to_json(map);
+}
+
 void search(const RouteArguments& arguments, const planning::RouteGraph& graph) {
   const std::size_t from = node_named(graph, arguments.from);
   const std::size_t to = node_named(graph, arguments.to);
@@ -126,11 +142,14 @@ void search(const RouteArguments& arguments, const planning::RouteGraph& graph) 
                route.value().nodes.size() - 1, route.value().length_m, points);
   if (!arguments.out.empty())
     mapping::write_file_atomically(arguments.out, planning::waypoints_csv(path ? path.value() : Path{}));
-  write_json(arguments.json_file, {{"nodes", ids},
-                                   {"legs", route.value().nodes.size() - 1},
-                                   {"length_m", route.value().length_m},
-                                   {"metric", arguments.metric},
-                                   {"waypoints", points}});
+  json answer = {{"nodes", ids},
+                 {"legs", route.value().nodes.size() - 1},
+                 {"length_m", route.value().length_m},
+                 {"metric", arguments.metric},
+                 {"waypoints", points}};
+  if (!arguments.localizability.empty())
+    answer["localizability"] = forecast(arguments, path ? path.value() : Path{});
+  write_json(arguments.json_file, answer);
 }
 
 void run(const RouteArguments& arguments) {
@@ -160,6 +179,9 @@ void add_route(CLI::App& app) {
       ->check(CLI::Range(0.01, 10.0))
       ->capture_default_str();
   command->add_option("--out", arguments->out, "waypoints as CSV (ID,x,y)");
+  command->add_option(
+      "--localizability", arguments->localizability,
+      "picture of how well the drawn walls will fix the position (PNG); with --from and --to");
   command->add_option("--json", arguments->json_file, "the answer as JSON, - for stdout");
   command->add_flag("--check", arguments->check, "find faults in the routes, each with file and line");
   command->add_flag("--symmetric", arguments->symmetric, "make every leg two-way and rewrite tree.csv");

@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
+#include "app/learned/calibration_file.hpp"
 #include "app/scale_sources.hpp"
 #include "app/scaled_routes.hpp"
 #include "core/result.hpp"
@@ -17,6 +18,7 @@ namespace {
 struct ScaleArguments {
   std::string site;
   ScaleInputs inputs;
+  bool self_calibration = false;
   bool apply = false;
   bool force = false;
   std::string json_file;
@@ -40,11 +42,25 @@ void print(const ScaleFindings& found, std::FILE* stream) {
                  found.best.reason.c_str());
 }
 
+/// The inputs, with what was measured while driving where that is asked for.
+ScaleInputs inputs_of(const ScaleArguments& arguments, const mapping::Site& site, std::FILE* stream) {
+  ScaleInputs inputs = arguments.inputs;
+  if (!arguments.self_calibration) return inputs;
+  if (!site.scale)
+    throw Error(arguments.site, "has no scale yet, so nothing was measured while driving",
+                "give it one first: --known, --control, --overlay or --paper");
+  const auto walls = mapping::load_walls(std::filesystem::path(arguments.site) / "walls.csv");
+  const auto measured = load_calibration(arguments.site, walls);
+  std::fputs(describe(measured).c_str(), stream);
+  inputs.measured = scale_of(measured, *site.scale);
+  return inputs;
+}
+
 void run(const ScaleArguments& arguments) {
   const mapping::Site site = mapping::load_site(arguments.site);
-  const ScaleFindings found = find_scale(arguments.inputs, site);
-  const bool refused = found.best.verdict == mapping::Verdict::Refused;
   std::FILE* stream = arguments.json_file == "-" ? stderr : stdout;
+  const ScaleFindings found = find_scale(inputs_of(arguments, site, stream), site);
+  const bool refused = found.best.verdict == mapping::Verdict::Refused;
   print(found, stream);
   if (!arguments.apply) {
     write_report(arguments, found, false);
@@ -84,11 +100,14 @@ void add_scale(CLI::App& app) {
   command->add_option("--paper", inputs.paper, "1:200, the scale printed on the drawing");
   command->add_option("--dpi", inputs.dpi, "resolution for --paper (default: the drawing's)")
       ->check(CLI::Range(1.0, 100000.0));
+  command->add_flag("--self-calibration", arguments->self_calibration,
+                    "the scale that was measured while driving");
   command->add_flag("--apply", arguments->apply, "give the site this scale, in one atomic step");
   command->add_flag("--force", arguments->force, "apply a scale that is refused");
   command->add_option("--json", arguments->json_file, "write the figures to a file; - for stdout");
   command->callback([arguments] {
-    if (arguments->inputs.empty()) throw CLI::RequiredError("one of --known, --control, --overlay, --paper");
+    if (arguments->inputs.empty() && !arguments->self_calibration)
+      throw CLI::RequiredError("one of --known, --control, --overlay, --paper, --self-calibration");
     run(*arguments);
   });
 }
