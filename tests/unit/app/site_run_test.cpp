@@ -74,7 +74,7 @@ TEST_F(SiteRunTest, ItDrivesAsSoonAsNothingIsMissing) {
   EXPECT_TRUE(run_.may_change_site());
   import();
   run_.reload();
-  tick_until(told("tree.csv"));
+  tick_until(told("path.csv"));
   draw_routes();
   run_.reload();
   tick_until(told("VLP-16"));
