@@ -1,14 +1,15 @@
 // A touch panel: Debian's Chromium with touch events, which counts every touch and remembers every console error.
 import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const web = fileURLToPath(new URL("../../../hmi/web/package.json", import.meta.url));
 const require = createRequire(web);
 export const kChromium = "/usr/bin/chromium";
 
-/** Ends the test as skipped (ctest's SKIP_RETURN_CODE) where something it needs is not installed. */
-export function skipUnlessInstalled() {
+/** Ends the test as skipped (ctest's SKIP_RETURN_CODE) where something it needs is not installed, or `built` holds no page. */
+export function skipUnlessInstalled(built = null) {
   const playwright = (() => {
     try {
       return require("playwright-core");
@@ -16,7 +17,11 @@ export function skipUnlessInstalled() {
       return null;
     }
   })();
-  if (existsSync(kChromium) && playwright) return playwright;
+  if (existsSync(kChromium) && playwright) {
+    if (built === null || existsSync(join(built, "index.html"))) return playwright;
+    console.log(`skipped: ${built} holds no built page (cmake --build build/release --target panel)`);
+    process.exit(77);
+  }
   console.log(`skipped: needs ${kChromium} (apt-get install chromium) and hmi/web/node_modules (cd hmi/web && npm ci)`);
   process.exit(77);
 }
@@ -49,7 +54,7 @@ export async function openPanel(browser, address, { width, height, language = "e
     if (!localStorage.getItem("madori.theme")) localStorage.setItem("madori.theme", shade);
     addEventListener("touchstart", (event) => event.touches.length === 1 && window.countTouch(), { capture: true, passive: true });
   }, [language, theme]);
-  page.on("console", (message) => message.type() === "error" && panel.errors.push(message.text()));
+  page.on("console", (message) => message.type() === "error" && panel.errors.push(`${message.text()} ${message.location().url}`));
   page.on("pageerror", (error) => panel.errors.push(String(error)));
   await page.goto(address);
   return panel;
@@ -72,11 +77,12 @@ export async function pixelOf(panel, place, nth = 0) {
   }, [place, nth]);
 }
 
-/** Waits until a map has been drawn, its view stands and nothing of it is loading. */
+/** Waits until a map has been drawn, the drawing on it, its view stands and nothing of it is loading. */
 export async function mapReady(panel, nth = 0) {
   await panel.page.waitForFunction((index) => {
-    const map = document.querySelectorAll(".map-canvas")[index]?.olMap;
-    return map && map.getSize()?.[0] > 0 && !map.getView().getAnimating();
+    const target = document.querySelectorAll(".map-canvas")[index];
+    const map = target?.olMap;
+    return map && target.dataset.drawing !== "coming" && map.getSize()?.[0] > 0 && !map.getView().getAnimating();
   }, nth);
   await panel.page.evaluate((index) => new Promise((done) => {
     const map = document.querySelectorAll(".map-canvas")[index].olMap;
@@ -96,6 +102,8 @@ export async function touchMap(panel, place, nth = 0) {
   const { x, y } = await pixelOf(panel, place, nth);
   const box = await panel.page.locator(".map-canvas").nth(nth).boundingBox();
   expect(x > box.x && y > box.y && x < box.x + box.width && y < box.y + box.height, `${place} lies outside the map that is shown`);
+  const covered = await panel.page.evaluate(([u, v]) => document.elementFromPoint(u, v)?.closest("button")?.ariaLabel ?? null, [x, y]);
+  expect(covered === null, `${place} lies under the button "${covered}"`);
   await panel.page.touchscreen.tap(x, y);
 }
 

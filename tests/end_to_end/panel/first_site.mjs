@@ -9,8 +9,8 @@ const kMostTouches = 40;
 const kFileChooser = 2;  // choose the file, confirm: fingers that the page cannot see
 // meta.yaml of the sample: a dimension of 80 m between two walls, drawing pixels
 const kKnown = { ends: [[547.84, 2729.59], [3747.01, 2656.99]], digits: ["8", "0"], height_px: 2970 };
-// a way past the vehicle's first place, metres on the scaled drawing
-const kWay = [[45.05, 52.3], [45.2, 46.2], [46.8, 43.4]];
+// a way past the vehicle's first place, metres on the scaled drawing; further apart than a finger reaches on the smaller panel
+const kWay = [[45.05, 52.3], [45.2, 46.2], [52, 42.5]];
 
 const [madori, page, data, shots, size] = process.argv.slice(2);
 let shown = null; // for a picture of what a person would see when it fails
@@ -29,6 +29,7 @@ async function setUpDrawing(panel, look) {
 }
 
 async function setUpScale(panel, look) {
+  await panel.page.getByText("Touch one end").waitFor();
   await mapReady(panel);
   for (const [u, v] of kKnown.ends) await touchMap(panel, [u, kKnown.height_px - v]);
   await panel.page.getByRole("dialog").waitFor();
@@ -117,7 +118,7 @@ async function lookAround(panel, look) {
 }
 
 async function main() {
-  skipUnlessInstalled();
+  skipUnlessInstalled(page);
   mkdirSync(shots, { recursive: true });
   const folder = temporaryFolder();
   const lidar = await freeUdpPort();
@@ -139,8 +140,6 @@ async function main() {
   expect(panel.errors.length === 0, `the console complained: ${panel.errors.slice(0, 5).join("; ")}`);
   await browser.close();
 }
-
-
 
 main().catch(async (error) => {
   console.error(error);

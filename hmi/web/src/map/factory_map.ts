@@ -20,7 +20,7 @@ export function mapProjection(extent: Extent): Projection {
   return new Projection({ code: "MADORI", units: "m", extent, metersPerUnit: 1 });
 }
 
-/** Left free around the walls, the buttons below included. */
+/** Left free around walls and drawing, the buttons below included. */
 const kRoom = [28, 20, 100, 20];
 
 /** Draws a picture that covers `all` into the part of it that a map shows. */
@@ -54,6 +54,8 @@ export class FactoryMap {
   readonly live: LiveOverlay;
   private readonly drawing = new ImageLayer<ImageCanvas>({ opacity: 0.45 });
   private extent: Extent = [0, 0, 10, 10];
+  /** the last view that was not chosen by a finger: held when the map is given another size */
+  private view: (() => void) | null = null;
   private drawn: { url: string; projection: Projection } | null = null;
   private readonly unwatch: () => void;
 
@@ -68,6 +70,9 @@ export class FactoryMap {
       view: new View({ projection: mapProjection([0, 0, 10, 10]), center: [5, 5], resolution: 0.1 }),
     });
     this.live = new LiveOverlay(this.map);
+    this.map.on("change:size", () => this.view?.());
+    const viewport = this.map.getViewport() as HTMLElement;
+    for (const gesture of ["pointermove", "wheel"]) viewport.addEventListener(gesture, (event) => this.moved(event), { passive: true });
     Object.assign(target, { olMap: this.map }); // so that a test can ask where a place is on the screen
     this.unwatch = theme.watch(() => {
       for (const each of this.map.getLayers().getArray()) each.changed();
@@ -96,23 +101,37 @@ export class FactoryMap {
   private showDrawing(): void {
     const wanted = this.drawn;
     if (!wanted) return this.drawing.setSource(null);
+    const target = this.map.getTargetElement();
+    target?.setAttribute("data-drawing", "coming");  // so that a test can wait for it
     void inkOf(wanted.url, palette().rgb).then(
-      (ink) => this.drawn === wanted && this.drawing.setSource(pictureSource(ink, this.extent, wanted.projection)),
+      (ink) => {
+        if (this.drawn !== wanted) return;
+        this.drawing.setSource(pictureSource(ink, this.extent, wanted.projection));
+        target?.setAttribute("data-drawing", "shown");
+      },
       () => undefined, // the walls are shown all the same
     );
   }
 
+  private moved(event: Event): void {
+    if (event instanceof WheelEvent || (event as PointerEvent).buttons > 0) this.view = null;
+  }
+
   fit(): void {
-    this.map.getView().fit(this.extent, { padding: [16, 16, 16, 16] });
+    this.view = () => this.map.getView().fit(this.extent, { padding: kRoom });
+    this.view();
   }
 
   /** Shows the walls as large as the view allows. */
   fitWalls(): void {
     const extent = this.walls.getExtent();
-    if (this.walls.getFeatures().length > 0 && extent) this.map.getView().fit(extent, { padding: kRoom });
+    if (this.walls.getFeatures().length === 0 || !extent) return;
+    this.view = () => this.map.getView().fit(extent, { padding: kRoom });
+    this.view();
   }
 
   zoom(steps: number): void {
+    this.view = null;
     const view = this.map.getView();
     view.animate({ zoom: (view.getZoom() ?? 0) + steps, duration: 120 });
   }

@@ -9,7 +9,7 @@ import VectorSource from "ol/source/Vector";
 import XYZ from "ol/source/XYZ";
 import type { TileInfo } from "../api_types";
 import { inkOf } from "./drawing_image";
-import type { XY } from "./geometry";
+import type { Extent, XY } from "./geometry";
 import { fromLatLon, tileMiddle, tileResolution } from "./mercator";
 import type { Similarity } from "./similarity";
 import { sketch } from "./styles";
@@ -17,6 +17,13 @@ import { theme } from "./theme";
 
 /** Seen on roofs, grass and asphalt alike. */
 const kOverlayInk = [255, 235, 59] as const;
+
+/** What a person asked photographs of: the first view. */
+export interface PhotoPlace {
+  latitude: number;
+  longitude: number;
+  radius_m: number;
+}
 
 /** The aerial photographs that were saved with the site, and the drawing laid over them. Web Mercator. */
 export class PhotoMap {
@@ -28,8 +35,10 @@ export class PhotoMap {
   private placed: Similarity | null = null;
   private readonly unwatch: () => void;
 
-  constructor(target: HTMLElement, private readonly info: TileInfo) {
-    const source = new XYZ({ url: "/api/site/tiles/{z}/{x}/{y}", minZoom: info.zoom, maxZoom: info.zoom, tileSize: info.tile_px, transition: 0 });
+  constructor(target: HTMLElement, private readonly info: TileInfo, near: PhotoPlace | null) {
+    const saved = new Set(info.tiles.map(([x, y]) => `${x}/${y}`));
+    const tileUrlFunction = ([z, x, y]: number[]) => (saved.has(`${x}/${y}`) ? `/api/site/tiles/${z}/${x}/${y}` : undefined);
+    const source = new XYZ({ tileUrlFunction, minZoom: info.zoom, maxZoom: info.zoom, tileSize: info.tile_px, transition: 0 });
     const view = new View({ minResolution: this.nativeResolution / 64, maxResolution: this.nativeResolution * 8, constrainResolution: false });
     this.map = new OlMap({
       target,
@@ -41,6 +50,9 @@ export class PhotoMap {
     });
     view.setCenter(this.middle);
     view.setResolution(this.nativeResolution);
+    const show = () => view.fit(near ? this.around(near) : this.extent);
+    if (this.map.getSize()) show();
+    else this.map.once("change:size", show);
     this.canvas.className = "live-overlay";
     (this.map.getViewport() as HTMLElement).append(this.canvas);
     this.map.on("postrender", () => this.draw());
@@ -56,6 +68,22 @@ export class PhotoMap {
 
   get nativeResolution(): number {
     return tileResolution(this.info.zoom, this.info.tile_px);
+  }
+
+  private around({ latitude, longitude, radius_m }: PhotoPlace): Extent {
+    const [x, y] = fromLatLon(latitude, longitude);
+    const reach = radius_m / Math.cos((latitude * Math.PI) / 180);
+    return [x - reach, y - reach, x + reach, y + reach];
+  }
+
+  /** Of all photographs: whatever a person looks for is in the first view. */
+  private get extent(): Extent {
+    const side = tileResolution(this.info.zoom, 1);
+    const half = side * 2 ** (this.info.zoom - 1);
+    const columns = this.info.tiles.map((tile) => tile[0] ?? 0);
+    const rows = this.info.tiles.map((tile) => tile[1] ?? 0);
+    const [left, top] = [Math.min(...columns), Math.min(...rows)];
+    return [left * side - half, half - (Math.max(...rows) + 1) * side, (Math.max(...columns) + 1) * side - half, half - top * side];
   }
 
   get middle(): XY {

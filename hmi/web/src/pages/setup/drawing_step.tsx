@@ -85,6 +85,7 @@ function WallEditor({ site, walls, changed, next, report }: StepProps & { report
     map.current = made;
     made.showSite(site, api.drawingUrl(site.walls_revision));
     made.showWalls(edit.value);
+    made.fitWalls();
     return pickOn(made.map, {
       picked,
       corners: () => (now.current.tool === "add" ? now.current.snaps : []),

@@ -1,7 +1,9 @@
 import { useEffect, useState } from "preact/hooks";
 import { api } from "../../api";
 import type { Site, TileSourceInfo } from "../../api_types";
+import { keepDraft } from "../../drafts";
 import { useText } from "../../i18n";
+import type { PhotoPlace } from "../../map/photo_map";
 import { NumberField } from "../../ui/number_pad";
 import { attempt } from "../../ui/toast";
 import { Tool } from "../../ui/tool";
@@ -25,6 +27,7 @@ export function FetchTiles({ site, done }: { site: Site; done: () => void }) {
   }, () => undefined), []);
   const fetchAll = () => {
     if (latitude === null || longitude === null) return;
+    keepDraft(site.name, "photographs", { revision: "", value: { latitude, longitude, radius_m: radius } satisfies PhotoPlace });
     void attempt(() => api.fetchTiles({ latitude_deg: latitude, longitude_deg: longitude, zoom, radius_m: radius, source, ...(template ? { attribution } : {}) })).then(setWorking);
   };
   if (working) return <JobCard kind="tiles" done={done} ended={() => setWorking(false)} />;

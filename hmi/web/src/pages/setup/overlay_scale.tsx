@@ -88,7 +88,7 @@ export function OverlayScale({ site, ways, finish }: ScaleWay) {
   if (!info) return <><div class="map" /><aside>{ways}<FetchTiles site={site} done={load} /></aside></>;
   return (
     <>
-      <PhotoView key={key} info={info} ready={ready} />
+      <PhotoView key={key} site={site.name} info={info} ready={ready} />
       <aside>
         {ways}
         <p class="quiet">{t("scale.overlay.hint")}</p>

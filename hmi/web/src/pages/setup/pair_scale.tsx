@@ -63,7 +63,6 @@ export function PairScale({ site, walls, ways, finish }: ScaleWay) {
     made.showSite(site, api.drawingUrl(site.walls_revision));
     made.showWalls(walls.walls);
     made.fitWalls();
-    made.map.on("change:size", () => made.fitWalls());  // when the photograph takes its half
     const snaps = corners(walls.walls, 8 * unit);
     return pickOn(made.map, { picked: (at) => begin(toPixel(at, height, unit)), corners: () => snaps, active: () => true });
   };
@@ -86,7 +85,7 @@ export function PairScale({ site, walls, ways, finish }: ScaleWay) {
     <>
       <div class="split">
         <MapView ready={ready} />
-        {info && <PhotoView key={key} info={info} ready={photoReady} />}
+        {info && <PhotoView key={key} site={site.name} info={info} ready={photoReady} />}
       </div>
       <aside>
         {ways}
