@@ -91,20 +91,33 @@ export async function mapReady(panel, nth = 0) {
   }), nth);
 }
 
-/** Touches a place of the map, once it is on the screen. */
-export async function touchMap(panel, place, nth = 0) {
+/** The pixel of a place of the map, once it is on the screen; it must not lie under a button. */
+async function shownPixel(panel, place, nth) {
   await panel.page.waitForFunction(([at, index]) => {
     const { olMap } = document.querySelectorAll(".map-canvas")[index] ?? {};
     const [u, v] = olMap?.getPixelFromCoordinate(at) ?? [-1, -1];
     const [width, height] = olMap?.getSize() ?? [0, 0];
     return u > 0 && v > 0 && u < width && v < height;
-  }, [place, nth], { timeout: 10_000 }).catch(() => undefined);
-  const { x, y } = await pixelOf(panel, place, nth);
-  const box = await panel.page.locator(".map-canvas").nth(nth).boundingBox();
-  expect(x > box.x && y > box.y && x < box.x + box.width && y < box.y + box.height, `${place} lies outside the map that is shown`);
-  const covered = await panel.page.evaluate(([u, v]) => document.elementFromPoint(u, v)?.closest("button")?.ariaLabel ?? null, [x, y]);
+  }, [place, nth], { timeout: 10_000 }).catch(() => { throw new Error(`${place} lies outside the map that is shown`); });
+  const pixel = await pixelOf(panel, place, nth);
+  const covered = await panel.page.evaluate(({ x, y }) => document.elementFromPoint(x, y)?.closest("button")?.ariaLabel ?? null, pixel);
   expect(covered === null, `${place} lies under the button "${covered}"`);
+  return pixel;
+}
+
+export async function touchMap(panel, place, nth = 0) {
+  const { x, y } = await shownPixel(panel, place, nth);
   await panel.page.touchscreen.tap(x, y);
+}
+
+/** A finger that rests on a place of the map until the magnifier has come. */
+export async function restOnMap(panel, place, nth = 0) {
+  const pixel = await shownPixel(panel, place, nth);
+  const session = await panel.context.newCDPSession(panel.page);
+  await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [pixel] });
+  await panel.page.locator(".loupe:not([hidden])").waitFor();
+  await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  await session.detach();
 }
 
 /** A finger that goes down at one pixel, moves in steps and goes up at another. */

@@ -2,7 +2,7 @@
 // scale figure (on the panel's own pad). Usage: first_site.mjs MADORI PAGE DATA SHOTS WIDTHxHEIGHT
 import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { expect, mapReady, openBrowser, openPanel, skipUnlessInstalled, touch, touchMap } from "./browser.mjs";
+import { expect, mapReady, openBrowser, openPanel, restOnMap, skipUnlessInstalled, touch, touchMap } from "./browser.mjs";
 import { freeUdpPort, startFactory, startVehicle, stopAll, temporaryFolder } from "./processes.mjs";
 
 const kMostTouches = 40;
@@ -31,7 +31,7 @@ async function setUpDrawing(panel, look) {
 async function setUpScale(panel, look) {
   await panel.page.getByText("Touch one end").waitFor();
   await mapReady(panel);
-  for (const [u, v] of kKnown.ends) await touchMap(panel, [u, kKnown.height_px - v]);
+  for (const [u, v] of kKnown.ends) await restOnMap(panel, [u, kKnown.height_px - v]);
   await panel.page.getByRole("dialog").waitFor();
   await look("2-number-pad");
   for (const digit of kKnown.digits) await touch(panel, digit, { exact: true });

@@ -20,9 +20,6 @@ export function mapProjection(extent: Extent): Projection {
   return new Projection({ code: "MADORI", units: "m", extent, metersPerUnit: 1 });
 }
 
-/** Left free around walls and drawing, the buttons below included. */
-const kRoom = [28, 20, 100, 20];
-
 /** Draws a picture that covers `all` into the part of it that a map shows. */
 function pictureSource(picture: HTMLCanvasElement, all: Extent, projection: Projection): ImageCanvas {
   return new ImageCanvas({
@@ -54,6 +51,8 @@ export class FactoryMap {
   readonly live: LiveOverlay;
   private readonly drawing = new ImageLayer<ImageCanvas>({ opacity: 0.45 });
   private extent: Extent = [0, 0, 10, 10];
+  /** left free around walls and drawing, the buttons below included; pixels: top, right, bottom, left */
+  room = [28, 20, 100, 20];
   /** the last view that was not chosen by a finger: held when the map is given another size */
   private view: (() => void) | null = null;
   private drawn: { url: string; projection: Projection } | null = null;
@@ -118,7 +117,7 @@ export class FactoryMap {
   }
 
   fit(): void {
-    this.view = () => this.map.getView().fit(this.extent, { padding: kRoom });
+    this.view = () => this.map.getView().fit(this.extent, { padding: this.room });
     this.view();
   }
 
@@ -126,7 +125,7 @@ export class FactoryMap {
   fitWalls(): void {
     const extent = this.walls.getExtent();
     if (this.walls.getFeatures().length === 0 || !extent) return;
-    this.view = () => this.map.getView().fit(extent, { padding: kRoom });
+    this.view = () => this.map.getView().fit(extent, { padding: this.room });
     this.view();
   }
 

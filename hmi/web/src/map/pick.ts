@@ -8,6 +8,7 @@ import { snapTo } from "./snap";
 const kHold_ms = 300;
 const kStill_px = 8;
 const kReach_px = 22;
+const kAimedReach_px = 7;  // under the magnifier a person sees where the point goes
 
 export interface Picking {
   /** called with the place in map coordinates and the metres (or pixels) a screen pixel */
@@ -27,7 +28,7 @@ export function pickOn(map: OlMap, picking: Picking): () => void {
   let aiming = false;
   let swallow = false;
   const resolution = () => map.getView().getResolution() ?? 1;
-  const snap = (pixel: XY) => snapTo(picking.corners(), map.getCoordinateFromPixel(pixel) as XY, kReach_px * resolution());
+  const snap = (pixel: XY) => snapTo(picking.corners(), map.getCoordinateFromPixel(pixel) as XY, (aiming ? kAimedReach_px : kReach_px) * resolution());
   const pick = (pixel: XY) => {
     const { at, snapped } = snap(pixel);
     picking.picked(at, resolution(), snapped);

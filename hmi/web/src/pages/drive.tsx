@@ -47,6 +47,7 @@ export function DrivePage({ site, walls, routes, role }: { site: Site; walls: Wa
   };
   const ready = (made: FactoryMap) => {
     map.current = made;
+    made.room = [72, 20, 100, 20];  // the gauges
     made.showSite(site, site.drawing ? api.drawingUrl(site.walls_revision) : null);
     made.showWalls(walls.walls);
     made.fitWalls();

@@ -113,9 +113,9 @@ export function RoutesStep({ site, walls, routes, changed, next }: { site: Site;
           <Tool icon="select" label={t("routes.select")} pressed={!drawing} onClick={() => lift(false)} />
         </div>
         {!node && <p class="quiet">{t(drawing ? "routes.hint" : "routes.hint.select")}</p>}
-        {node && <NodeCard key={node.id} plan={plan} node={node} tool={tool} setTool={setTool} change={edit.change} close={() => setChosen(null)} />}
         <p class="facts">{t("routes.count", { nodes: plan.nodes.length, stations: plan.nodes.filter((one) => one.station).length })}</p>
         <Findings findings={findings} />
+        {node && <NodeCard key={node.id} plan={plan} node={node} tool={tool} setTool={setTool} change={edit.change} close={() => setChosen(null)} />}
         <span class="spring" />
         {!node && <CsvCard saved={routes.nodes.length > 0} imported={() => { edit.loadTheirs(); changed(); }} />}
         <EditBar edit={edit} kind="routes" next={() => { changed(); next(); }} />
