@@ -44,7 +44,10 @@ async function setUpScale(panel, look) {
 async function setUpRoutes(panel, look) {
   await panel.page.getByText("Touch to set points").waitFor();
   await mapReady(panel);
-  for (const place of kWay) await touchMap(panel, place);
+  for (const [i, place] of kWay.entries()) {
+    await touchMap(panel, place);
+    await panel.page.getByText(`${i + 1} points`).waitFor();  // a person sees the point before setting the next
+  }
   await touch(panel, "Station", { exact: true });
   await panel.page.getByText("No fault found").waitFor();
   await look("3-routes");
