@@ -20,6 +20,7 @@
 #include "planning/obstacle_check/obstacle_field.hpp"
 #include "planning/route_graph/route_search.hpp"
 #include "planning/waypoints/waypoints.hpp"
+#include "sensors/device_clock.hpp"
 
 namespace madori::app {
 
@@ -164,6 +165,8 @@ struct CycleState {
   planning::MovingObjects movers;
   control::wire::Status drive;
   std::optional<Stamp> drive_heard;
+  sensors::DeviceClock drive_clock;
+  std::int64_t drive_us = 0;  ///< the controller's clock, unwrapped
   std::optional<Stamp> lidar_heard;
   std::optional<Stamp> previous;
   bool protective_stop = false;

@@ -8,7 +8,6 @@ namespace madori::app {
 namespace {
 
 constexpr double kTrackS = 0.5;
-constexpr Duration kMostAge = std::chrono::milliseconds(100);  // a clock that jumped is not believed
 
 /// Whether the drive was switched off and on between two statuses: its clock, which starts at power-up and
 /// wraps after 71.6 min, went back, or further on than ours. Statuses that have waited, or come twice, are no
@@ -18,6 +17,17 @@ bool was_switched_off(const control::wire::Status& before, const control::wire::
   constexpr double kSlackS = 1.0;
   const double step_s = static_cast<std::int32_t>(after.time_us - before.time_us) * 1e-6;
   return step_s < -kSlackS || step_s > passed_s + kSlackS;
+}
+
+/// When the wheels were measured, by the controller's clock: a step that comes late, on a busy computer, does
+/// not make its readings later. The scans have their times from the lidar's clock in the same way.
+Stamp measured_at(CycleState& state, const control::wire::Status& status, Stamp now, bool restarted) {
+  const bool first = !state.drive_heard || restarted;
+  if (first) state.drive_clock.reset();
+  state.drive_us =
+      first ? 0 : state.drive_us + static_cast<std::int32_t>(status.time_us - state.drive.time_us);
+  state.drive_clock.observe(state.drive_us, now);
+  return state.drive_clock.stamp_of(state.drive_us);
 }
 
 /// Where the wheels were at a moment, between the readings around it.
@@ -78,14 +88,13 @@ void take_given_pose(CycleState& state, const GivenPose& given) {
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   bool restarted = false;
   for (const auto& status : input.drive) {
-    restarted =
-        restarted || (state.drive_heard &&
-                      was_switched_off(state.drive, status, to_seconds(input.now - *state.drive_heard)));
+    const bool off = state.drive_heard &&
+                     was_switched_off(state.drive, status, to_seconds(input.now - *state.drive_heard));
+    restarted = restarted || off;
+    const Stamp stamp = measured_at(state, status, input.now, off);
     state.drive = status;
     state.drive_heard = input.now;
-    // The newest frame has just come; by the controller's clock the others were measured so much earlier.
-    const auto age = std::chrono::microseconds(input.drive.back().time_us - status.time_us);
-    state.odometry.update(status, input.now - std::min<Duration>(age, kMostAge));
+    state.odometry.update(status, stamp);
     const OdometryReading& reading = state.odometry.reading();
     if (!state.track.empty() && reading.stamp <= state.track.back().stamp) continue;
     state.track.push_back(reading);

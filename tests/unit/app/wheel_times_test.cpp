@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "planning/route_graph/route_csv.hpp"
+#include "tests/support/toy_vehicle.hpp"
+
+namespace madori::app {
+namespace {
+
+/// A status every 10 ms by the controller's clock, taken in by steps that come up to 70 ms late, as on a busy
+/// computer: the wheels' readings keep the controller's times.
+TEST(WheelTimes, StepsThatComeLateDoNotMakeTheReadingsLate) {
+  const CycleConfig config =
+      test::toy_config(planning::parse_routes("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,0,0\n1,9,0\n").graph);
+  const test::RollingVehicle rolling(Transform2<Map, Base>(0.0, 0.0, 0.0));
+  CycleState state(config, std::make_unique<test::TruePose>(rolling));
+  constexpr std::array kLate_ms{0, 30, 70, 0, 50, 20};
+  constexpr std::int64_t kOffset_ms = 5'000;  // the controller was switched on so long after the epoch
+  std::int64_t device_ms = 0;
+  for (int i = 0; i < 60; ++i) {
+    CycleInput input;
+    const std::int64_t due_ms = kOffset_ms + 20 * i;
+    const std::int64_t now_ms = due_ms + kLate_ms[static_cast<std::size_t>(i) % kLate_ms.size()];
+    input.now = Stamp(std::chrono::milliseconds(now_ms));
+    for (; kOffset_ms + device_ms <= due_ms; device_ms += 10) {
+      control::wire::Status status;
+      status.time_us = static_cast<std::uint32_t>(1000 * device_ms);
+      input.drive.push_back(status);
+    }
+    state = step(std::move(state), input, config).state;
+    const Stamp due{std::chrono::milliseconds(due_ms)};
+    EXPECT_NEAR(to_seconds(state.track.back().stamp - due), 0.0, 1e-4) << "step " << i;
+  }
+}
+
+}  // namespace
+}  // namespace madori::app
