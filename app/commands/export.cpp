@@ -6,7 +6,6 @@
 #include "app/commands.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "app/plot/reliability_plot.hpp"
-#include "localization/wall_reliability/reliability_file.hpp"
 #include "mapping/georeference/geojson.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "planning/route_graph/route_csv.hpp"
@@ -47,11 +46,9 @@ void write_reliability(const ExportArguments& arguments) {
   const std::filesystem::path folder(arguments.site);
   (void)mapping::load_scaled_site(folder);
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
-  localization::WallReliability reliability(walls);
-  const std::string message = localization::load_reliability(folder / kReliabilityFile, reliability);
-  if (!message.empty()) std::fprintf(stderr, "%s\n", message.c_str());
-  const std::vector<std::uint8_t> png = reliability_plot(walls, reliability);
-  mapping::write_file_atomically(arguments.reliability, std::string(png.begin(), png.end()));
+  const LearnedDrawing learned = load_learned_drawing(folder, walls);
+  for (const std::string& message : learned.messages) std::fprintf(stderr, "%s\n", message.c_str());
+  mapping::write_file_atomically(arguments.reliability, reliability_plot(walls, learned.reliability));
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 #include "localization/wall_reliability/reliability_file.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
+#include "mapping/wall_map/wall_fingerprint.hpp"
 
 namespace madori::app {
 namespace {
@@ -50,7 +51,7 @@ void recall(localization::Localizer& localizer, const std::filesystem::path& fil
             const mapping::Walls& walls) {
   if (!std::filesystem::exists(file)) return;
   Result<localization::Memory> kept =
-      localization::parse_memory(mapping::file_content(file), localization::fingerprint(walls));
+      localization::parse_memory(mapping::file_content(file), mapping::walls_checksum(walls));
   if (kept.ok()) {
     localizer.recall(std::move(kept).value());
   } else {
@@ -67,7 +68,7 @@ void keep(localization::Localizer& localizer, const PoseEstimate& last, const st
     return;
   }
   mapping::write_file_atomically(
-      file, localization::memory_bytes(localizer.finished_memory(), localization::fingerprint(walls)));
+      file, localization::memory_bytes(localizer.finished_memory(), mapping::walls_checksum(walls)));
 }
 
 /// "x y yaw_deg", metres and degrees.
@@ -113,7 +114,7 @@ void localize(const LocalizeArguments& arguments) {
   for (const std::string& message : learned.messages) std::fprintf(stderr, "%s\n", message.c_str());
   localization::Localizer localizer(learned.drawing.walls, initial);
   localization::DrawingLearner learner(walls);
-  (void)localization::load_reliability(folder / kReliabilityFile, learner.reliability());
+  learner.reliability() = learned.reliability;
   if (arguments.memory) recall(localizer, folder / kMemoryFile, walls);
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   std::string trajectory = "# timestamp x y z qx qy qz qw, Map frame\n";
@@ -139,13 +140,11 @@ void localize(const LocalizeArguments& arguments) {
     mapping::write_file_atomically(arguments.health_file, health.csv());
   }
   if (!arguments.plot.empty()) {
-    const std::vector<std::uint8_t> png = trajectory_plot(walls, estimates);
-    mapping::write_file_atomically(arguments.plot, std::string(png.begin(), png.end()));
+    mapping::write_file_atomically(arguments.plot, trajectory_plot(walls, estimates));
   }
   if (arguments.memory && !estimates.empty()) keep(localizer, estimates.back(), folder / kMemoryFile, walls);
   if (!arguments.walls_plot.empty()) {
-    const std::vector<std::uint8_t> png = reliability_plot(walls, learner.reliability());
-    mapping::write_file_atomically(arguments.walls_plot, std::string(png.begin(), png.end()));
+    mapping::write_file_atomically(arguments.walls_plot, reliability_plot(walls, learner.reliability()));
   }
   const nlohmann::json result = {{"scans", played.scans},
                                  {"odometry_records", played.odometry_records},

@@ -107,8 +107,7 @@ json forecast(const RouteArguments& arguments, const Path& path) {
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
   const LearnedDrawing learned = load_learned_drawing(folder, walls);
   const auto map = forecast_localizability(learned.drawing.walls, learned.drawing.weights, path);
-  const std::vector<std::uint8_t> png = localizability_plot(walls, map);
-  mapping::write_file_atomically(arguments.localizability, std::string(png.begin(), png.end()));
+  mapping::write_file_atomically(arguments.localizability, localizability_plot(walls, map));
   std::fprintf(text_stream(arguments), "%s\n", describe(map).c_str());
   return to_json(map);
 }

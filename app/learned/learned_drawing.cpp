@@ -6,12 +6,12 @@ namespace madori::app {
 
 LearnedDrawing load_learned_drawing(const std::filesystem::path& folder, const mapping::Walls& walls) {
   const auto file = folder / kReliabilityFile;
-  if (!std::filesystem::exists(file)) return {{walls, std::vector<double>(walls.size(), 1.0)}, {}};
-  localization::WallReliability reliability(walls);
-  LearnedDrawing learned;
-  const std::string message = localization::load_reliability(file, reliability);
+  LearnedDrawing learned{
+      localization::WallReliability(walls), {walls, std::vector<double>(walls.size(), 1.0)}, {}};
+  if (!std::filesystem::exists(file)) return learned;
+  const std::string message = localization::load_reliability(file, learned.reliability);
   if (!message.empty()) learned.messages.push_back(message);
-  learned.drawing = localization::wall_weights(walls, reliability);
+  learned.drawing = localization::wall_weights(walls, learned.reliability);
   return learned;
 }
 

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "mapping/site/atomic_file.hpp"
+#include "mapping/wall_map/wall_fingerprint.hpp"
 
 namespace madori::localization {
 namespace {
@@ -21,16 +22,6 @@ struct Header {
   std::uint64_t walls = 0;
   std::uint64_t places = 0;
 };
-
-/// FNV-1a of the walls' text.
-std::uint64_t sum_of(const mapping::Walls& walls) {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
-  for (const char c : mapping::walls_csv(walls)) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001B3ULL;
-  }
-  return hash;
-}
 
 std::uint8_t counted(double distance_m, double m_per_count, double range_max_m) {
   if (!(distance_m < range_max_m)) return PlaceIndex::kUnseen;
@@ -99,7 +90,7 @@ void PlaceIndex::save(const std::filesystem::path& file, const mapping::Walls& w
   Header header;
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
   header.options = options_;
-  header.walls = sum_of(walls);
+  header.walls = mapping::walls_checksum(walls);
   header.places = places_.size();
   std::string content(reinterpret_cast<const char*>(&header), sizeof(header));
   content.append(reinterpret_cast<const char*>(places_.data()), places_.size() * sizeof(Point2<Map>));
@@ -114,8 +105,8 @@ std::optional<PlaceIndex> PlaceIndex::load(const std::filesystem::path& file, co
   Header header;
   if (content.size() < sizeof(header)) return std::nullopt;
   std::memcpy(&header, content.data(), sizeof(header));
-  const bool ours = std::memcmp(header.magic, kMagic, sizeof(kMagic)) == 0 && header.walls == sum_of(walls) &&
-                    header.options == options;
+  const bool ours = std::memcmp(header.magic, kMagic, sizeof(kMagic)) == 0 &&
+                    header.walls == mapping::walls_checksum(walls) && header.options == options;
   constexpr std::size_t kPlaceBytes = sizeof(Point2<Map>) + kSections;
   if (!ours || header.places > content.size() / kPlaceBytes ||
       content.size() != sizeof(header) + header.places * kPlaceBytes)

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "mapping/wall_map/wall_fingerprint.hpp"
+#include "core/fnv1a.hpp"
 
 namespace madori::localization {
 namespace {
@@ -17,12 +17,6 @@ static_assert(std::endian::native == std::endian::little, "the file is little-en
 
 constexpr std::string_view kMagic = "MADORIMM";
 constexpr std::uint32_t kVersion = 1;
-
-std::uint64_t fnv1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return hash;
-}
 
 class Writer {
  public:
@@ -136,10 +130,6 @@ bool has_ends(const RelativeFactor& f, std::size_t keyframes) {
 }
 
 }  // namespace
-
-std::uint64_t fingerprint(const mapping::Walls& walls) {
-  return std::stoull(mapping::walls_fingerprint(walls), nullptr, 16);
-}
 
 std::string memory_bytes(const Memory& memory, std::uint64_t walls) {
   Writer out;

@@ -10,12 +10,9 @@
 
 namespace madori::localization {
 
-/// mapping::walls_fingerprint as a number.
-[[nodiscard]] std::uint64_t fingerprint(const mapping::Walls& walls);
-
 /// The memory as bytes for a file beside the drawing that it lies on. Little-endian: "MADORIMM", u32 version,
-/// u64 fingerprint of the walls, the keyframes with their poses and scans (single precision), the factors,
-/// and an FNV-1a checksum over all of it.
+/// u64 checksum of the walls (mapping::walls_checksum), the keyframes with their poses and scans (single
+/// precision), the factors, and an FNV-1a checksum over all of it.
 [[nodiscard]] std::string memory_bytes(const Memory& memory, std::uint64_t walls);
 
 /// Reads them back. Refused, with the reason: bytes that are cut short or changed, another version, other

@@ -55,6 +55,11 @@ void write_new_file(const std::filesystem::path& file, std::string_view content)
   write_whole(file.string(), file, content, false);
 }
 
+void write_file_atomically(const std::filesystem::path& file, std::span<const std::uint8_t> content) {
+  write_file_atomically(file,
+                        std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
+}
+
 void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
   const std::string temporary = file.string() + ".tmp" + std::to_string(::getpid());
   write_whole(temporary, file, content, true);

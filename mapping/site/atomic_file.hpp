@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,6 +11,7 @@ namespace madori::mapping {
 /// Writes the whole file or leaves the old one: temporary file beside it, fsync, rename, fsync of the folder.
 /// Throws Error (disk full, no permission) and leaves no temporary file behind.
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+void write_file_atomically(const std::filesystem::path& file, std::span<const std::uint8_t> content);
 
 /// Writes a file that nobody reads yet; neither atomic nor synced. Throws Error as above, with nothing left.
 void write_new_file(const std::filesystem::path& file, std::string_view content);

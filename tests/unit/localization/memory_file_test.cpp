@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "mapping/wall_map/wall_fingerprint.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -54,10 +56,10 @@ TEST(MemoryFile, OtherWallsAndDamageAreRefusedWithTheReason) {
 
 TEST(MemoryFile, AnyMovedWallChangesTheFingerprint) {
   mapping::Walls walls{{0, {{0.0, 0.0}, {5.0, 0.0}}}, {1, {{5.0, 0.0}, {5.0, 3.0}}}};
-  const std::uint64_t before = fingerprint(walls);
-  EXPECT_EQ(before, fingerprint(walls));
+  const std::uint64_t before = mapping::walls_checksum(walls);
+  EXPECT_EQ(before, mapping::walls_checksum(walls));
   walls[1].segment.b.y_m += 1e-6;
-  EXPECT_NE(before, fingerprint(walls));
+  EXPECT_NE(before, mapping::walls_checksum(walls));
 }
 
 }  // namespace
