@@ -1,7 +1,8 @@
 #include "planning/detour/free_space.hpp"
 
+#include <ompl/base/MotionValidator.h>
 #include <ompl/base/goals/GoalState.h>
-#include <ompl/base/spaces/DubinsStateSpace.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
@@ -13,25 +14,77 @@
 #include <memory>
 #include <mutex>
 
-#include "planning/detour/side_detour.hpp"
+#include "planning/detour/dubins.hpp"
 
 namespace madori::planning {
 namespace {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
-using Space = ob::DubinsStateSpace;
 
 Transform2<Map, Base> pose_of(const ob::State* state) {
   const auto* s = state->as<ob::SE2StateSpace::StateType>();
   return {s->getX(), s->getY(), s->getYaw()};
 }
 
-void set_state(ob::ScopedState<Space>& state, const Transform2<Map, Base>& pose) {
-  state->setX(pose.x_m());
-  state->setY(pose.y_m());
-  state->setYaw(pose.yaw_rad());
+void set_state(ob::State* state, const Transform2<Map, Base>& pose) {
+  auto* s = state->as<ob::SE2StateSpace::StateType>();
+  s->setXY(pose.x_m(), pose.y_m());
+  s->setYaw(pose.yaw_rad());
 }
+
+/// Poses of the plane, joined by Dubins curves.
+class Space final : public ob::SE2StateSpace {
+ public:
+  explicit Space(double radius_m) : radius_m_(radius_m) {}
+
+  [[nodiscard]] DubinsCurve curve(const ob::State* from, const ob::State* to) const {
+    return shortest_dubins(pose_of(from), pose_of(to), radius_m_);
+  }
+  [[nodiscard]] bool isMetricSpace() const override { return false; }
+  [[nodiscard]] bool hasSymmetricDistance() const override { return false; }
+  [[nodiscard]] bool hasSymmetricInterpolate() const override { return false; }
+  double distance(const ob::State* from, const ob::State* to) const override {
+    return curve(from, to).length_m();
+  }
+  unsigned validSegmentCount(const ob::State* from, const ob::State* to) const override {
+    return ob::StateSpace::validSegmentCount(from, to);
+  }
+  void interpolate(const ob::State* from, const ob::State* to, double t, ob::State* state) const override {
+    const DubinsCurve way = curve(from, to);
+    set_state(state, way.pose_at(t * way.length_m()));
+  }
+
+ private:
+  double radius_m_;
+};
+
+/// Checks a curve every few centimetres, its end included, its start not.
+class Motions final : public ob::MotionValidator {
+ public:
+  Motions(const ob::SpaceInformationPtr& information, const Space& space)
+      : ob::MotionValidator(information), space_(space) {}
+
+  bool checkMotion(const ob::State* from, const ob::State* to) const override {
+    if (!si_->isValid(to)) return false;
+    const DubinsCurve way = space_.curve(from, to);
+    const unsigned steps = space_.validSegmentCount(from, to);
+    ob::ScopedState<Space> between(si_->getStateSpace());
+    for (unsigned i = 1; i < steps; ++i) {
+      set_state(between.get(), way.pose_at(way.length_m() * i / steps));
+      if (!si_->isValid(between.get())) return false;
+    }
+    return true;
+  }
+  bool checkMotion(const ob::State* from, const ob::State* to,
+                   std::pair<ob::State*, double>& last_valid) const override {
+    last_valid.second = 0.0;  // not asked for by RRT-Connect: a motion that fails counts for nothing
+    return checkMotion(from, to);
+  }
+
+ private:
+  const Space& space_;
+};
 
 ob::RealVectorBounds bounds_around(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b,
                                    double room_m) {
@@ -78,11 +131,13 @@ Result<Path> free_space_path(const Transform2<Map, Base>& start, const Transform
     ++checks;
     return space->satisfiesBounds(state) && is_free(pose_of(state), obstacles, walls, check);
   });
+  setup.getSpaceInformation()->setMotionValidator(
+      std::make_shared<Motions>(setup.getSpaceInformation(), *space));
   setup.getSpaceInformation()->setStateValidityCheckingResolution(0.05 / space->getMaximumExtent());
   ob::ScopedState<Space> from(space);
   ob::ScopedState<Space> to(space);
-  set_state(from, start);
-  set_state(to, goal);
+  set_state(from.get(), start);
+  set_state(to.get(), goal);
   setup.setStartAndGoalStates(from, to);
   setup.setPlanner(std::make_shared<og::RRTConnect>(setup.getSpaceInformation()));
   const auto bounded = options.max_checks > 0
