@@ -46,6 +46,22 @@ bool turn_is_free(const CycleState& state, const std::vector<Point2<Map>>& obsta
   return !check.blocked();
 }
 
+/// Whether what is said to cross the way has stayed in one place for so long that it does not: the edge of
+/// something remembered can look like a mover. What it is stops the vehicle as a body, if it is in its way.
+bool stays(Navigation& way, const planning::PathCheck& crossing, Stamp now, const CycleConfig& config) {
+  constexpr double kOnePlaceM = 0.5;
+  constexpr double kGapS = 2.0;
+  if (!crossing.blocked()) return false;
+  const bool same = way.crossed_since && to_seconds(now - way.crossed_last) < kGapS &&
+                    distance_m(way.crossed_at, crossing.where) < kOnePlaceM;
+  if (!same) {
+    way.crossed_since = now;
+    way.crossed_at = crossing.where;
+  }
+  way.crossed_last = now;
+  return to_seconds(now - *way.crossed_since) > config.mover_stays_after_s;
+}
+
 /// Whether what stands at a place is remembered only: no scan has shown it lately.
 bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now) {
   constexpr double kLatelyS = 0.5;
@@ -108,7 +124,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   const auto crossing =
       planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps,
                              movers_on_map(state), config.check, config.movers);
-  way.by_mover = crossing.free_m < way.check.free_m;
+  way.by_mover = !stays(way, crossing, input.now, config) && crossing.free_m < way.check.free_m;
   if (way.by_mover) way.check = crossing;
   way.unseen = way.check.blocked() && !way.check.by_wall && !way.by_mover &&
                is_unseen(state, way.check.where, input.now);

@@ -39,18 +39,20 @@ struct CycleConfig {
   planning::SensorView lidar;  ///< where the 3D lidar sits, and what it sees
   double lidar_yaw_rad = 0.0;  ///< Base from Lidar
   planning::RouteMetric metric = planning::RouteMetric::Metres;
-  double look_ahead_m = 7.0;        ///< of the path, checked for obstacles
-  double care_speed_mps = 0.4;      ///< beside something near
-  double degraded_speed_mps = 0.4;  ///< while localization is degraded
-  double drive_silent_s = 0.3;      ///< without a status of the drive: fault
-  double lidar_silent_s = 0.35;     ///< without a revolution: stand
-  double detour_after_s = 1.5;      ///< something must stand so long before a way around is looked for
-  double detour_again_s = 4.0;      ///< between two searches
-  double reroute_after_s = 25.0;    ///< then the blocked leg is left out of a new route
-  double forget_block_s = 180.0;    ///< a leg that was found blocked counts as free again
-  double clear_for_s = 0.6;         ///< the way must have been free so long before the vehicle goes on
-  double door_zone_m = 3.0;         ///< around a door or lift node nothing is driven around, only waited for
-  double jog_timeout_s = 0.3;       ///< a held key that is silent for longer stops the vehicle
+  double look_ahead_m = 7.0;           ///< of the path, checked for obstacles
+  double care_speed_mps = 0.4;         ///< beside something near
+  double degraded_speed_mps = 0.4;     ///< while localization is degraded
+  double drive_silent_s = 0.3;         ///< without a status of the drive: fault
+  double lidar_silent_s = 0.35;        ///< without a revolution: stand
+  double detour_after_s = 1.5;         ///< something must stand so long before a way around is looked for
+  double detour_again_s = 4.0;         ///< between two searches
+  double reroute_after_s = 25.0;       ///< then the blocked leg is left out of a new route
+  double door_reroute_after_s = 60.0;  ///< likewise before a door or lift, which may be about to open
+  double mover_stays_after_s = 5.0;    ///< what "crosses" for so long in one place is an ordinary body
+  double forget_block_s = 180.0;       ///< a leg that was found blocked counts as free again
+  double clear_for_s = 0.6;            ///< the way must have been free so long before the vehicle goes on
+  double door_zone_m = 3.0;    ///< around a door or lift node nothing is driven around, only waited for
+  double jog_timeout_s = 0.3;  ///< a held key that is silent for longer stops the vehicle
 };
 
 /// Recordings hold the numbers of these words: new ones go to the end.
@@ -142,6 +144,9 @@ struct Navigation {
   bool turn_free = true;
   bool by_mover = false;  ///< what blocks is on its way across
   bool unseen = false;    ///< what blocks is remembered from before it came too near for the lidar
+  std::optional<Stamp> crossed_since;  ///< by something that has stayed about `crossed_at`
+  Stamp crossed_last{};
+  Point2<Map> crossed_at;
   std::optional<Stamp> blocked_since;
   std::optional<Stamp> free_since;
   Stamp asked_detour{};

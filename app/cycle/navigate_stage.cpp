@@ -136,15 +136,22 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
   take_path(way, path_over(config, *route, state.pose.map_from_base), config);
 }
 
+/// What blocks the way; the vehicle's own place where it has no room to turn.
+Point2<Map> place_of_block(const CycleState& state) {
+  const auto& check = state.way.check;
+  return check.blocked() ? check.where : state.pose.map_from_base.translation();
+}
+
 /// The leg of the route that is nearest to what blocks it.
 std::optional<std::pair<std::size_t, std::size_t>> blocked_leg(const CycleConfig& config,
-                                                               const Navigation& way) {
+                                                               const Navigation& way,
+                                                               const Point2<Map>& block) {
   std::optional<std::pair<std::size_t, std::size_t>> leg;
   double nearest_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
     const auto& nodes = config.routes.nodes();
     const Segment2<Map> piece{nodes[way.nodes[i]].position, nodes[way.nodes[i + 1]].position};
-    const double away_m = distance_m(piece, way.check.where);
+    const double away_m = distance_m(piece, block);
     if (away_m >= nearest_m) continue;
     nearest_m = away_m;
     leg = {way.nodes[i], way.nodes[i + 1]};
@@ -157,7 +164,7 @@ void try_another_route(CycleState& state, const CycleInput& input, const CycleCo
                        CycleOutput& output) {
   Navigation& way = state.way;
   way.blocked_since = input.now;  // the next try is as far away
-  const auto leg = blocked_leg(config, way);
+  const auto leg = blocked_leg(config, way, place_of_block(state));
   const auto goal = config.routes.index_of(way.stop.node);
   if (!leg || !goal) return;
   auto blocked = blocked_now(way, input.now, config.forget_block_s);
@@ -216,9 +223,11 @@ void navigate(CycleState& state, const CycleInput& input, const CycleConfig& con
       way.rejoin_m = way.path.along_m(rejoin);
     }
   }
+  const double patience_s =
+      is_at_door(config, place_of_block(state)) ? config.door_reroute_after_s : config.reroute_after_s;
   const bool stuck = state.mode == Mode::Waiting && way.blocked_since && !way.arrived &&
-                     to_seconds(input.now - *way.blocked_since) > config.reroute_after_s;
-  if (sure && stuck && !is_at_door(config, way.check.where)) try_another_route(state, input, config, output);
+                     to_seconds(input.now - *way.blocked_since) > patience_s;
+  if (sure && stuck) try_another_route(state, input, config, output);
   const bool told = std::any_of(input.commands.begin(), input.commands.end(),
                                 [](const auto& c) { return c.word == OperatorWord::GoOn; });
   if (way.arrived && !way.reported && (input.now >= way.dwell_until || told)) {

@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
   app.add_flag("--verbose", a.day.verbose, "print every event and delivery");
   CLI11_PARSE(app, argc, argv);
   spdlog::set_level(spdlog::level::warn);
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   try {
     return madori::soak::run(a);
   } catch (const std::exception& e) {

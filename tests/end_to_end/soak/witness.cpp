@@ -98,11 +98,36 @@ void Witness::look_for_contact() {
   near_ = near;
 }
 
+/// What the cycle holds to be in its way, beside what is truly near.
+void Witness::tell_of_standstill(const app::CycleState& state) const {
+  const auto& way = state.way;
+  const auto truth = factory_.truth();
+  std::printf("            stands at (%.2f, %.2f, %.0f deg): %s at (%.2f, %.2f), free %.2f m%s%s%s; near:",
+              truth.map_from_base.x_m(), truth.map_from_base.y_m(), to_deg(truth.map_from_base.yaw_rad()),
+              !way.check.blocked() ? "nothing"
+              : way.check.by_wall  ? "wall"
+              : way.by_mover       ? "mover"
+                                   : "body",
+              way.check.where.x_m, way.check.where.y_m, way.stop_along_m - way.along_m,
+              way.unseen ? ", unseen" : "", way.turn_free ? "" : ", no room to turn",
+              way.detour_pending ? ", detour pending" : "");
+  const auto map_from_building = truth.map_from_base * truth.building_from_base.inverse();
+  for (const auto& body : factory_.bodies()) {
+    if (distance_m(body.centre, truth.building_from_base.translation()) > 2.5) continue;
+    const auto at = map_from_building * body.centre;
+    std::printf(" %s (%.2f, %.2f)", body.name.c_str(), at.x_m, at.y_m);
+  }
+  std::printf("\n");
+}
+
 void Witness::observe(const app::CycleInput& input, const app::CycleOutput& output,
                       const app::CycleState& state) {
   compare_pose(state);
   count_events(input, output);
   look_for_contact();
+  constexpr int kEvery = 250;
+  stood_ = state.mode == app::Mode::Waiting ? stood_ + 1 : 0;
+  if (verbose_ && stood_ > 0 && stood_ % kEvery == 0) tell_of_standstill(state);
   if (!app::drives(state.mode)) figures_.standstill_s[state.standstill.cause.text] += kStepS;
 }
 

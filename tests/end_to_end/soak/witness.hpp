@@ -24,11 +24,13 @@ class Witness {
   void compare_pose(const app::CycleState& state);
   void count_events(const app::CycleInput& input, const app::CycleOutput& output);
   void look_for_contact();
+  void tell_of_standstill(const app::CycleState& state) const;
 
   simulation::Factory& factory_;
   Figures& figures_;
   bool verbose_;
   bool near_ = false;
+  int stood_ = 0;  ///< steps in a row of waiting
   std::size_t collisions_ = 0;
   std::optional<Stamp> kidnapped_at_;
   std::optional<Stamp> last_kidnapping_;

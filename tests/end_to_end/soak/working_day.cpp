@@ -134,8 +134,10 @@ void WorkingDay::befall(const Delivery& delivery, Stamp began) {
 void WorkingDay::look_after(const Delivery& delivery) {
   const auto& state = run_->state();
   const std::string because = std::string(to_string(state.mode)) + ": " + state.standstill.cause.text;
-  if (because != stands_because_ || app::drives(state.mode)) {
-    stands_because_ = because;
+  // While it localizes the reasons change from scan to scan; it is one standstill nevertheless.
+  const std::string one_standstill = state.mode == app::Mode::Localizing ? to_string(state.mode) : because;
+  if (one_standstill != stands_because_ || app::drives(state.mode)) {
+    stands_because_ = one_standstill;
     stands_since_ = factory_->now();
     return;
   }

@@ -10,6 +10,7 @@ namespace {
 using test::ToyVehicle;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A long corridor 0 - 1 - 2, and a loop 1 - 3 - 2 beside it.
 planning::RouteGraph routes() {
@@ -207,6 +208,38 @@ TEST(AutonomyCycle, ABlockedLegIsLeftOutOfANewRoute) {
   v->say(OperatorWord::Resume);
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 120.0)) << ::testing::PrintToString(v->events);
   EXPECT_THAT(v->events, Contains(HasSubstr("taking another route")));
+}
+
+TEST(AutonomyCycle, ADoorThatStaysShutIsLeftOutOfANewRouteAfterAWhile) {
+  auto graph =
+      planning::parse_routes("ID,EDA\n0,1\n1,0 4 3\n4,1 2\n2,4 3\n3,1 2\n",
+                             "ID,x,y,heading_deg,action\n0,0,0,,\n1,10,0,,\n4,15,0,,door\n2,22,0,90,\n"
+                             "3,16,6,,\n")
+          .graph;
+  ToyVehicle v(test::toy_config(graph), Transform2<Map, Base>(0.0, 0.0, 0.0));
+  for (double y = -2.0; y < 2.0; y += 0.2) v.lidar.posts.push_back({{15.0, y}, 0.15, 2.2});
+  v.drive_to({{2}});
+  v.say(OperatorWord::Resume);
+  ASSERT_TRUE(v.run_until([&] { return v.state().standstill.cause == notice(Cause::DoorNotOpen); }, 40.0));
+  v.run_until([&] { return false; }, 50.0);
+  EXPECT_THAT(v.events, Not(Contains(HasSubstr("taking another route")))) << "it may open";
+  EXPECT_TRUE(v.run_until([&] { return v.delivered(); }, 90.0)) << ::testing::PrintToString(v.events);
+  EXPECT_THAT(v.events, Contains(HasSubstr("taking another route")));
+}
+
+// The edge of something remembered, or somebody who works beside the way.
+TEST(AutonomyCycle, WhatStirsInOnePlaceBesideTheWayDoesNotHoldTheVehicleForEver) {
+  for (const bool for_ever : {false, true}) {
+    auto v = vehicle();
+    if (for_ever) v->config.mover_stays_after_s = 1e6;
+    v->lidar.posts.push_back({{6.0, 0.9}, 0.1, 1.0});
+    v->each_step = [&] { v->lidar.posts[0].at.y_m = 0.9 + 0.1 * std::sin(2.0 * kPi * v->time_s()); };
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    EXPECT_TRUE(v->run_until([&] { return v->state().way.by_mover; }, 15.0));
+    EXPECT_NE(v->run_until([&] { return v->delivered(); }, 60.0), for_ever)
+        << ::testing::PrintToString(v->events);
+  }
 }
 
 TEST(AutonomyCycle, AnUnknownNodeIsRefusedAndSaidSo) {
