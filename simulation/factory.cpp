@@ -81,7 +81,8 @@ void Factory::advance_vehicle(const WheelCommand* command) {
   if (moves) look_around(next.pose);
   const std::string hit = touched_at(next.pose, moves);
   if (!hit.empty() && touching_.empty())
-    collisions_.push_back({now(), hit, std::abs(next.linear_mps), truth().map_from_base});
+    collisions_.push_back(
+        {now(), hit, std::abs(next.linear_mps), truth().map_from_base, std::abs(next.angular_radps)});
   // What was touched already does not hold the vehicle from leaving; something new stops it where it was.
   if (!hit.empty() && moves && touched_at(state_.pose, true).empty()) {
     next.pose = state_.pose;

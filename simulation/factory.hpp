@@ -35,6 +35,7 @@ struct Collision {
   std::string what;
   double speed_mps = 0.0;  ///< of the vehicle's Base; below 0.01 the other one has run into it
   Transform2<Map, Base> map_from_base;
+  double turn_radps = 0.0;  ///< of the vehicle, magnitude
 };
 
 struct FactorySetup {

@@ -62,7 +62,7 @@ bool stays(Navigation& way, const planning::PathCheck& crossing, Stamp now, cons
   return to_seconds(now - *way.crossed_since) > config.mover_stays_after_s;
 }
 
-/// Whether what stands at a place is remembered only: no scan has shown it lately.
+/// Whether what stands at a place is remembered only: no scan has shown it, or its upper part, lately.
 bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now) {
   constexpr double kLatelyS = 0.5;
   constexpr double kSameColumnM = 0.1;
@@ -75,7 +75,7 @@ bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now) {
     const double dy = std::max(
         {0.0, static_cast<double>(c.min_y_m) - place.y_m, place.y_m - static_cast<double>(c.max_y_m)});
     if (!c.confirmed || std::hypot(dx, dy) > kSameColumnM) continue;
-    if (to_seconds(now - c.seen) <= kLatelyS) return false;
+    if (to_seconds(now - std::max(c.seen, c.under)) <= kLatelyS) return false;
     known = true;
   }
   return known;
@@ -121,9 +121,10 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
   way.check =
       planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *config.walls, config.check);
+  const auto movers = movers_on_map(state);
   const auto crossing =
-      planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps,
-                             movers_on_map(state), config.check, config.movers);
+      planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps, movers,
+                             config.check, config.movers);
   way.by_mover = !stays(way, crossing, input.now, config) && crossing.free_m < way.check.free_m;
   if (way.by_mover) way.check = crossing;
   way.unseen = way.check.blocked() && !way.check.by_wall && !way.by_mover &&
@@ -132,7 +133,9 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   way.stop_along_m = from_m + way.check.free_m;
   way.care_along_m = from_m + way.check.care_m;
   const bool may_turn = !way.pursuit.begun || way.pursuit.turning;
-  way.turn_free = !may_turn || turn_is_free(state, obstacles, config);
+  way.turn_free =
+      !may_turn || (turn_is_free(state, obstacles, config) &&
+                    !planning::turn_meets(state.pose.map_from_base, movers, config.check, config.movers));
   note_blocked(way, input.now);
   ask_for_detour(state, input, config, obstacles, output);
 }

@@ -32,6 +32,8 @@ void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
       v.max_speed_mps + 0.5 * v.max_turn_rate_radps * v.half_wheel_separation_m;
   config.limits.half_wheel_separation_m = v.half_wheel_separation_m;
   config.limits.acceleration_mps2 = v.max_acceleration_mps2;
+  config.movers.gain_mps2 = v.max_acceleration_mps2;
+  config.movers.top_speed_mps = v.max_speed_mps;
 }
 
 }  // namespace

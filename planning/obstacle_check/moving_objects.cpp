@@ -13,11 +13,12 @@ struct Group {
   double radius_m = 0.0;
 };
 
-/// Groups of confirmed columns that touch, with a gap of one cell allowed; by flooding over a grid of the
-/// cells between the outermost columns.
+/// Groups of columns that came where nothing was, and touch, with a gap of one cell allowed; by flooding over
+/// a grid of the cells between the outermost columns. What a person stands beside is no part of the group.
 class Grouping {
  public:
-  explicit Grouping(const std::vector<Column>& columns) : columns_(columns), taken_(columns.size(), false) {
+  Grouping(const std::vector<Column>& columns, Stamp stamp)
+      : columns_(columns), taken_(columns.size(), false) {
     if (columns.empty()) return;
     x0_ = x1_ = columns.front().cell_x;
     for (const Column& c : columns) {
@@ -29,7 +30,7 @@ class Grouping {
     const auto rows = static_cast<std::size_t>(y1_ - y0_ + 1);
     slots_.assign(rows * static_cast<std::size_t>(x1_ - x0_ + 1), -1);
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      taken_[i] = !columns[i].confirmed;
+      taken_[i] = !(columns[i].confirmed && columns[i].entered && columns[i].seen == stamp);
       slots_[slot(columns[i].cell_x, columns[i].cell_y)] = static_cast<std::int32_t>(i);
     }
   }
@@ -102,7 +103,7 @@ Mover<Odom> MovingObjects::Track::mover() const {
 
 void MovingObjects::update(const std::vector<Column>& columns, Stamp stamp) {
   std::vector<Track> followed;
-  for (const Group& group : Grouping(columns).groups(options_.widest_m)) {
+  for (const Group& group : Grouping(columns, stamp).groups(options_.widest_m)) {
     Track* best = nullptr;
     double best_m = options_.match_m;
     for (Track& track : tracks_) {
@@ -137,42 +138,80 @@ std::vector<Mover<Odom>> MovingObjects::movers() const {
   return found;
 }
 
+namespace {
+
+/// When the vehicle is there if it gains speed at once.
+double earliest_s(double along_m, double speed_mps, const MoverOptions& options) {
+  const double gain = options.gain_mps2;
+  const double top_mps = std::max(speed_mps, options.top_speed_mps);
+  const double gaining_m = (top_mps * top_mps - speed_mps * speed_mps) / (2.0 * gain);
+  if (along_m <= gaining_m)
+    return (std::sqrt(speed_mps * speed_mps + 2.0 * gain * along_m) - speed_mps) / gain;
+  return (top_mps - speed_mps) / gain + (along_m - gaining_m) / top_mps;
+}
+
+/// ... and if it keeps its speed; a standing one is judged by what it would do.
+double latest_s(double along_m, double speed_mps) {
+  constexpr double kSlowestMps = 0.3;
+  return along_m / std::max(speed_mps, kSlowestMps);
+}
+
+/// Where a mover meets the vehicle at a pose between two moments; all around its Base origin while it turns.
+std::optional<Point2<Map>> meets(const Mover<Map>& m, const Transform2<Map, Base>& pose, bool turns,
+                                 double begin_s, double end_s, const CheckOptions& check,
+                                 const MoverOptions& options) {
+  constexpr double kTimeStepS = 0.1;
+  const double margin_m = m.radius_m + options.margin_m;
+  const VehicleOutline zone = check.vehicle.grown(margin_m, margin_m);
+  const double circle_m = check.vehicle.reach_m() + margin_m;
+  const auto base_from_map = pose.inverse();
+  for (int step = 0; begin_s + step * kTimeStepS <= end_s; ++step) {
+    const double t = begin_s + step * kTimeStepS;
+    const Point2<Map> then{m.at.x_m + m.vx_mps * t, m.at.y_m + m.vy_mps * t};
+    const Point2<Base> seen = base_from_map * then;
+    if (turns ? std::hypot(seen.x_m, seen.y_m) <= circle_m : zone.contains(seen)) return then;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, double speed_mps,
                        const std::vector<Mover<Map>>& movers, const CheckOptions& check,
                        const MoverOptions& options) {
-  constexpr double kTimeStepS = 0.1;
-  constexpr double kSlowestMps = 0.3;  // a standing vehicle is judged by what it would do
+  constexpr double kSamePointM = 1e-6;
   PathCheck result;
   double along_m = 0.0;
-  double previous_m = 0.0;
   double checked_m = -check.step_m;
   for (std::size_t i = from; i < path.points.size() && along_m <= ahead_m && !movers.empty(); ++i) {
-    if (i > from) along_m += distance_m(path.points[i - 1].position, path.points[i].position);
-    if (along_m < checked_m + check.step_m && i != from) continue;
-    previous_m = std::max(0.0, checked_m);
+    const double step_m =
+        i > 0 ? distance_m(path.points[i - 1].position, path.points[i].position) : check.step_m;
+    if (i > from) along_m += step_m;
+    const bool turns = step_m < kSamePointM;
+    if (along_m < checked_m + check.step_m && i != from && !turns) continue;
+    const double previous_m = std::max(0.0, checked_m);
     checked_m = along_m;
     const PathPoint& point = path.points[i];
-    const Transform2<Base, Map> base_from_map =
-        Transform2<Map, Base>(point.position.x_m, point.position.y_m, point.heading_rad).inverse();
-    const double there_s = along_m / std::max(speed_mps, kSlowestMps);
-    const double begin_s = std::max(0.0, there_s - options.window_s);
-    const double end_s = std::min(options.foresight_s, there_s + options.window_s);
+    const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m, point.heading_rad);
+    const double begin_s = std::max(0.0, earliest_s(along_m, speed_mps, options) - options.window_s);
+    const double end_s = std::min(options.foresight_s, latest_s(along_m, speed_mps) + options.window_s);
     for (const Mover<Map>& m : movers) {
-      const VehicleOutline zone =
-          check.vehicle.grown(m.radius_m + options.margin_m, m.radius_m + options.margin_m);
-      for (int step = 0; begin_s + step * kTimeStepS <= end_s; ++step) {
-        const double t = begin_s + step * kTimeStepS;
-        const Point2<Map> then{m.at.x_m + m.vx_mps * t, m.at.y_m + m.vy_mps * t};
-        if (!zone.contains(base_from_map * then)) continue;
-        result.free_m = previous_m;
-        result.care_m = previous_m;
-        result.first_blocked = result.last_blocked = i;
-        result.where = then;
-        return result;
-      }
+      const auto where = meets(m, pose, turns, begin_s, end_s, check, options);
+      if (!where) continue;
+      result.free_m = result.care_m = previous_m;
+      result.first_blocked = result.last_blocked = i;
+      result.where = *where;
+      return result;
     }
   }
   return result;
+}
+
+bool turn_meets(const Transform2<Map, Base>& pose, const std::vector<Mover<Map>>& movers,
+                const CheckOptions& check, const MoverOptions& options) {
+  return std::any_of(movers.begin(), movers.end(), [&](const Mover<Map>& m) {
+    return meets(m, pose, true, 0.0, options.turn_s, check, options).has_value();
+  });
 }
 
 }  // namespace madori::planning

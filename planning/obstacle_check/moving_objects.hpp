@@ -20,7 +20,7 @@ struct Mover {
 };
 
 struct MoverOptions {
-  double widest_m = 1.6;      ///< larger things are walls and shelves, of which only parts come into view
+  double widest_m = 2.6;      ///< larger things are no traffic
   double slowest_mps = 0.35;  ///< slower ones are measured as if they stood
   double fastest_mps = 3.0;
   double match_m = 0.45;   ///< furthest from where it was expected
@@ -29,9 +29,13 @@ struct MoverOptions {
   double margin_m = 0.15;  ///< around the disc
   double window_s = 1.0;   ///< before and after the vehicle would be at a place
   double foresight_s = 3.0;
+  double turn_s = 1.2;         ///< of movement that is foreseen around a vehicle that turns on the spot
+  double gain_mps2 = 0.5;      ///< how fast the vehicle gains speed
+  double top_speed_mps = 1.0;  ///< ... and up to what
 };
 
-/// Follows compact groups of columns from scan to scan and measures how they move.
+/// Follows compact groups of columns that came where the floor was seen empty, and measures how they move.
+/// Remembered columns, and things that only come into sight, are no movers.
 class MovingObjects {
  public:
   explicit MovingObjects(const MoverOptions& options = {}) : options_(options) {}
@@ -56,10 +60,15 @@ class MovingObjects {
   std::vector<Track> tracks_;
 };
 
-/// Points [from, ...] of the path against where the movers will be when the vehicle gets there at
-/// `speed_mps`. free_m, first_blocked and where as in check_path().
+/// Points [from, ...] of the path against where the movers will be when the vehicle gets there: at the
+/// earliest gaining speed from `speed_mps`, at the latest keeping it. free_m, first_blocked and where as in
+/// check_path().
 [[nodiscard]] PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, double speed_mps,
                                      const std::vector<Mover<Map>>& movers, const CheckOptions& check,
                                      const MoverOptions& options);
+
+/// Whether something moves into what the vehicle sweeps while it turns on the spot.
+[[nodiscard]] bool turn_meets(const Transform2<Map, Base>& pose, const std::vector<Mover<Map>>& movers,
+                              const CheckOptions& check, const MoverOptions& options);
 
 }  // namespace madori::planning

@@ -25,10 +25,16 @@ struct Arguments {
   int placements = 200;
   int carts = 0;
   std::vector<double> speeds{0.4, 0.7, 1.0};
+  std::vector<std::string> kinds{"upright body", "lying body", "crossing person"};
   unsigned seed = 1;
   std::string json_file;
   bool verbose = false;
 };
+
+/// Whether the vehicle was in motion at the touch: driving, or turning on the spot.
+bool moved(const simulation::Collision& c) {
+  return c.speed_mps >= kStanding_mps || c.turn_radps >= kStanding_mps;
+}
 
 /// What became of one kind of thing in the way.
 struct Tally {
@@ -63,6 +69,7 @@ class Encounters {
     auto& c = site_.config;
     c.pursuit.speed.max_speed_mps = c.limits.max_speed_mps = speed_mps;
     c.limits.max_wheel_speed_mps = speed_mps + 0.3;
+    c.movers.top_speed_mps = speed_mps;
     if (!detours) c.detour_after_s = c.reroute_after_s = 1e6;  // it is stopping that is looked at
     auto setup = simulation::load_setup(arguments.site, arguments.scenario);
     setup.scenario.movers.clear();
@@ -105,7 +112,7 @@ class Encounters {
       ++tally.met;
       ++(!past ? tally.waited : around ? tally.around : tally.other_route);
       for (std::size_t i = touched; i < run_->factory->collisions().size(); ++i)
-        tally.contacts += run_->factory->collisions()[i].speed_mps >= kStanding_mps;
+        tally.contacts += moved(run_->factory->collisions()[i]);
       if (arguments_.verbose || !past)
         std::printf("%8.2f s cart at (%.2f, %.2f): %s; %s\n", run_->time_s(), placement->at.x_m,
                     placement->at.y_m,
@@ -228,7 +235,7 @@ class Encounters {
         placement.mover.kind == MoverKind::Person ? 9.0 : 45.0);
     bool contact = false;
     for (std::size_t i = touched; i < factory.collisions().size(); ++i)
-      contact = contact || factory.collisions()[i].speed_mps >= kStanding_mps;
+      contact = contact || moved(factory.collisions()[i]);
     ++tally.met;
     tally.stopped += stopped;
     tally.contacts += contact;
@@ -279,7 +286,7 @@ int run(const Arguments& arguments) {
   for (int part = 0; part < parts; ++part) {
     Encounters encounters(arguments, arguments.speeds[static_cast<std::size_t>(part)], false);
     const int count = arguments.placements * (part + 1) / parts - arguments.placements * part / parts;
-    for (const auto& [name, kind] : kinds) encounters.meet(kind, count, tallies[name]);
+    for (const auto& name : arguments.kinds) encounters.meet(kinds.at(name), count, tallies[name]);
   }
   nlohmann::json figures;
   bool good = true;
@@ -319,6 +326,9 @@ int main(int argc, char** argv) {
   app.add_option("--carts", arguments.carts, "left standing on the way, at the last of the speeds");
   app.add_option("--speeds", arguments.speeds, "m/s: the vehicle's limit, in equal parts of the placements")
       ->delimiter(',');
+  app.add_option("--kinds", arguments.kinds, "of what is in the way")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"upright body", "lying body", "crossing person"}));
   app.add_option("--seed", arguments.seed, "of everything left to chance");
   app.add_option("--json", arguments.json_file, "the figures; - for stdout");
   app.add_flag("--verbose", arguments.verbose, "print every encounter");

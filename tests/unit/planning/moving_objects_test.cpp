@@ -42,6 +42,52 @@ TEST(MovingObjects, WhatStandsDoesNotMove) {
   EXPECT_TRUE(watch(lidar, [](auto& /*lidar*/) {}).empty());
 }
 
+TEST(MovingObjects, APersonRightBesideAShelfIsFollowed) {
+  test::ToyLidar lidar;
+  for (int i = 0; i < 40; ++i)
+    lidar.posts.push_back({{3.5, -2.0 + 0.1 * i}, 0.06, 1.8});  // the shelf's front
+  lidar.posts.push_back({{3.1, -2.5}, 0.2, 1.75});
+  const auto movers = watch(lidar, [](auto& l) { l.posts.back().at.y_m += 0.14; });
+  ASSERT_EQ(movers.size(), 1U);
+  EXPECT_NEAR(movers[0].vy_mps, 1.4, 0.3);
+  EXPECT_NEAR(movers[0].vx_mps, 0.0, 0.3);
+}
+
+TEST(MovingObjects, WhatOnlyComesIntoSightDoesNotMove) {
+  test::ToyLidar lidar;
+  for (int i = 0; i < 120; ++i)
+    lidar.posts.push_back({{-2.0 + 0.1 * i, 2.5}, 0.06, 1.8});                     // a wall beside the way
+  for (const double x : {1.0, 3.5}) lidar.posts.push_back({{x, 1.3}, 0.15, 1.7});  // pillars before it
+  std::mt19937 random(1);
+  ObstacleField field;
+  MovingObjects objects;
+  for (int i = 0; i < 50; ++i) {
+    const Stamp stamp = stamp_from_seconds(0.1 * i);
+    const double x = 0.1 * i;
+    field.update(lidar.scan({x, 0.0, 0.0}, stamp, random), kVlp, {x, 0.0, 0.0});
+    objects.update(field.columns(), stamp);
+    EXPECT_TRUE(objects.movers().empty()) << "after " << x << " m";
+  }
+}
+
+TEST(MovingObjects, APersonBesideTheLidarIsStillFollowedByTheUpperPart) {
+  test::ToyLidar lidar;
+  lidar.height_m = 1.2;
+  lidar.posts.push_back({{0.9, -1.6}, 0.2, 1.75});
+  const SensorView view{0.0, 0.0, 1.2, to_rad(-15.0), to_rad(15.0)};
+  std::mt19937 random(1);
+  ObstacleField field;
+  MovingObjects objects;
+  for (int i = 0; i < 16; ++i) {
+    const Stamp stamp = stamp_from_seconds(0.1 * i);
+    lidar.posts[0].at.y_m += 0.1;
+    field.update(lidar.scan({}, stamp, random), view, {});
+    objects.update(field.columns(), stamp);
+  }
+  ASSERT_EQ(objects.movers().size(), 1U) << "0.9 m before the lidar, where no beam reaches below 0.95 m";
+  EXPECT_NEAR(objects.movers()[0].vy_mps, 1.0, 0.3);
+}
+
 Path straight() {
   return make_waypoints({{{0, 0}}, {{10, 0}}}).value();
 }
@@ -56,6 +102,19 @@ TEST(CheckMovers, ACrossingThatMeetsTheVehicleBlocksAndOneThatIsOverDoesNot) {
   const Mover<Map> far{{9.0, -1.5}, 0.0, 1.5, 0.2};
   EXPECT_FALSE(check_movers(straight(), 0, 7.0, 0.5, {far}, {}, {}).blocked())
       << "gone long before the vehicle comes";
+}
+
+TEST(CheckMovers, AStandingVehicleDoesNotSetOffBeforeSomebodyWhoWillCrossItsWay) {
+  const Mover<Map> comes{{2.2, -3.0}, 0.0, 1.4, 0.2};
+  EXPECT_TRUE(check_movers(straight(), 0, 7.0, 0.0, {comes}, {}, {}).blocked());
+}
+
+TEST(CheckMovers, WhoComesIntoTheCircleOfATurnHoldsIt) {
+  const Transform2<Map, Base> pose(0.0, 0.0, 0.0);
+  const MoverOptions options;
+  EXPECT_TRUE(turn_meets(pose, {{{0.0, -2.2}, 0.0, 1.2, 0.2}}, {}, options)) << "comes";
+  EXPECT_FALSE(turn_meets(pose, {{{0.0, -2.2}, 0.0, -1.2, 0.2}}, {}, options)) << "leaves";
+  EXPECT_FALSE(turn_meets(pose, {{{0.0, -4.0}, 0.0, 1.2, 0.2}}, {}, options)) << "later";
 }
 
 }  // namespace

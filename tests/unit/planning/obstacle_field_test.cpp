@@ -105,6 +105,23 @@ TEST(ObstacleField, ALowBodyIsRememberedInTheBlindZoneAndATallOneThatLeftIsNot) 
   EXPECT_EQ(confirmed(field), 0) << "a person who has left";
 }
 
+TEST(ObstacleField, APersonWhoStandsBeforeTheBumperIsNotForgotten) {
+  std::mt19937 random(6);
+  test::ToyLidar lidar;
+  lidar.height_m = 1.2;
+  lidar.posts.push_back({{2.4, 0.0}, 0.2, 1.75});
+  const SensorView view{0.0, 0.0, 1.2, to_rad(-15.0), to_rad(15.0)};
+  ObstacleField field;
+  for (int i = 0; i < 100; ++i) {
+    if (lidar.posts[0].at.x_m > 0.8) lidar.posts[0].at.x_m -= 0.1;
+    field.update(lidar.scan({}, at(0.1 * i), random), view, {});
+  }
+  EXPECT_GT(confirmed(field), 0) << "its legs are below the lowest beam";
+  lidar.posts.clear();
+  for (int i = 100; i < 115; ++i) field.update(lidar.scan({}, at(0.1 * i), random), view, {});
+  EXPECT_EQ(confirmed(field), 0) << "and it has left";
+}
+
 TEST(ObstacleField, NonFinitePointsAreLeftOut) {
   ObstacleField field;
   const float nan = std::numeric_limits<float>::quiet_NaN();

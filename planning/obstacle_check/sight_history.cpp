@@ -1,0 +1,67 @@
+#include "planning/obstacle_check/sight_history.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace madori::planning {
+namespace {
+
+constexpr double kViewSlackM = 0.03;
+
+}  // namespace
+
+bool SensorView::sees(const Point2<Base>& place, double low_m, double high_m) const {
+  const double away_m = std::hypot(place.x_m - x_m, place.y_m - y_m);
+  return high_m >= z_m + away_m * std::tan(min_elevation_rad) + kViewSlackM &&
+         low_m <= z_m + away_m * std::tan(max_elevation_rad);
+}
+
+bool SightHistory::begin(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp stamp) {
+  if (!sights_.empty() && stamp < sights_.back().stamp) sights_.clear();  // the clock was set
+  if (!sights_.empty() && to_seconds(stamp - sights_.back().stamp) < options_.apart_s) return false;
+  Sight sight;
+  while (!sights_.empty() && to_seconds(stamp - sights_.front().stamp) > options_.memory_s) {
+    sight.nearest_m = std::move(sights_.front().nearest_m);  // its memory is used again
+    sights_.pop_front();
+  }
+  sight.stamp = stamp;
+  sight.base_from_odom = odom_from_base.inverse();
+  sight.view = view;
+  sight.nearest_m.assign(kDirections, -1.0F);
+  sights_.push_back(std::move(sight));
+  return true;
+}
+
+bool SightHistory::Sight::shows_empty(const Point2<Odom>& place, double side_m, double low_m, double high_m,
+                                      double margin_m) const {
+  const Point2<Base> at = base_from_odom * place;
+  if (!view.sees(at, low_m, high_m)) return false;
+  const double x = at.x_m - view.x_m;
+  const double y = at.y_m - view.y_m;
+  const double away_m = std::hypot(x, y);
+  if (away_m < side_m) return false;
+  const double half = 0.5 * side_m / away_m;  // of the square, across the line of sight
+  const std::size_t first = direction(x + half * y, y - half * x);
+  const std::size_t last = direction(x - half * y, y + half * x);
+  bool known = false;
+  for (std::size_t i = first;; i = (i + 1) % kDirections) {
+    if (nearest_m[i] >= 0.0F) {
+      if (static_cast<double>(nearest_m[i]) < away_m + margin_m) return false;
+      known = true;
+    }
+    if (i == last) return known;
+  }
+}
+
+bool SightHistory::was_empty(const Point2<Odom>& place, double side_m, double low_m, double high_m,
+                             Stamp now) const {
+  int empty = 0;
+  for (const Sight& sight : sights_) {
+    if (to_seconds(now - sight.stamp) < options_.youngest_s) break;
+    if (sight.shows_empty(place, side_m, low_m, high_m, options_.margin_m)) ++empty;
+    if (empty >= options_.fewest_scans) return true;
+  }
+  return false;
+}
+
+}  // namespace madori::planning

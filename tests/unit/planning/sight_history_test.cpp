@@ -1,0 +1,71 @@
+#include "planning/obstacle_check/sight_history.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/angle.hpp"
+
+namespace madori::planning {
+namespace {
+
+const SensorView kVlp{0.0, 0.0, 0.9, to_rad(-15.0), to_rad(15.0)};
+
+Stamp at(double seconds) {
+  return stamp_from_seconds(seconds);
+}
+
+/// Scans of a round room of 6 m with a pillar of 0.4 m at (3, 0), every 0.2 s until `end_s`.
+SightHistory room(double end_s) {
+  SightHistory sights;
+  for (double t = 0.0; t < end_s; t += 0.2) {
+    EXPECT_TRUE(sights.begin(kVlp, {}, at(t)));
+    for (double deg = 0.0; deg < 360.0; deg += 0.3) {
+      const double angle = to_rad(deg);
+      const double away = std::abs(wrap_angle(angle)) < std::atan2(0.2, 3.0) ? 3.0 : 6.0;
+      sights.add(away * std::cos(angle), away * std::sin(angle), true);
+    }
+  }
+  return sights;
+}
+
+TEST(SightHistory, OnlyWhatWasSeenThroughWasEmpty) {
+  const auto sights = room(1.0);
+  const auto empty = [&](double x, double y) { return sights.was_empty({x, y}, 0.1, 0.1, 1.5, at(1.1)); };
+  EXPECT_TRUE(empty(2.0, 0.0)) << "before the pillar";
+  EXPECT_TRUE(empty(-4.0, 2.0));
+  EXPECT_FALSE(empty(2.9, 0.0)) << "at the pillar";
+  EXPECT_FALSE(empty(4.5, 0.0)) << "behind it";
+  EXPECT_FALSE(empty(0.0, 5.9)) << "at the wall";
+  EXPECT_FALSE(empty(0.0, 8.0)) << "behind the wall";
+}
+
+TEST(SightHistory, WhatNoBeamWouldHitIsNotKnownToBeEmpty) {
+  const auto sights = room(1.0);
+  EXPECT_FALSE(sights.was_empty({1.5, 0.0}, 0.1, 0.1, 0.2, at(1.1))) << "below the lowest beam";
+  EXPECT_TRUE(sights.was_empty({4.5, 1.5}, 0.1, 0.1, 0.2, at(1.1))) << "further away it reaches so low";
+}
+
+TEST(SightHistory, OneScanIsNotEnoughAndOldOnesAreForgotten) {
+  EXPECT_FALSE(room(0.1).was_empty({2.0, 0.0}, 0.1, 0.1, 1.5, at(1.0)));
+  auto sights = room(1.0);
+  EXPECT_FALSE(sights.was_empty({2.0, 0.0}, 0.1, 0.1, 1.5, at(0.3))) << "nothing is old enough to be asked";
+  sights.begin(kVlp, {}, at(9.0));
+  EXPECT_FALSE(sights.was_empty({2.0, 0.0}, 0.1, 0.1, 1.5, at(9.5)));
+}
+
+TEST(SightHistory, EveryDirectionAndItsNeighboursAreTold) {
+  SightHistory sights;
+  for (const double t : {0.0, 0.2}) {
+    sights.begin(kVlp, {}, at(t));
+    for (double deg = 0.0; deg < 360.0; deg += 0.2)
+      sights.add(6.0 * std::cos(to_rad(deg)), 6.0 * std::sin(to_rad(deg)), true);
+  }
+  for (double deg = -180.0; deg <= 180.0; deg += 1.0) {
+    const Point2<Odom> near{3.0 * std::cos(to_rad(deg)), 3.0 * std::sin(to_rad(deg))};
+    const Point2<Odom> far{6.2 * std::cos(to_rad(deg)), 6.2 * std::sin(to_rad(deg))};
+    EXPECT_TRUE(sights.was_empty(near, 0.1, 0.1, 1.5, at(0.6))) << deg;
+    EXPECT_FALSE(sights.was_empty(far, 0.1, 0.1, 1.5, at(0.6))) << deg;
+  }
+}
+
+}  // namespace
+}  // namespace madori::planning
