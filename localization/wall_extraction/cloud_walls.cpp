@@ -16,6 +16,21 @@ struct Return {
   std::uint32_t index;
 };
 
+/// By sector, then by range: counted into the sectors, each sorted by itself.
+std::vector<Return> sorted(const std::vector<Return>& returns, int sectors) {
+  std::vector<std::size_t> begin(static_cast<std::size_t>(sectors) + 1, 0);
+  for (const Return& r : returns) ++begin[r.sector + 1];
+  for (std::size_t s = 1; s < begin.size(); ++s) begin[s] += begin[s - 1];
+  std::vector<std::size_t> next = begin;
+  std::vector<Return> result(returns.size());
+  for (const Return& r : returns) result[next[r.sector]++] = r;
+  for (std::size_t s = 0; s + 1 < begin.size(); ++s)
+    std::sort(result.begin() + static_cast<std::ptrdiff_t>(begin[s]),
+              result.begin() + static_cast<std::ptrdiff_t>(begin[s + 1]),
+              [](const Return& a, const Return& b) { return a.range_m < b.range_m; });
+  return result;
+}
+
 std::vector<Return> region_of_interest(const PointCloud<Base>& cloud, const CloudWallOptions& options) {
   std::vector<Return> inside;
   inside.reserve(cloud.points.size());
@@ -28,10 +43,7 @@ std::vector<Return> region_of_interest(const PointCloud<Base>& cloud, const Clou
     const auto sector = static_cast<std::uint32_t>(std::min(turn, 0.999999) * options.sectors);
     inside.push_back({sector, static_cast<float>(range), p.z_m, static_cast<std::uint32_t>(i)});
   }
-  std::sort(inside.begin(), inside.end(), [](const Return& a, const Return& b) {
-    return a.sector != b.sector ? a.sector < b.sector : a.range_m < b.range_m;
-  });
-  return inside;
+  return sorted(inside, options.sectors);
 }
 
 /// Height of the part of a wall at `range_m` that the lasers cover within the region of interest, above the

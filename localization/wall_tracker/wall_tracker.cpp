@@ -61,6 +61,16 @@ const Hypothesis* at(const GlobalAnswer& answer, const Pose& pose) {
   return found == answer.hypotheses.end() ? nullptr : &*found;
 }
 
+/// By how many nats the best place elsewhere leads the one at `pose`, of which `unfit` stands where the
+/// answer does not know it.
+double lead_of_elsewhere(const GlobalAnswer& answer, const Pose& pose, double unfit) {
+  const Hypothesis* tracked = at(answer, pose);
+  if (tracked == nullptr) return unfit;
+  const auto& all = answer.hypotheses;
+  const auto rival = std::find_if(all.begin(), all.end(), [&](const Hypothesis& h) { return &h != tracked; });
+  return rival == all.end() ? -1e3 : rival->log_likelihood - tracked->log_likelihood;
+}
+
 }  // namespace
 
 WallTracker::WallTracker(const mapping::Walls& walls, const WallTrackerOptions& options)
@@ -82,6 +92,7 @@ PoseEstimate WallTracker::on_scan(Stamp stamp, const ScanPoints& points) {
   const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
   const Eigen::Matrix3d grown = carried(covariance_, anchor_, step);
   evidence_ = {};
+  view_.take(stamp, points);
   if (given_ || !tracking_) anchor_ = anchor_ * step.motion;
   covariance_ = grown;
   if (given_)
@@ -129,6 +140,7 @@ void WallTracker::check_given(const ScanPoints& points) {
 }
 
 void WallTracker::search(const ScanPoints& points, const Transform2<Base, Base>& moved) {
+  if (fall_of_view(moved, moved) > options_.carried_fall) answer_.reset();
   GlobalAnswer answer = answer_ ? global_.locate(points, *answer_, moved) : global_.locate(points);
   const bool found = answer.state == GlobalState::Found;
   const bool agrees = found && answer_ && answer_->state == GlobalState::Found &&
@@ -156,7 +168,8 @@ void WallTracker::start_at(const RegistrationResult& fit) {
 
 void WallTracker::track(const ScanPoints& points, const OdometryStep& step) {
   constexpr std::size_t kFewest = 20;
-  const Pose predicted = anchor_ * step.motion;
+  const Pose before = anchor_;
+  const Pose predicted = before * step.motion;
   anchor_ = predicted;
   if (points.size() < kFewest) return miss("the lidar sees next to nothing");
   const RegistrationResult fit = segment_icp(points, global_.grid(), predicted, options_.icp);
@@ -167,14 +180,33 @@ void WallTracker::track(const ScanPoints& points, const OdometryStep& step) {
   evidence_.correction_rad = std::abs(wrap_angle(fit.map_from_base.yaw_rad() - predicted.yaw_rad()));
   const bool far_off = evidence_.correction_m > options_.most_correction_m ||
                        evidence_.correction_rad > options_.most_correction_rad;
+  const double fall = fall_of_view(step.motion, far_off ? step.motion : before.inverse() * fit.map_from_base);
+  if (fall > options_.carried_fall)
+    return lose("all at once the lidar sees other surroundings: was the vehicle moved by hand?",
+                std::nullopt);
+  const bool has_changed = fall > std::max(options_.changed_fall, options_.changed_spreads * view_.spread());
   calm_ = std::max(0, calm_ - 1);
-  if ((is_doubtful() || far_off) && calm_ == 0 && is_contradicted(points, fit)) return;
+  if (has_changed || ((is_doubtful() || far_off) && calm_ == 0)) {
+    if (is_contradicted(points, fit, has_changed)) return;
+  }
   if (fit.inlier_fraction < options_.sure_inliers)
     miss("too little of what is seen is drawn");
   else if (far_off)
     miss("walls and wheels do not agree");
   else
     correct(fit, step);
+}
+
+/// By how much less than usual the scan has in common with the one before, taken from where the wheels or
+/// from where the walls say.
+double WallTracker::fall_of_view(const Transform2<Base, Base>& by_wheels,
+                                 const Transform2<Base, Base>& by_walls) {
+  evidence_.kept = view_.kept(by_wheels);
+  if (view_.fall(evidence_.kept) > options_.changed_fall)
+    evidence_.kept = std::max(evidence_.kept, view_.kept(by_walls));
+  const double fall = view_.fall(evidence_.kept);
+  if (fall <= options_.carried_fall) view_.learn(evidence_.kept);
+  return fall;
 }
 
 bool WallTracker::is_doubtful() const {
@@ -185,18 +217,20 @@ bool WallTracker::is_doubtful() const {
 }
 
 /// Looks at all places. True where the vehicle is lost by it: another place suits the scan clearly better
-/// than the tracked one, for the second time.
-bool WallTracker::is_contradicted(const ScanPoints& points, const RegistrationResult& fit) {
+/// than the tracked one, for the second time; or it suits it about as well, and what is seen has just changed
+/// as it would if the vehicle had been carried there.
+bool WallTracker::is_contradicted(const ScanPoints& points, const RegistrationResult& fit, bool has_changed) {
   evidence_.looked_elsewhere = true;
   GlobalAnswer here;
   here.hypotheses.push_back({fit, 0.0, 0.0, 1.0});
   GlobalAnswer all = global_.locate(points, here, {});
-  const Hypothesis* tracked = at(all, fit.map_from_base);
-  const Hypothesis& best = all.hypotheses.front();
-  const bool elsewhere = &best != tracked;
-  const double lead =
-      tracked == nullptr ? options_.rival_nats : best.log_likelihood - tracked->log_likelihood;
-  if (!elsewhere || lead < options_.rival_nats) {
+  const double lead = lead_of_elsewhere(all, fit.map_from_base, options_.rival_nats);
+  if (has_changed && lead > -options_.twin_nats) {
+    lose("what the lidar sees has changed, and another place looks alike: was the vehicle moved by hand?",
+         std::nullopt);
+    return true;
+  }
+  if (lead < options_.rival_nats) {
     rivals_ = 0;
     calm_ = options_.calm_scans;
     return false;

@@ -10,6 +10,7 @@
 #include "core/pose_hypothesis.hpp"
 #include "localization/global/global_localizer.hpp"
 #include "localization/motion_model/odometry_track.hpp"
+#include "localization/wall_tracker/recent_view.hpp"
 #include "mapping/wall_map/wall.hpp"
 
 namespace madori::localization {
@@ -40,6 +41,12 @@ struct WallTrackerOptions {
   double rival_nats = 5.0;      ///< by which another place must fit better to contradict the pose
   int rivals_to_lose = 2;       ///< contradictions in a row
   int calm_scans = 2;           ///< after the other places were looked at in vain
+  /// What two scans in a row both see falls by so much below the usual where the later one was taken
+  /// elsewhere: neither driving nor what moves about changes a quarter of the walls in a tenth of a second.
+  double carried_fall = 0.25;
+  double changed_fall = 0.08;    ///< where a place that looks alike may be where it was carried to
+  double changed_spreads = 8.0;  ///< at least, in mean deviations
+  double twin_nats = 12.0;       ///< by which a place may fit worse to look alike
 };
 
 /// What the last scan said.
@@ -47,6 +54,7 @@ struct TrackerEvidence {
   double explained = 0.0;      ///< share of the points on drawn walls
   double through_walls = 0.0;  ///< share of the beams that would pass a drawn wall
   double nearby_nats = 0.0;    ///< by which the best pose within 2 m fits better (coarsely)
+  double kept = 1.0;           ///< share of what the scan before saw, taken from where the wheels say
   double correction_m = 0.0;   ///< between wheels and walls
   double correction_rad = 0.0;
   bool looked_elsewhere = false;
@@ -54,8 +62,9 @@ struct TrackerEvidence {
 
 /// The pose on a drawing that is right: global localization while the place is not known, then registration
 /// of each scan's walls to the drawn ones, weighed against the wheels (extended Kalman filter; the wheels'
-/// systematic errors are learned). Each scan is also asked whether another place would suit it better. For
-/// VLP-16 clouds after wall extraction and for 2D scans. Deterministic, causal.
+/// systematic errors are learned). Each scan is also asked whether another place would suit it better, and
+/// whether it was taken near the one before. For VLP-16 clouds after wall extraction and for 2D scans.
+/// Deterministic, causal.
 class WallTracker {
  public:
   explicit WallTracker(const mapping::Walls& walls, const WallTrackerOptions& options = {});
@@ -81,8 +90,11 @@ class WallTracker {
   void search(const ScanPoints& points, const Transform2<Base, Base>& moved);
   void start_at(const RegistrationResult& fit);
   void track(const ScanPoints& points, const OdometryStep& step);
+  [[nodiscard]] double fall_of_view(const Transform2<Base, Base>& by_wheels,
+                                    const Transform2<Base, Base>& by_walls);
   [[nodiscard]] bool is_doubtful() const;
-  [[nodiscard]] bool is_contradicted(const ScanPoints& points, const RegistrationResult& fit);
+  [[nodiscard]] bool is_contradicted(const ScanPoints& points, const RegistrationResult& fit,
+                                     bool has_changed);
   void correct(const RegistrationResult& fit, const OdometryStep& step);
   void miss(const std::string& reason);
   void lose(const std::string& reason, std::optional<GlobalAnswer> answer);
@@ -100,6 +112,7 @@ class WallTracker {
   int calm_ = 0;
   double usual_explained_ = 0.0;
   double usual_through_ = 0.0;
+  RecentView view_;
   TrackerEvidence evidence_;
   LocalizationHealth health_{LocalizationState::Lost, "no scan yet"};
   Stamp anchor_stamp_{};

@@ -20,9 +20,16 @@ DistanceField::DistanceField(const Walls& walls, const DistanceFieldOptions& opt
 double DistanceField::free_way_m(const Point2<Map>& from, double dx, double dy, double limit_m) const {
   const double cell = frame_.cell_m;
   const double touch = 0.71 * cell + 0.5 * m_per_count();  // centre of a cell that a wall runs through
+  const double cells_per_m = 1.0 / cell;  // no division a step: millions of beams a minute walk here
+  const double u0 = (from.x_m - frame_.origin.x_m) * cells_per_m, du = dx * cells_per_m;
+  const double v0 = (from.y_m - frame_.origin.y_m) * cells_per_m, dv = dy * cells_per_m;
   double way = 0.0;
   while (way < limit_m) {
-    const double d = distance_m({from.x_m + way * dx, from.y_m + way * dy});
+    const double u = u0 + way * du;
+    const double v = v0 + way * dv;
+    double d = max_distance_m_;
+    if (u >= 0.0 && v >= 0.0 && u < frame_.width && v < frame_.height)
+      d = counts_[frame_.index(static_cast<int>(u), static_cast<int>(v))] * m_per_count();
     if (d <= touch) return way;
     way += std::max(d - 0.75 * cell, 0.5 * cell);
   }

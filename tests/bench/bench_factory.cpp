@@ -24,7 +24,9 @@ struct Arguments {
   double hidden_percent = 30.0;
   double clutter_m = 1.8;
   int count = 200;
+  int kind = -1;
   unsigned seed = 1;
+  double learn_metres = 300.0;
   double drawing_scale = 1.0;
   bool changed = false;
   bool verbose = false;
@@ -59,6 +61,22 @@ void add(test::TrialFigures& all, const test::TrialFigures& f) {
   all.worst_m = std::max(all.worst_m, f.worst_m), all.worst_rad = std::max(all.worst_rad, f.worst_rad);
 }
 
+/// Drives, and tells every hundred metres how it stands. False where the vehicle comes to no end: somebody
+/// stands in its way for ever.
+bool drive(test::LocalizationTrial& trial, double metres) {
+  constexpr double kPiece_m = 100.0;
+  constexpr double kSlowest_mps = 0.05;
+  const double end_m = trial.floor().driven_m() + metres;
+  while (trial.floor().driven_m() < end_m) {
+    const double piece_m = std::min(kPiece_m, end_m - trial.floor().driven_m());
+    if (!trial.drive(piece_m, piece_m / kSlowest_mps)) return false;
+    const auto& f = trial.figures();
+    std::fprintf(stderr, "  %.0f m in %.0f s, RMSE %.4f m, lost %d times\n", f.driven_m, f.simulated_s,
+                 f.rmse_m(), f.losses);
+  }
+  return true;
+}
+
 /// Runs of some metres, each on a day of its own.
 int accuracy(const Arguments& a) {
   test::TrialFigures all;
@@ -67,12 +85,62 @@ int accuracy(const Arguments& a) {
     const auto setup = setup_of(a, run);
     const auto began = Clock::now();
     test::LocalizationTrial trial(setup, a.seed + static_cast<unsigned>(run));
-    trial.drive(a.metres);
+    if (!drive(trial, a.metres)) std::printf("run %d: the way stays blocked\n", run);
     print(("run " + std::to_string(run)).c_str(), trial.figures(), seconds_since(began));
     add(all, trial.figures());
   }
   print("all", all, seconds_since(begin));
   return all.losses > 0 ? 1 : 0;
+}
+
+/// As `madori scale --self-calibration --apply` after a drive that learned: the scale is given to the drawing
+/// where it is certain to 0.3 %. From then on a metre of the drawing has to be a true one.
+bool calibrate(const localization::SelfCalibration& found, test::TrialSetup& setup) {
+  constexpr double kCertainEnough = 0.003;
+  if (!found.converged || found.uniform_sigma() > kCertainEnough) {
+    std::printf("  the scale could not be measured\n");
+    return false;
+  }
+  const double left = setup.drawing_scale / (1.0 + found.uniform());
+  std::printf(
+      "  the drawing seems %.3f %% +- %.3f %% too large (x %.3f, y %.3f, skew %.3f deg; %d scans on %d "
+      "walls, %d of "
+      "them displaced); off by %.4f %%\n",
+      100.0 * found.uniform(), 100.0 * found.uniform_sigma(), 100.0 * found.strain[0],
+      100.0 * found.strain[1], to_deg(found.strain[2]), found.keyframes, found.walls, found.displaced,
+      100.0 * (left - 1.0));
+  test::scale_drawing(setup, 1.0 / (1.0 + found.uniform()));
+  setup.drawing_scale = 1.0;
+  return true;
+}
+
+/// Drives on the drawing as it is, calibrates it by what was learned, and drives on it anew.
+int calibrated(const Arguments& a) {
+  test::TrialFigures before, after;
+  int uncalibrated = 0;
+  const auto begin = Clock::now();
+  for (int run = 0; run < a.runs; ++run) {
+    auto setup = setup_of(a, run);
+    const auto began = Clock::now();
+    test::LocalizationTrial learning(setup, a.seed + static_cast<unsigned>(run));
+    localization::DrawingLearner learner(setup.drawing);
+    learning.learner = &learner;
+    if (!drive(learning, a.learn_metres)) std::printf("run %d: the way stays blocked\n", run);
+    print(("learn " + std::to_string(run)).c_str(), learning.figures(), seconds_since(began));
+    add(before, learning.figures());
+    if (!calibrate(learner.calibrate(), setup)) {
+      ++uncalibrated;
+      continue;
+    }
+    const auto again = Clock::now();
+    test::LocalizationTrial trial(setup, a.seed + 1000 + static_cast<unsigned>(run));
+    if (!drive(trial, a.metres)) std::printf("run %d: the way stays blocked\n", run);
+    print(("run " + std::to_string(run)).c_str(), trial.figures(), seconds_since(again));
+    add(after, trial.figures());
+  }
+  print("learning", before, seconds_since(begin));
+  print("after", after, seconds_since(begin));
+  return after.losses > 0 || uncalibrated > 0 ? 1 : 0;
 }
 
 /// Vehicles are carried away; how soon they know it.
@@ -84,7 +152,7 @@ int kidnappings(const Arguments& a) {
   double slowest_s = 0.0, wrong_s = 0.0;
   const auto begin = Clock::now();
   for (int i = 0; i < a.count; ++i) {
-    const auto k = kidnapper.carry_out(i);
+    const auto k = kidnapper.carry_out(a.kind < 0 ? i : 4 * i + a.kind);
     const bool is_late = k.lost_after_s < 0.0 || k.lost_after_s > 2.0;
     late += is_late;
     unfound += k.found_after_s < 0.0;
@@ -94,10 +162,11 @@ int kidnappings(const Arguments& a) {
       std::printf(
           "%3d kind %d %s by %5.2f m from (%.2f, %.2f, %.0f deg) to (%.2f, %.2f, %.0f deg): LOST after %.2f "
           "s, "
-          "found after %.2f s, believed wrong %.2f s\n",
+          "found after %.2f s, believed wrong %.2f s, view kept %.2f\n",
           i, k.kind, k.drives ? "driving " : "standing", k.by_m, k.from.x_m(), k.from.y_m(),
           to_deg(k.from.yaw_rad()), k.to.x_m(), k.to.y_m(), to_deg(k.to.yaw_rad()), k.lost_after_s,
-          k.found_after_s, k.believed_wrong_s);
+          k.found_after_s, k.believed_wrong_s, k.kept);
+    std::fflush(stdout);
   }
   std::printf(
       "%d kidnappings: LOST within 2 s in %d, slowest %.2f s; found again within 8 s %d; longest belief "
@@ -124,10 +193,18 @@ int main(int argc, char** argv) {
   CLI::App* accuracy = app.add_subcommand("accuracy", "position and heading errors");
   accuracy->add_option("--runs", arguments.runs, "each on another day");
   accuracy->add_option("--metres", arguments.metres, "of each run");
+  CLI::App* calibrated =
+      app.add_subcommand("calibrate", "errors before and after the drawing's scale was measured by driving");
+  calibrated->add_option("--runs", arguments.runs, "each on another day");
+  calibrated->add_option("--learn-metres", arguments.learn_metres, "on the drawing as it is");
+  calibrated->add_option("--metres", arguments.metres, "on the calibrated one");
   CLI::App* kidnap = app.add_subcommand("kidnap", "time until a carried-off vehicle is LOST");
   kidnap->add_option("--count", arguments.count, "kidnappings");
+  kidnap->add_option("--kind", arguments.kind,
+                     "only 0: by 1 m, 1: by 1 to 5 m, 2: by 5 to 50 m, 3: to a place that looks alike");
   CLI11_PARSE(app, argc, argv);
   try {
+    if (calibrated->parsed()) return madori::calibrated(arguments);
     return kidnap->parsed() ? madori::kidnappings(arguments) : madori::accuracy(arguments);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "bench_factory: %s\n", e.what());

@@ -45,7 +45,7 @@ TEST(UpperLasers, SeeBitForBitWhatTheWholeSensorSees) {
 
 TEST(FactoryLocalization, CentimetresWithAThirdOfTheWallsHidden) {
   LocalizationTrial trial(sample_factory_trial(kData, 30.0, 0), 1);
-  trial.drive(60.0);
+  ASSERT_TRUE(trial.drive(60.0, 600.0));
   const TrialFigures& f = trial.figures();
   EXPECT_GE(f.first_fix_s, 0.0);
   EXPECT_LT(f.first_fix_s, 1.0);
@@ -57,7 +57,7 @@ TEST(FactoryLocalization, CentimetresWithAThirdOfTheWallsHidden) {
 
 TEST(FactoryLocalization, BetterStillWithNothingInTheWay) {
   LocalizationTrial trial(sample_factory_trial(kData, 0.0, 0), 1);
-  trial.drive(40.0);
+  ASSERT_TRUE(trial.drive(40.0, 400.0));
   EXPECT_LT(trial.figures().rmse_m(), 0.016);
   EXPECT_LT(to_deg(trial.figures().rmse_rad()), 0.09);
   EXPECT_EQ(trial.figures().losses, 0);

@@ -16,6 +16,7 @@ struct Kidnapping {
   Transform2<Map, Base> from, to;
   double lost_after_s = -1.0;     ///< negative: never
   double found_after_s = -1.0;    ///< LOCALIZED and within 0.2 m of the truth again; negative: not in time
+  double kept = 1.0;              ///< least share of the view that two scans in a row had in common
   double believed_wrong_s = 0.0;  ///< LOCALIZED while more than 0.5 m off
 };
 

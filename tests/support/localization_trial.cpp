@@ -84,15 +84,19 @@ void LocalizationTrial::step(bool drives) {
     const mapping::SensorRecord& lidar = floor_.lidar();
     const auto base =
         localization::cloud_in_base(cloud, {lidar.x_m, lidar.y_m, to_rad(lidar.yaw_deg)}, lidar.z_m, track_);
-    (void)tracker_.on_scan(base.stamp, localization::extract_walls(base, walls));
+    const auto points = localization::extract_walls(base, walls);
+    const PoseEstimate at_scan = tracker_.on_scan(base.stamp, points);
+    if (learner != nullptr) learner->observe(points, {lidar.x_m, lidar.y_m}, at_scan);
     pose_ = tracker_.on_odometry(odometry_.reading());
   }
   watch();
 }
 
-void LocalizationTrial::drive(double metres) {
+bool LocalizationTrial::drive(double metres, double most_s) {
   const double end_m = floor_.driven_m() + metres;
-  while (floor_.driven_m() < end_m) step();
+  const double end_s = figures_.simulated_s + most_s;
+  while (floor_.driven_m() < end_m && figures_.simulated_s < end_s) step();
+  return floor_.driven_m() >= end_m;
 }
 
 void LocalizationTrial::kidnap(const Transform2<Map, Base>& to) {

@@ -5,6 +5,7 @@
 
 #include "control/diff_drive/odometry.hpp"
 #include "core/pose_estimate.hpp"
+#include "localization/drawing_learner/drawing_learner.hpp"
 #include "localization/wall_extraction/wall_extraction.hpp"
 #include "localization/wall_tracker/wall_tracker.hpp"
 #include "mapping/wall_map/wall.hpp"
@@ -60,7 +61,8 @@ class LocalizationTrial {
 
   /// 20 ms of driving, or of standing.
   void step(bool drives = true);
-  void drive(double metres);
+  /// False where it takes longer than `most_s`.
+  bool drive(double metres, double most_s);
   void kidnap(const Transform2<Map, Base>& to);
 
   [[nodiscard]] const PoseEstimate& pose() const { return pose_; }
@@ -72,6 +74,7 @@ class LocalizationTrial {
   [[nodiscard]] double error_rad() const;
 
   localization::CloudWallOptions walls;
+  localization::DrawingLearner* learner = nullptr;  ///< looks on, where there is one
 
  private:
   void watch();

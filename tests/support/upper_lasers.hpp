@@ -19,7 +19,13 @@ namespace madori::test {
 class UpperLasers {
  public:
   UpperLasers(const mapping::SensorRecord& mounting, const simulation::Vlp16Spec& spec, std::uint64_t seed)
-      : mounting_(mounting), spec_(spec), seed_(seed) {}
+      : mounting_(mounting), spec_(spec), seed_(seed) {
+    for (std::size_t l = 0; l < kLasers; ++l) {
+      const double elevation = to_rad(sensors::vlp16::kElevationsDeg[channel(l)]);
+      const double step = 2.304e-6 * spec.rate_hz * 2.0 * kPi * static_cast<double>(channel(l));
+      turns_[l] = {std::cos(step), std::sin(step), std::cos(elevation), std::sin(elevation)};
+    }
+  }
 
   [[nodiscard]] Duration next_complete() const {
     return Duration(static_cast<std::int64_t>((packet_ + 1) * kFirings - 1) * kFiringNs + kLastChannelNs);
@@ -60,18 +66,15 @@ class UpperLasers {
   }
   void aim(const simulation::View& view) {
     beams_.reset(kFirings * kLasers);
-    const double channel_rad = 2.304e-6 * spec_.rate_hz * 2.0 * kPi;
     for (std::size_t f = 0; f < kFirings; ++f) {
       const std::uint64_t firing = packet_ * kFirings + f;
       const Duration time(static_cast<std::int64_t>(firing) * kFiringNs);
       const auto from = simulation::sensor_pose(view.world, view.track.at(time), mounting_);
       const double azimuth = azimuth_rad(firing), ca = std::cos(azimuth), sa = std::sin(azimuth);
       for (std::size_t l = 0; l < kLasers; ++l) {
-        const double elevation = to_rad(sensors::vlp16::kElevationsDeg[channel(l)]);
-        const double step = channel_rad * static_cast<double>(channel(l));
-        const double cs = std::cos(step), ss = std::sin(step), ce = std::cos(elevation);
+        const auto& [cs, ss, ce, se] = turns_[l];
         const double x = ca * cs - sa * ss, y = sa * cs + ca * ss;
-        beams_.set(place(f, l), from, ce * x, -ce * y, std::sin(elevation));
+        beams_.set(place(f, l), from, ce * x, -ce * y, se);
       }
     }
   }
@@ -91,6 +94,12 @@ class UpperLasers {
       }
   }
 
+  /// How far a laser is turned since its firing's begin, and its elevation: cosine and sine of each.
+  struct Turn {
+    double cos_step, sin_step, cos_elevation, sin_elevation;
+  };
+
+  std::array<Turn, kLasers> turns_{};
   mapping::SensorRecord mounting_;
   simulation::Vlp16Spec spec_;
   std::uint64_t seed_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "control/diff_drive/kinematics.hpp"
+#include "core/segment_distance.hpp"
 #include "sensors/vlp16/encode.hpp"
 #include "simulation/sensor_suite.hpp"
 
@@ -14,6 +15,7 @@ constexpr double kStep_s = 0.02;
 constexpr Duration kTick = std::chrono::milliseconds(2);
 constexpr Duration kStatusPeriod = std::chrono::milliseconds(10);
 constexpr double kAhead_m = 0.9;
+constexpr double kPatience_s = 8.0;
 
 }  // namespace
 
@@ -95,13 +97,28 @@ bool VirtualFloor::is_blocked(double ahead_m, double reach_m) const {
   });
 }
 
-void TrueDriver::choose(const Transform2<Map, Base>& from) {
+/// The nearest node; of the nearest leg the end that lies behind, where the way ahead is blocked: a person
+/// who waits for the vehicle would wait for ever.
+std::size_t TrueDriver::start_node(const Transform2<Map, Base>& from, bool is_blocked) const {
   const auto& nodes = routes_.nodes();
   const auto nearer = [&](const auto& a, const auto& b) {
     return distance_m(a.position, from.translation()) < distance_m(b.position, from.translation());
   };
-  const auto start =
-      static_cast<std::size_t>(std::min_element(nodes.begin(), nodes.end(), nearer) - nodes.begin());
+  if (!is_blocked)
+    return static_cast<std::size_t>(std::min_element(nodes.begin(), nodes.end(), nearer) - nodes.begin());
+  const auto& legs = routes_.legs();
+  const auto off_m = [&](const planning::RouteLeg& leg) {
+    return distance_m(Segment2<Map>{nodes[leg.from].position, nodes[leg.to].position}, from.translation());
+  };
+  const auto leg = *std::min_element(legs.begin(), legs.end(),
+                                     [&](const auto& a, const auto& b) { return off_m(a) < off_m(b); });
+  const auto ahead_m = [&](std::size_t node) { return (from.inverse() * nodes[node].position).x_m; };
+  return ahead_m(leg.from) < ahead_m(leg.to) ? leg.from : leg.to;
+}
+
+void TrueDriver::choose(const Transform2<Map, Base>& from, bool is_blocked) {
+  const auto& nodes = routes_.nodes();
+  const std::size_t start = start_node(from, is_blocked);
   const auto stations = routes_.stations();
   for (int attempt = 0; attempt < 100; ++attempt) {
     const auto route = planning::find_route(routes_, start, stations[random_.below(stations.size())],
@@ -120,15 +137,19 @@ void TrueDriver::choose(const Transform2<Map, Base>& from) {
 
 VelocityCommand TrueDriver::command(const VirtualFloor& floor) {
   const auto truth = floor.truth();
-  if (path_.empty()) choose(truth);
+  if (path_.empty()) choose(truth, turns_back_);
   if (path_.empty()) return {};
   const bool blocked = floor.is_blocked(kAhead_m, 0.5);
   waited_s_ = blocked ? waited_s_ + kStep_s : 0.0;
   const auto out = control::pursue(path_, pursuit_, {.map_from_base = truth}, options_);
   pursuit_ = out.state;
   const bool over = out.status == control::PursuitStatus::Arrived ||
-                    out.status == control::PursuitStatus::OffPath || waited_s_ > 8.0;
-  if (over) path_ = {}, waited_s_ = 0.0;
+                    out.status == control::PursuitStatus::OffPath || waited_s_ > kPatience_s;
+  if (over) {
+    turns_back_ = waited_s_ > kPatience_s;
+    path_ = {};
+    waited_s_ = 0.0;
+  }
   const bool stands = over || (blocked && out.status == control::PursuitStatus::Following);
   const auto limited = control::limit(
       limits_, {.requested = stands ? VelocityCommand{} : out.command, .may_move = true, .step_s = kStep_s},

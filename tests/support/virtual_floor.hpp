@@ -80,10 +80,11 @@ class TrueDriver {
 
   [[nodiscard]] VelocityCommand command(const VirtualFloor& floor);
   /// After a kidnapping: the way is sought anew.
-  void forget() { path_ = {}; }
+  void forget() { path_ = {}, turns_back_ = false; }
 
  private:
-  void choose(const Transform2<Map, Base>& from);
+  [[nodiscard]] std::size_t start_node(const Transform2<Map, Base>& from, bool is_blocked) const;
+  void choose(const Transform2<Map, Base>& from, bool is_blocked);
 
   const planning::RouteGraph& routes_;
   simulation::Random random_;
@@ -92,6 +93,7 @@ class TrueDriver {
   control::PursuitState pursuit_;
   control::LimitState limits_;
   double waited_s_ = 0.0;
+  bool turns_back_ = false;
 };
 
 }  // namespace madori::test

@@ -136,6 +136,64 @@ TEST(WallTracker, AKidnappingIsNoticedWithinTwoSecondsAndMended) {
   }
 }
 
+/// Two rooms drawn alike, side by side, each with a door to the same passage.
+mapping::Walls twin_rooms() {
+  mapping::Walls walls;
+  test::add_box(walls, 0.0, 0.0, 16.0, 10.0);
+  for (const double x : {0.0, 8.0}) {
+    test::add_wall(walls, x + 8.0, 0.0, x + 8.0, 7.0);
+    test::add_wall(walls, x, 7.0, x + 3.4, 7.0);
+    test::add_wall(walls, x + 4.6, 7.0, x + 8.0, 7.0);
+  }
+  return walls;
+}
+
+TEST(WallTracker, ACarryIntoARoomThatIsDrawnAlikeIsNoticedByWhatStandsThere) {
+  const mapping::Walls drawn = twin_rooms();
+  mapping::Walls built = drawn;
+  test::add_box(built, 0.5, 5.0, 1.5, 6.5);  // what nobody drew: a cupboard here, pallets there
+  test::add_box(built, 13.0, 0.4, 14.5, 1.2);
+  auto moments = drive(built, {{3.0, 2.0}, {4.0, 3.5}}, ten_hertz(), 11);
+  const std::size_t begin = moments.size();
+  moments = joined(moments, drive(built, {{12.0, 3.5}, {12.5, 4.5}}, ten_hertz(), 12));
+  WallTracker tracker(drawn);
+  (void)tracker.on_odometry(moments[0].odometry);
+  tracker.set_pose(moments[0].truth, {});
+  for (std::size_t i = 1; i < begin; ++i)
+    ASSERT_EQ(take(tracker, moments[i]).health.state, LocalizationState::Localized) << i;
+  const PoseEstimate e = take(tracker, moments[begin]);
+  EXPECT_EQ(e.health.state, LocalizationState::Lost);
+  EXPECT_NE(e.health.reason.find("moved by hand"), std::string::npos) << e.health.reason;
+  for (std::size_t i = begin + 1; i < moments.size(); ++i) {
+    const PoseEstimate after = take(tracker, moments[i]);
+    EXPECT_FALSE(after.health.state == LocalizationState::Localized &&
+                 off_m(after.map_from_base, moments[i].truth) > 1.0)
+        << "sure of the wrong room";
+  }
+}
+
+TEST(WallTracker, WhatDrivesPastInFrontOfTheLidarIsNoCarry) {
+  const mapping::Walls walls = test::factory_floor();
+  std::mt19937 engine(13);
+  const auto moments = drive(walls, {{18.0, 6.5}, {18.0, 9.0}}, ten_hertz(), 13);
+  WallTracker tracker(walls);
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    mapping::Walls now = walls;  // a lorry of 6 m passes at 3 m/s, 1.5 m beside the lidar
+    const double front_y = 5.0 + 0.3 * static_cast<double>(i);
+    test::add_box(now, 19.5, front_y - 6.0, 21.5, front_y);
+    test::DriveMoment moment = moments[i];
+    moment.scan = test::simulate_scan(now, moment.truth, ten_hertz().lidar, engine);
+    moment.scan.stamp = moments[i].scan.stamp;
+    const PoseEstimate e = take(tracker, moment);
+    hidden += tracker.evidence().explained < 0.8;
+    if (i > 3) {
+      EXPECT_EQ(e.health.state, LocalizationState::Localized) << i << ": " << e.health.reason;
+    }
+  }
+  EXPECT_GT(hidden, 5U) << "it hid next to nothing: no test";
+}
+
 TEST(WallTracker, APlaceThatAPersonGivesIsCheckedByTheNextScan) {
   const mapping::Walls walls = test::laboratory_hall();
   const auto moments = drive(walls, {{1.5, 1.2}, {4.5, 1.2}}, ten_hertz(), 8);

@@ -1,0 +1,77 @@
+#include "localization/wall_tracker/recent_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace madori::localization {
+namespace {
+
+constexpr double kCellM = 0.5;  // at least the longest reach
+constexpr std::size_t kFewestPoints = 20;
+
+std::uint64_t cell_at(double x_m, double y_m) {
+  constexpr std::int64_t kMiddle = 1 << 20;  // negative places sort among the others
+  const auto u = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x_m / kCellM)) + kMiddle);
+  const auto v = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(y_m / kCellM)) + kMiddle);
+  return (v << 32) | u;
+}
+
+/// Within which a surface counts as the same: voxel and noise, and half the gap between two beams.
+double reach_at(const Point2<Base>& p) {
+  return std::min(0.15 + 0.01 * std::hypot(p.x_m, p.y_m), kCellM);
+}
+
+}  // namespace
+
+bool RecentView::Surfaces::has_near(const Point2<Base>& p, double reach_m) const {
+  for (int row = -1; row <= 1; ++row) {
+    const std::uint64_t first = cell_at(p.x_m - kCellM, p.y_m + row * kCellM);
+    auto s = std::lower_bound(points.begin(), points.end(), first,
+                              [](const Point& a, std::uint64_t cell) { return a.cell < cell; });
+    for (; s != points.end() && s->cell <= first + 2; ++s)
+      if (distance_m({s->x_m, s->y_m}, p) < reach_m) return true;
+  }
+  return false;
+}
+
+double RecentView::Surfaces::share_of(const Surfaces& others,
+                                      const Transform2<Base, Base>& this_from_others) const {
+  double total = 0.0;
+  double near = 0.0;
+  for (const Point& other : others.points) {
+    const Point2<Base> p{other.x_m, other.y_m};
+    total += other.weight;
+    if (has_near(this_from_others * p, reach_at(p))) near += other.weight;
+  }
+  return total > 0.0 ? near / total : 1.0;
+}
+
+void RecentView::take(Stamp stamp, const ScanPoints& points) {
+  std::swap(before_, now_);
+  now_.stamp = stamp;
+  now_.points.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point2<Base> p = points.point(i);
+    if (std::isfinite(p.x_m) && std::isfinite(p.y_m))
+      now_.points.push_back({cell_at(p.x_m, p.y_m), p.x_m, p.y_m, points.weight_of(i)});
+  }
+  std::sort(now_.points.begin(), now_.points.end(),
+            [](const Surfaces::Point& a, const Surfaces::Point& b) { return a.cell < b.cell; });
+}
+
+double RecentView::kept(const Transform2<Base, Base>& before_from_now) const {
+  if (std::min(before_.points.size(), now_.points.size()) < kFewestPoints ||
+      now_.stamp - before_.stamp > kRecent)
+    return 1.0;
+  return 0.5 * (before_.share_of(now_, before_from_now) + now_.share_of(before_, before_from_now.inverse()));
+}
+
+void RecentView::learn(double kept) {
+  constexpr int kMemory = 20;  // scans
+  learned_ = std::min(learned_ + 1, kMemory);
+  usual_ += (kept - usual_) / learned_;
+  spread_ += (std::abs(kept - usual_) - spread_) / learned_;
+}
+
+}  // namespace madori::localization
