@@ -46,20 +46,26 @@ bool turn_is_free(const CycleState& state, const std::vector<Point2<Map>>& obsta
   return !check.blocked();
 }
 
-/// Whether what is said to cross the way has stayed in one place for so long that it does not: the edge of
-/// something remembered can look like a mover. What it is stops the vehicle as a body, if it is in its way.
-bool stays(Navigation& way, const planning::PathCheck& crossing, Stamp now, const CycleConfig& config) {
+/// Whether something has seemed to move for long at one place, so that it does not: the edge of something
+/// remembered can look like a mover. What it is stops the vehicle as a body, if it is in its way.
+bool stays(std::vector<Stirring>& stirring, const Point2<Map>& where, Stamp now, double limit_s) {
   constexpr double kOnePlaceM = 0.5;
-  constexpr double kGapS = 2.0;
-  if (!crossing.blocked()) return false;
-  const bool same = way.crossed_since && to_seconds(now - way.crossed_last) < kGapS &&
-                    distance_m(way.crossed_at, crossing.where) < kOnePlaceM;
-  if (!same) {
-    way.crossed_since = now;
-    way.crossed_at = crossing.where;
-  }
-  way.crossed_last = now;
-  return to_seconds(now - *way.crossed_since) > config.mover_stays_after_s;
+  auto same = std::find_if(stirring.begin(), stirring.end(),
+                           [&](const Stirring& s) { return distance_m(s.at, where) < kOnePlaceM; });
+  if (same == stirring.end()) same = stirring.insert(same, {where, now, now});
+  same->last = now;
+  return to_seconds(now - same->since) > limit_s;
+}
+
+/// What gets anywhere, Map frame.
+std::vector<planning::Mover<Map>> true_movers(CycleState& state, Stamp now, const CycleConfig& config) {
+  constexpr double kGapS = 1.0;
+  auto& stirring = state.way.stirring;
+  std::erase_if(stirring, [&](const Stirring& s) { return to_seconds(now - s.last) > kGapS; });
+  auto movers = movers_on_map(state);
+  std::erase_if(movers,
+                [&](const auto& m) { return stays(stirring, m.at, now, config.mover_stays_after_s); });
+  return movers;
 }
 
 /// Whether what stands at a place is remembered only: no scan has shown it, or its upper part, lately.
@@ -121,11 +127,11 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
   way.check =
       planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *config.walls, config.check);
-  const auto movers = movers_on_map(state);
+  const auto movers = true_movers(state, input.now, config);
   const auto crossing =
       planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps, movers,
                              config.check, config.movers);
-  way.by_mover = !stays(way, crossing, input.now, config) && crossing.free_m < way.check.free_m;
+  way.by_mover = crossing.free_m < way.check.free_m;
   if (way.by_mover) way.check = crossing;
   way.unseen = way.check.blocked() && !way.check.by_wall && !way.by_mover &&
                is_unseen(state, way.check.where, input.now);

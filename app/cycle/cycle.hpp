@@ -48,7 +48,7 @@ struct CycleConfig {
   double detour_again_s = 4.0;         ///< between two searches
   double reroute_after_s = 25.0;       ///< then the blocked leg is left out of a new route
   double door_reroute_after_s = 60.0;  ///< likewise before a door or lift, which may be about to open
-  double mover_stays_after_s = 5.0;    ///< what "crosses" for so long in one place is an ordinary body
+  double mover_stays_after_s = 5.0;    ///< what stirs in one place for so long is no mover
   double forget_block_s = 180.0;       ///< a leg that was found blocked counts as free again
   double clear_for_s = 0.6;            ///< the way must have been free so long before the vehicle goes on
   double door_zone_m = 3.0;    ///< around a door or lift node nothing is driven around, only waited for
@@ -121,6 +121,13 @@ struct CycleOutput {
   std::vector<std::string> events;  ///< one line each
 };
 
+/// A place at which something seems to move.
+struct Stirring {
+  Point2<Map> at;
+  Stamp since{};
+  Stamp last{};
+};
+
 /// The way to the current target.
 struct Navigation {
   std::optional<Target> target;
@@ -144,9 +151,7 @@ struct Navigation {
   bool turn_free = true;
   bool by_mover = false;  ///< what blocks is on its way across
   bool unseen = false;    ///< what blocks is remembered from before it came too near for the lidar
-  std::optional<Stamp> crossed_since;  ///< by something that has stayed about `crossed_at`
-  Stamp crossed_last{};
-  Point2<Map> crossed_at;
+  std::vector<Stirring> stirring;
   std::optional<Stamp> blocked_since;
   std::optional<Stamp> free_since;
   Stamp asked_detour{};
