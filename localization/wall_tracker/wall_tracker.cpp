@@ -91,6 +91,7 @@ PoseEstimate WallTracker::on_scan(Stamp stamp, const ScanPoints& points) {
   if (stamp < anchor_stamp_ && !given_) return estimate(stamp);
   const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
   const Eigen::Matrix3d grown = carried(covariance_, anchor_, step);
+  unbroken_ = unbroken_ && stamp - anchor_stamp_ <= RecentView::kRecent;
   evidence_ = {};
   view_.take(stamp, points);
   if (given_ || !tracking_) anchor_ = anchor_ * step.motion;
@@ -158,6 +159,7 @@ void WallTracker::start_at(const RegistrationResult& fit) {
   covariance_ = fit.covariance + Eigen::Matrix3d(Eigen::Vector3d(1e-3, 1e-3, 1e-4).asDiagonal());
   tracking_ = true;
   misses_ = agreeing_ = rivals_ = calm_ = 0;
+  unbroken_ = true;
   usual_explained_ = fit.inlier_fraction;
   usual_through_ = 0.0;
   last_fit_.reset();
@@ -171,7 +173,7 @@ void WallTracker::track(const ScanPoints& points, const OdometryStep& step) {
   const Pose before = anchor_;
   const Pose predicted = before * step.motion;
   anchor_ = predicted;
-  if (points.size() < kFewest) return miss("the lidar sees next to nothing");
+  if (points.size() < kFewest) return miss("the lidar sees next to nothing", true);
   const RegistrationResult fit = segment_icp(points, global_.grid(), predicted, options_.icp);
   evidence_.explained = fit.inlier_fraction;
   evidence_.through_walls = share_through_walls(points, global_.distance_field(), fit.map_from_base);
@@ -190,9 +192,9 @@ void WallTracker::track(const ScanPoints& points, const OdometryStep& step) {
     if (is_contradicted(points, fit, has_changed)) return;
   }
   if (fit.inlier_fraction < options_.sure_inliers)
-    miss("too little of what is seen is drawn");
+    miss("too little of what is seen is drawn", !wheels_still_do());
   else if (far_off)
-    miss("walls and wheels do not agree");
+    miss("walls and wheels do not agree", true);
   else
     correct(fit, step);
 }
@@ -263,14 +265,23 @@ void WallTracker::correct(const RegistrationResult& fit, const OdometryStep& ste
   usual_explained_ += kUsual * (evidence_.explained - usual_explained_);
   usual_through_ += kUsual * (evidence_.through_walls - usual_through_);
   misses_ = 0;
+  unbroken_ = true;
   if (!evidence_.looked_elsewhere) rivals_ = 0;
   health_ = {LocalizationState::Localized, ""};
 }
 
-void WallTracker::miss(const std::string& reason) {
+bool WallTracker::wheels_still_do() const {
+  const double middle = 0.5 * (covariance_(0, 0) + covariance_(1, 1));
+  const double larger = middle + std::hypot(0.5 * (covariance_(0, 0) - covariance_(1, 1)), covariance_(0, 1));
+  return unbroken_ && larger < options_.wheels_alone_m * options_.wheels_alone_m &&
+         covariance_(2, 2) < options_.wheels_alone_rad * options_.wheels_alone_rad;
+}
+
+/// A scan that teaches nothing. `loses`: after so many the place counts as unknown.
+void WallTracker::miss(const std::string& reason, bool loses) {
   last_fit_.reset();
   ++misses_;
-  if (misses_ >= options_.misses_to_lose)
+  if (loses && misses_ >= options_.misses_to_lose)
     lose(reason, std::nullopt);
   else if (misses_ >= options_.misses_to_degrade)
     health_ = {LocalizationState::Degraded, reason};

@@ -35,6 +35,10 @@ struct WallTrackerOptions {
   int sightings_to_start = 2;  ///< answers in a row that agree before the vehicle counts as localized
   int misses_to_degrade = 4;   ///< scans in a row that teach nothing
   int misses_to_lose = 12;
+  /// As long as each scan agrees with the one before, the wheels carry the vehicle past what is not drawn
+  /// until they may have erred by so much.
+  double wheels_alone_m = 0.3;
+  double wheels_alone_rad = 0.1;
   double doubt_fall = 0.10;     ///< of the explained share below the usual: other places are looked at
   double doubt_through = 0.10;  ///< rise of the share of beams through drawn walls: likewise
   double doubt_nats = 4.0;      ///< by which a pose within 2 m may fit better before: likewise
@@ -96,7 +100,8 @@ class WallTracker {
   [[nodiscard]] bool is_contradicted(const ScanPoints& points, const RegistrationResult& fit,
                                      bool has_changed);
   void correct(const RegistrationResult& fit, const OdometryStep& step);
-  void miss(const std::string& reason);
+  void miss(const std::string& reason, bool loses);
+  [[nodiscard]] bool wheels_still_do() const;
   void lose(const std::string& reason, std::optional<GlobalAnswer> answer);
 
   WallTrackerOptions options_;
@@ -108,6 +113,7 @@ class WallTracker {
   int agreeing_ = 0;
   bool tracking_ = false;
   int misses_ = 0;
+  bool unbroken_ = false;  ///< scan followed upon scan since the last that fitted
   int rivals_ = 0;
   int calm_ = 0;
   double usual_explained_ = 0.0;

@@ -194,6 +194,37 @@ TEST(WallTracker, WhatDrivesPastInFrontOfTheLidarIsNoCarry) {
   EXPECT_GT(hidden, 5U) << "it hid next to nothing: no test";
 }
 
+TEST(WallTracker, BetweenRacksThatAreNotDrawnTheWheelsCarryTheVehicleOn) {
+  const mapping::Walls drawn = test::laboratory_hall();
+  mapping::Walls real = drawn;
+  for (double x = 6.0; x < 11.5; x += 0.5) {  // boxes that stand askew on both sides of the way
+    test::add_wall(real, x, 0.1, x + 0.25, 0.6);
+    test::add_wall(real, x + 0.25, 0.6, x + 0.5, 0.1);
+    test::add_wall(real, x, 2.2, x + 0.25, 1.8);
+    test::add_wall(real, x + 0.25, 1.8, x + 0.5, 2.2);
+  }
+  const auto moments = drive(real, {{1.5, 1.2}, {16.0, 1.2}}, ten_hertz(), 7);
+  for (const bool by_wheels : {true, false}) {
+    WallTrackerOptions options;
+    if (!by_wheels) options.wheels_alone_m = 0.0;
+    WallTracker tracker(drawn, options);
+    int count = 0, lost = 0, degraded = 0;
+    std::string why;
+    for (const auto& moment : moments) {
+      const PoseEstimate e = take(tracker, moment);
+      if (++count <= 3) continue;
+      if (lost == 0) why = e.health.reason;
+      lost += e.health.state != LocalizationState::Localized && e.health.state != LocalizationState::Degraded;
+      degraded += e.health.state == LocalizationState::Degraded;
+      if (by_wheels) {
+        EXPECT_LT(off_m(e.map_from_base, moment.truth), 0.1);
+      }
+    }
+    EXPECT_GT(degraded, 0);
+    EXPECT_EQ(lost > 0, !by_wheels) << lost << why;
+  }
+}
+
 TEST(WallTracker, APlaceThatAPersonGivesIsCheckedByTheNextScan) {
   const mapping::Walls walls = test::laboratory_hall();
   const auto moments = drive(walls, {{1.5, 1.2}, {4.5, 1.2}}, ten_hertz(), 8);
