@@ -127,9 +127,14 @@ Result<Path> free_space_path(const Transform2<Map, Base>& start, const Transform
   space->setBounds(bounds_around(start, goal, options.room_m));
   og::SimpleSetup setup(space);
   std::uint64_t checks = 0;
+  const auto bounded = options.max_checks > 0
+                           ? ob::PlannerTerminationCondition([&] { return checks >= options.max_checks; })
+                           : ob::timedPlannerTerminationCondition(options.time_limit_s);
+  // Where the distance is not symmetric, RRT-Connect may extend a tree for ever without asking whether it
+  // shall end; once nothing is valid it ends.
   setup.setStateValidityChecker([&](const ob::State* state) {
     ++checks;
-    return space->satisfiesBounds(state) && is_free(pose_of(state), obstacles, walls, check);
+    return !bounded() && space->satisfiesBounds(state) && is_free(pose_of(state), obstacles, walls, check);
   });
   setup.getSpaceInformation()->setMotionValidator(
       std::make_shared<Motions>(setup.getSpaceInformation(), *space));
@@ -140,9 +145,6 @@ Result<Path> free_space_path(const Transform2<Map, Base>& start, const Transform
   set_state(to.get(), goal);
   setup.setStartAndGoalStates(from, to);
   setup.setPlanner(std::make_shared<og::RRTConnect>(setup.getSpaceInformation()));
-  const auto bounded = options.max_checks > 0
-                           ? ob::PlannerTerminationCondition([&] { return checks >= options.max_checks; })
-                           : ob::timedPlannerTerminationCondition(options.time_limit_s);
   if (setup.solve(bounded) != ob::PlannerStatus::EXACT_SOLUTION)
     return Result<Path>::failure("no free way was found within the time allowed");
   og::PathGeometric& found = setup.getSolutionPath();

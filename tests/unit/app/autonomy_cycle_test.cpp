@@ -233,7 +233,7 @@ TEST(AutonomyCycle, WhatStirsInOnePlaceBesideTheWayDoesNotHoldTheVehicleForEver)
     auto v = vehicle();
     if (for_ever) v->config.mover_stays_after_s = 1e6;
     v->lidar.posts.push_back({{6.0, 0.9}, 0.1, 1.0});
-    v->each_step = [&] { v->lidar.posts[0].at.y_m = 0.9 + 0.1 * std::sin(2.0 * kPi * v->time_s()); };
+    v->each_step = [&] { v->lidar.posts[0].at.y_m = 0.9 + 0.2 * std::sin(2.0 * kPi * v->time_s()); };
     v->drive_to({{2}});
     v->say(OperatorWord::Resume);
     EXPECT_TRUE(v->run_until([&] { return v->state().way.by_mover; }, 15.0));
