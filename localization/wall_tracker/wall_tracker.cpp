@@ -91,7 +91,10 @@ PoseEstimate WallTracker::on_scan(Stamp stamp, const ScanPoints& points) {
   if (stamp < anchor_stamp_ && !given_) return estimate(stamp);
   const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
   const Eigen::Matrix3d grown = carried(covariance_, anchor_, step);
-  unbroken_ = unbroken_ && stamp - anchor_stamp_ <= RecentView::kRecent;
+  if (stamp - anchor_stamp_ > RecentView::kRecent) {
+    unbroken_ = false;
+    settled_ = 0;
+  }
   evidence_ = {};
   view_.take(stamp, points);
   if (given_ || !tracking_) anchor_ = anchor_ * step.motion;
@@ -126,7 +129,7 @@ void WallTracker::lose(const std::string& reason, std::optional<GlobalAnswer> an
   tracking_ = false;
   given_.reset();
   answer_ = std::move(answer);
-  agreeing_ = misses_ = rivals_ = calm_ = 0;
+  agreeing_ = misses_ = rivals_ = calm_ = settled_ = 0;
   covariance_ = Eigen::Matrix3d::Identity() * 1e4;
   health_ = {LocalizationState::Lost, reason};
 }
@@ -158,7 +161,7 @@ void WallTracker::start_at(const RegistrationResult& fit) {
   anchor_ = fit.map_from_base;
   covariance_ = fit.covariance + Eigen::Matrix3d(Eigen::Vector3d(1e-3, 1e-3, 1e-4).asDiagonal());
   tracking_ = true;
-  misses_ = agreeing_ = rivals_ = calm_ = 0;
+  misses_ = agreeing_ = rivals_ = calm_ = settled_ = 0;
   unbroken_ = true;
   usual_explained_ = fit.inlier_fraction;
   usual_through_ = 0.0;
@@ -226,18 +229,21 @@ bool WallTracker::is_contradicted(const ScanPoints& points, const RegistrationRe
   GlobalAnswer here;
   here.hypotheses.push_back({fit, 0.0, 0.0, 1.0});
   GlobalAnswer all = global_.locate(points, here, {});
-  const double lead = lead_of_elsewhere(all, fit.map_from_base, options_.rival_nats);
+  if (has_changed) settled_ = 0;
+  const bool settled = settled_ >= options_.scans_to_settle;
+  const double enough = settled ? options_.settled_nats : options_.rival_nats;
+  const double lead = lead_of_elsewhere(all, fit.map_from_base, enough);
   if (has_changed && lead > -options_.twin_nats) {
     lose("what the lidar sees has changed, and another place looks alike: was the vehicle moved by hand?",
          std::nullopt);
     return true;
   }
-  if (lead < options_.rival_nats) {
+  if (lead < enough) {
     rivals_ = 0;
     calm_ = options_.calm_scans;
     return false;
   }
-  if (++rivals_ < options_.rivals_to_lose) return false;
+  if (++rivals_ < (settled ? options_.settled_rivals : options_.rivals_to_lose)) return false;
   lose("another place on the drawing fits better: was the vehicle moved by hand?", std::move(all));
   anchor_ = fit.map_from_base;
   return true;
@@ -266,6 +272,7 @@ void WallTracker::correct(const RegistrationResult& fit, const OdometryStep& ste
   usual_through_ += kUsual * (evidence_.through_walls - usual_through_);
   misses_ = 0;
   unbroken_ = true;
+  ++settled_;
   if (!evidence_.looked_elsewhere) rivals_ = 0;
   health_ = {LocalizationState::Localized, ""};
 }

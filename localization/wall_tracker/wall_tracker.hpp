@@ -44,7 +44,12 @@ struct WallTrackerOptions {
   double doubt_nats = 4.0;      ///< by which a pose within 2 m may fit better before: likewise
   double rival_nats = 5.0;      ///< by which another place must fit better to contradict the pose
   int rivals_to_lose = 2;       ///< contradictions in a row
-  int calm_scans = 2;           ///< after the other places were looked at in vain
+  /// After so many scans that fitted, with no sign that the vehicle was carried, more is needed: among racks
+  /// another place may fit by chance as long as the vehicle stands there.
+  int scans_to_settle = 50;
+  double settled_nats = 15.0;
+  int settled_rivals = 10;
+  int calm_scans = 2;  ///< after the other places were looked at in vain
   /// What two scans in a row both see falls by so much below the usual where the later one was taken
   /// elsewhere: neither driving nor what moves about changes a quarter of the walls in a tenth of a second.
   double carried_fall = 0.25;
@@ -115,6 +120,7 @@ class WallTracker {
   int misses_ = 0;
   bool unbroken_ = false;  ///< scan followed upon scan since the last that fitted
   int rivals_ = 0;
+  int settled_ = 0;  ///< scans that fitted since the vehicle may last have been carried
   int calm_ = 0;
   double usual_explained_ = 0.0;
   double usual_through_ = 0.0;
