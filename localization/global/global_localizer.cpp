@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "localization/global/circular_match.hpp"
+#include "localization/health/reasons.hpp"
 #include "localization/particle_filter/beam_path.hpp"
 #include "localization/particle_filter/sensor_kernel.hpp"
 
@@ -238,7 +239,7 @@ GlobalAnswer GlobalLocalizer::answer(std::vector<Hypothesis> hypotheses) const {
   answer.hypotheses = std::move(hypotheses);
   auto& all = answer.hypotheses;
   if (all.empty()) {
-    answer.reason = "the scan has no points, or the map no places";
+    answer.reason = reason::kNothingToSearch.english;
     return answer;
   }
   std::sort(all.begin(), all.end(),
@@ -249,18 +250,18 @@ GlobalAnswer GlobalLocalizer::answer(std::vector<Hypothesis> hypotheses) const {
   const Hypothesis& best = all.front();
   const double lead = all.size() > 1 ? best.log_likelihood - all[1].log_likelihood : options_.clear_nats;
   if (best.fit.inlier_fraction < options_.least_explained) {
-    answer.reason = "no place on the drawing explains the scan";
+    answer.reason = reason::kNoPlace.english;
   } else if (best.through_walls > options_.most_through) {
-    answer.reason = "the best place would have the lidar look through drawn walls";
+    answer.reason = reason::kThroughWalls.english;
   } else if (best.probability < options_.certain) {
     answer.state = GlobalState::Ambiguous;
-    answer.reason = "two places look alike";
+    answer.reason = reason::kTwoAlike.english;
   } else if (best.fit.inlier_fraction < options_.well_explained && lead < options_.clear_nats) {
     answer.state = GlobalState::Ambiguous;
-    answer.reason = "much of what is seen is not drawn, and no place stands out";
+    answer.reason = reason::kMuchUndrawn.english;
   } else if (best.through_walls > options_.doubtful_through) {
     answer.state = GlobalState::Ambiguous;
-    answer.reason = "the likeliest place would have the lidar look through some drawn walls";
+    answer.reason = reason::kThroughSomeWalls.english;
   } else {
     answer.state = GlobalState::Found;
   }

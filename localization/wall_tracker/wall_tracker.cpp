@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "localization/health/reasons.hpp"
 #include "localization/particle_filter/beam_path.hpp"
 
 namespace madori::localization {
@@ -118,11 +119,11 @@ void WallTracker::set_pose(const Pose& map_from_base, const PoseSigma& sigma) {
   since_scan_ = {};
   const double m2 = sigma.position_m * sigma.position_m;
   covariance_ = Eigen::Vector3d(m2, m2, sigma.yaw_rad * sigma.yaw_rad).asDiagonal();
-  health_.reason = "comparing what is seen with the place that was given";
+  health_.reason = reason::kComparing.english;
 }
 
 void WallTracker::search_anew() {
-  lose("looking for the place on the drawing", std::nullopt);
+  lose(reason::kSearching.english, std::nullopt);
 }
 
 void WallTracker::lose(const std::string& reason, std::optional<GlobalAnswer> answer) {
@@ -139,7 +140,7 @@ void WallTracker::check_given(const ScanPoints& points) {
   given_.reset();
   if (answer.state == GlobalState::Found) return start_at(answer.hypotheses.front().fit);
   health_ = {answer.state == GlobalState::Ambiguous ? LocalizationState::Ambiguous : LocalizationState::Lost,
-             "what is seen does not fit the place that was given: " + answer.reason};
+             reason::kGivenRefuted.english + answer.reason};
   answer_ = std::move(answer);
 }
 
@@ -152,7 +153,7 @@ void WallTracker::search(const ScanPoints& points, const Transform2<Base, Base>&
                                     answer_->hypotheses.front().fit.map_from_base * moved);
   agreeing_ = found ? (agrees ? agreeing_ + 1 : 1) : 0;
   health_ = {answer.state == GlobalState::Ambiguous ? LocalizationState::Ambiguous : LocalizationState::Lost,
-             found ? "found, looking once more" : answer.reason};
+             found ? reason::kOnceMore.english : answer.reason};
   if (agreeing_ >= options_.sightings_to_start) return start_at(answer.hypotheses.front().fit);
   answer_ = std::move(answer);
 }
@@ -176,7 +177,7 @@ void WallTracker::track(const ScanPoints& points, const OdometryStep& step) {
   const Pose before = anchor_;
   const Pose predicted = before * step.motion;
   anchor_ = predicted;
-  if (points.size() < kFewest) return miss("the lidar sees next to nothing", true);
+  if (points.size() < kFewest) return miss(reason::kSeesNothing.english, true);
   const RegistrationResult fit = segment_icp(points, global_.grid(), predicted, options_.icp);
   evidence_.explained = fit.inlier_fraction;
   evidence_.through_walls = share_through_walls(points, global_.distance_field(), fit.map_from_base);
@@ -186,18 +187,16 @@ void WallTracker::track(const ScanPoints& points, const OdometryStep& step) {
   const bool far_off = evidence_.correction_m > options_.most_correction_m ||
                        evidence_.correction_rad > options_.most_correction_rad;
   const double fall = fall_of_view(step.motion, far_off ? step.motion : before.inverse() * fit.map_from_base);
-  if (fall > options_.carried_fall)
-    return lose("all at once the lidar sees other surroundings: was the vehicle moved by hand?",
-                std::nullopt);
+  if (fall > options_.carried_fall) return lose(reason::kOtherSurroundings.english, std::nullopt);
   const bool has_changed = fall > std::max(options_.changed_fall, options_.changed_spreads * view_.spread());
   calm_ = std::max(0, calm_ - 1);
   if (has_changed || ((is_doubtful() || far_off) && calm_ == 0)) {
     if (is_contradicted(points, fit, has_changed)) return;
   }
   if (fit.inlier_fraction < options_.sure_inliers)
-    miss("too little of what is seen is drawn", !wheels_still_do());
+    miss(reason::kLittleDrawn.english, !wheels_still_do());
   else if (far_off)
-    miss("walls and wheels do not agree", true);
+    miss(reason::kWallsAndWheels.english, true);
   else
     correct(fit, step);
 }
@@ -234,8 +233,7 @@ bool WallTracker::is_contradicted(const ScanPoints& points, const RegistrationRe
   const double enough = settled ? options_.settled_nats : options_.rival_nats;
   const double lead = lead_of_elsewhere(all, fit.map_from_base, enough);
   if (has_changed && lead > -options_.twin_nats) {
-    lose("what the lidar sees has changed, and another place looks alike: was the vehicle moved by hand?",
-         std::nullopt);
+    lose(reason::kChangedAndAlike.english, std::nullopt);
     return true;
   }
   if (lead < enough) {
@@ -244,7 +242,7 @@ bool WallTracker::is_contradicted(const ScanPoints& points, const RegistrationRe
     return false;
   }
   if (++rivals_ < (settled ? options_.settled_rivals : options_.rivals_to_lose)) return false;
-  lose("another place on the drawing fits better: was the vehicle moved by hand?", std::move(all));
+  lose(reason::kMovedByHand.english, std::move(all));
   anchor_ = fit.map_from_base;
   return true;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/segment_distance.hpp"
+#include "planning/route_graph/finding_texts.hpp"
 #include "planning/route_graph/route_search.hpp"
 
 namespace madori::planning {
@@ -13,14 +14,20 @@ namespace {
 
 constexpr double kSameSpotM = 0.05;
 
-std::string leg_name(const RouteGraph& graph, const RouteLeg& leg) {
-  return "leg " + std::to_string(graph.nodes()[leg.from].id) + " -> " +
-         std::to_string(graph.nodes()[leg.to].id);
+std::string id_of(const RouteGraph& graph, std::size_t node) {
+  return std::to_string(graph.nodes()[node].id);
+}
+
+/// The values that name a leg, and more.
+std::map<std::string, std::string> of_leg(const RouteGraph& graph, const RouteLeg& leg,
+                                          std::map<std::string, std::string> more = {}) {
+  more.insert({{"from", id_of(graph, leg.from)}, {"to", id_of(graph, leg.to)}});
+  return more;
 }
 
 std::string metres(double value_m) {
   std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.2f m", value_m);
+  std::snprintf(buffer.data(), buffer.size(), "%.2f", value_m);
   return buffer.data();
 }
 
@@ -38,12 +45,11 @@ void check_walls(const RouteGraph& graph, const std::vector<Segment2<Map>>& wall
     for (const auto& wall : walls) nearest_m = std::min(nearest_m, distance_m(way, wall));
     if (nearest_m == 0.0)
       findings.push_back(
-          {Severity::Error, options.tree_file, leg.line,
-           leg_name(graph, leg) + " goes through a drawn wall - move a node or erase the wall"});
+          finding(Fault::ThroughWall, Severity::Error, options.tree_file, leg.line, of_leg(graph, leg)));
     else if (nearest_m < options.half_width_m)
-      findings.push_back({Severity::Warning, options.tree_file, leg.line,
-                          leg_name(graph, leg) + " passes a drawn wall at " + metres(nearest_m) +
-                              ", less than half the vehicle's width of " + metres(options.half_width_m)});
+      findings.push_back(finding(
+          Fault::NarrowAtWall, Severity::Warning, options.tree_file, leg.line,
+          of_leg(graph, leg, {{"distance", metres(nearest_m)}, {"half", metres(options.half_width_m)}})));
   }
 }
 
@@ -57,10 +63,8 @@ void check_reachability(const RouteGraph& graph, const RouteCheckOptions& option
   for (const std::size_t station : graph.stations()) {
     if (component[station] == largest) continue;
     const RouteNode& node = graph.nodes()[station];
-    const std::string name = "node " + std::to_string(node.id);
-    findings.push_back({Severity::Error, options.path_file, node.line,
-                        reached[station] ? "from " + name + " no way leads back to the other nodes"
-                                         : name + " cannot be reached from the other nodes"});
+    findings.push_back(finding(reached[station] ? Fault::NoWayBack : Fault::OutOfReach, Severity::Error,
+                               options.path_file, node.line, {{"node", id_of(graph, station)}}));
   }
 }
 
@@ -68,8 +72,9 @@ void check_spots(const RouteGraph& graph, const RouteCheckOptions& options,
                  std::vector<RouteFinding>& findings) {
   for (const RouteLeg& leg : graph.legs())
     if (leg.length_m < kSameSpotM && !is_second_direction(graph, leg))
-      findings.push_back({Severity::Warning, options.path_file, graph.nodes()[leg.to].line,
-                          leg_name(graph, leg) + " is only " + metres(leg.length_m) + " long"});
+      findings.push_back(finding(Fault::ShortLeg, Severity::Warning, options.path_file,
+                                 graph.nodes()[leg.to].line,
+                                 of_leg(graph, leg, {{"length", metres(leg.length_m)}})));
 }
 
 }  // namespace
@@ -77,10 +82,7 @@ void check_spots(const RouteGraph& graph, const RouteCheckOptions& options,
 std::vector<RouteFinding> one_way_warnings(const RouteGraph& graph, const std::string& tree_file) {
   std::vector<RouteFinding> findings;
   for (const RouteLeg& leg : graph.one_way_legs())
-    findings.push_back({Severity::Warning, tree_file, leg.line,
-                        leg_name(graph, leg) + " is one-way: node " +
-                            std::to_string(graph.nodes()[leg.to].id) + " does not list node " +
-                            std::to_string(graph.nodes()[leg.from].id)});
+    findings.push_back(finding(Fault::OneWay, Severity::Warning, tree_file, leg.line, of_leg(graph, leg)));
   return findings;
 }
 

@@ -11,6 +11,7 @@
 #include "core/angle.hpp"
 #include "core/result.hpp"
 #include "planning/route_graph/csv_rows.hpp"
+#include "planning/route_graph/finding_texts.hpp"
 
 namespace madori::planning {
 namespace {
@@ -22,11 +23,12 @@ class Findings {
  public:
   Findings(std::string file, std::vector<RouteFinding>& findings)
       : file_(std::move(file)), findings_(findings) {}
-  void error(int line, std::string message) {
-    findings_.push_back({Severity::Error, file_, line, std::move(message)});
+  using Values = std::map<std::string, std::string>;
+  void error(int line, Fault fault, Values values = {}) {
+    findings_.push_back(finding(fault, Severity::Error, file_, line, std::move(values)));
   }
-  void warning(int line, std::string message) {
-    findings_.push_back({Severity::Warning, file_, line, std::move(message)});
+  void warning(int line, Fault fault, Values values = {}) {
+    findings_.push_back(finding(fault, Severity::Warning, file_, line, std::move(values)));
   }
 
  private:
@@ -44,14 +46,11 @@ std::map<std::string, std::size_t> take_header(std::vector<CsvRow>& rows, Findin
   const CsvRow& header = rows.front();
   for (std::size_t i = 0; i < header.fields.size(); ++i) {
     if (!known.contains(header.fields[i]))
-      findings.error(header.line,
-                     "column \"" + header.fields[i] +
-                         "\" is not known - use ID, x, y, name, station, heading_deg, speed_mps, action");
+      findings.error(header.line, Fault::UnknownColumn, {{"column", header.fields[i]}});
     columns.emplace(header.fields[i], i);
   }
   for (const char* needed : {"ID", "x", "y"})
-    if (!columns.contains(needed))
-      findings.error(header.line, std::string("column ") + needed + " is missing");
+    if (!columns.contains(needed)) findings.error(header.line, Fault::MissingColumn, {{"column", needed}});
   rows.erase(rows.begin());
   return columns;
 }
@@ -69,16 +68,20 @@ class NodeRow {
   std::optional<double> number(const std::string& column, double low, double high) {
     const auto value = csv_number(text(column));
     if (value && *value >= low && *value <= high) return value;
-    std::ostringstream message;
-    message << column << " \"" << text(column) << "\" must be a number from " << low << " to " << high;
-    fail(message.str());
+    const auto shown = [](double limit) {
+      std::ostringstream digits;
+      digits << limit;
+      return digits.str();
+    };
+    fail(Fault::NumberOutOfRange,
+         {{"column", column}, {"text", text(column)}, {"low", shown(low)}, {"high", shown(high)}});
     return std::nullopt;
   }
   std::optional<double> optional_number(const std::string& column, double low, double high) {
     return text(column).empty() ? std::nullopt : number(column, low, high);
   }
-  void fail(const std::string& message) {
-    findings_.error(row_.line, message);
+  void fail(Fault fault, Findings::Values values) {
+    findings_.error(row_.line, fault, std::move(values));
     good_ = false;
   }
   [[nodiscard]] bool good() const { return good_; }
@@ -95,7 +98,7 @@ NodeAction read_action(NodeRow& row) {
   if (text.empty()) return NodeAction::None;
   for (const auto& [name, action] : kNodeActions)
     if (text == name) return action;
-  row.fail("action \"" + text + "\" is not known - use load, unload, door or lift");
+  row.fail(Fault::UnknownAction, {{"text", text}});
   return NodeAction::None;
 }
 
@@ -103,7 +106,7 @@ bool read_station(NodeRow& row) {
   const std::string text = row.text("station");
   if (text == "1" || text == "yes" || text == "true") return true;
   if (!text.empty() && text != "0" && text != "no" && text != "false")
-    row.fail("station \"" + text + "\" must be 1 or 0");
+    row.fail(Fault::BadStation, {{"text", text}});
   return false;
 }
 
@@ -112,7 +115,7 @@ std::optional<RouteNode> read_node(const CsvRow& csv, const std::map<std::string
   NodeRow row(csv, columns, findings);
   RouteNode node;
   const auto id = csv_integer(row.text("ID"));
-  if (!id || *id < 0) row.fail("ID \"" + row.text("ID") + "\" must be a whole number from 0");
+  if (!id || *id < 0) row.fail(Fault::BadId, {{"text", row.text("ID")}});
   node.id = id.value_or(0);
   node.position.x_m = row.number("x", -kFarthestM, kFarthestM).value_or(0.0);
   node.position.y_m = row.number("y", -kFarthestM, kFarthestM).value_or(0.0);
@@ -139,10 +142,10 @@ std::vector<RouteNode> read_nodes(std::string_view text, Findings findings) {
     if (fresh)
       nodes.push_back(std::move(*node));
     else
-      findings.error(row.line, "ID " + std::to_string(node->id) + " stands already on line " +
-                                   std::to_string(first->second) + " - give one of them another ID");
+      findings.error(row.line, Fault::RepeatedId,
+                     {{"node", std::to_string(node->id)}, {"earlier", std::to_string(first->second)}});
   }
-  if (nodes.empty()) findings.error(0, "holds no node");
+  if (nodes.empty()) findings.error(0, Fault::NoNode);
   return nodes;
 }
 
@@ -153,24 +156,21 @@ void read_neighbours(const CsvRow& row, const std::map<int, std::size_t>& index,
     const auto id = csv_integer(text);
     const auto found = id ? index.find(*id) : index.end();
     if (found != index.end()) return found->second;
-    findings.error(row.line,
-                   id ? "node " + text + " is not in path.csv - add its position there or remove it here"
-                      : "\"" + text + "\" is no node ID - separate neighbours by spaces");
+    findings.error(row.line, id ? Fault::UnknownNeighbour : Fault::BadNeighbour, {{"text", text}});
     return std::nullopt;
   };
   const auto from = node_of(row.fields.front());
   if (!from) return;
-  if (row.fields.size() > 2)
-    findings.error(row.line, "has more than two columns - separate neighbours by spaces");
+  if (row.fields.size() > 2) findings.error(row.line, Fault::TooManyColumns);
   std::istringstream neighbours(row.fields.size() > 1 ? row.fields[1] : "");
   std::set<std::size_t> seen;
   for (std::string word; neighbours >> word;) {
     const auto to = node_of(word);
     if (!to) continue;
     if (*to == *from)
-      findings.warning(row.line, "node " + word + " is its own neighbour - left out");
+      findings.warning(row.line, Fault::OwnNeighbour, {{"node", word}});
     else if (!seen.insert(*to).second)
-      findings.warning(row.line, "neighbour " + word + " stands twice - counted once");
+      findings.warning(row.line, Fault::RepeatedNeighbour, {{"node", word}});
     else
       legs.push_back({*from, *to, 0.0, row.line});
   }
@@ -189,8 +189,8 @@ std::vector<RouteLeg> read_legs(std::string_view text, const std::vector<RouteNo
     if (id) {
       const auto [earlier, fresh] = line_of.emplace(*id, row.line);
       if (!fresh) {
-        findings.error(row.line, "node " + std::to_string(*id) + " stands already on line " +
-                                     std::to_string(earlier->second) + " - join the two lines");
+        findings.error(row.line, Fault::RepeatedRow,
+                       {{"node", std::to_string(*id)}, {"earlier", std::to_string(earlier->second)}});
         continue;
       }
     }

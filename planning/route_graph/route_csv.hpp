@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,10 @@ enum class Severity { Warning, Error };
 struct RouteFinding {
   Severity severity = Severity::Error;
   std::string file;
-  int line = 0;  ///< 0 where it concerns the whole file
-  std::string message;
+  int line = 0;         ///< 0 where it concerns the whole file
+  std::string message;  ///< in English
+  std::string code;     ///< of finding_texts.hpp: what the panel's catalogues know it by
+  std::map<std::string, std::string> values;
 
   /// "routes/tree.csv:3: message"
   [[nodiscard]] std::string text() const;

@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
+#include "localization/health/reasons.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -85,6 +90,18 @@ TEST(Health, SearchingIsLost) {
   HealthEvidence e = sound();
   e.searching = true;
   EXPECT_EQ(judge(e).state, LocalizationState::Lost);
+}
+
+TEST(Reasons, EveryOneHasACodeOfItsOwnAndIsFoundByItsWords) {
+  std::set<std::string> codes;
+  for (const Reason& known : kReasons) {
+    EXPECT_TRUE(codes.insert(known.code).second) << known.code;
+    EXPECT_EQ(reason_codes(known.english), known.code);
+  }
+  EXPECT_EQ(reason_codes(std::string(reason::kGivenRefuted.english) + reason::kTwoAlike.english),
+            "given-refuted+two-alike");
+  EXPECT_EQ(reason_codes(std::string(reason::kGivenRefuted.english) + "something else"), "");
+  EXPECT_EQ(reason_codes("something else"), "");
 }
 
 }  // namespace

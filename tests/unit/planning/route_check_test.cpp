@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "core/segment_distance.hpp"
+#include "planning/route_graph/finding_texts.hpp"
 #include "tests/support/published_routes.hpp"
 
 namespace madori::planning {
@@ -60,6 +64,31 @@ TEST(SegmentDistance, CrossingTouchingAndApart) {
   EXPECT_EQ(distance_m(base, Segment2<Map>{{2, 0}, {2, 1}}), 0.0);
   EXPECT_DOUBLE_EQ(distance_m(base, Segment2<Map>{{5, 0}, {9, 0}}), 1.0);
   EXPECT_DOUBLE_EQ(distance_m(base, Segment2<Map>{{1, 3}, {2, 2}}), 2.0);
+}
+
+TEST(FindingTexts, EveryCodeIsThereOnceAndEveryPlaceholderIsFilled) {
+  const auto broken = parse_routes("ID,EDA\n0,1 1 0 9 x\n1,0\n1,0\n3,1,4\n",
+                                   "ID,x,y,name,colour\n0,0,0,A,1\n0,1,1\n1,9,9\n2,a,1\n3,1,1\n-4,1,1\n");
+  auto findings = broken.findings;
+  const auto graph =
+      parse_routes("ID,EDA\n0,1\n1,0 2\n2,\n3,\n", "ID,x,y,station\n0,0,0,1\n1,4,0,1\n2,4.01,0,1\n3,9,9,1\n")
+          .graph;
+  for (const auto& finding :
+       check_routes(graph, {{{2, -1}, {2, 1}}, {{-1, 0.2}, {0.5, 0.2}}}, {.half_width_m = 0.3}))
+    findings.push_back(finding);
+  std::set<std::string> codes;
+  for (const auto& finding : findings) {
+    codes.insert(finding.code);
+    EXPECT_EQ(finding.message.find('{'), std::string::npos) << finding.message;
+    for (const auto& [name, value] : finding.values) EXPECT_THAT(finding.message, HasSubstr(value)) << name;
+  }
+  EXPECT_THAT(codes, testing::IsSupersetOf({"unknown-column", "repeated-id", "number-out-of-range", "bad-id",
+                                            "repeated-neighbour", "own-neighbour", "unknown-neighbour",
+                                            "bad-neighbour", "repeated-row", "too-many-columns",
+                                            "through-wall", "one-way", "short-leg"}));
+  std::set<std::string> known;
+  for (const auto& text : kFindingTexts) EXPECT_TRUE(known.insert(text.code).second) << text.code;
+  EXPECT_TRUE(std::ranges::includes(known, codes));
 }
 
 }  // namespace
