@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
+#include <string>
 
 #include "core/result.hpp"
 
@@ -26,7 +27,10 @@ OccupancyMap make_occupancy_map(const Walls& walls, double width_m, double heigh
   const double columns = std::ceil(width_m / cell_m);
   const double rows = std::ceil(height_m / cell_m);
   if (columns * rows > kMostCells)
-    throw Error("--cell", "gives a map of more than 100 million cells", "choose larger cells");
+    throw Error("a map of " + std::to_string(std::lround(width_m)) + " m x " +
+                    std::to_string(std::lround(height_m)) + " m",
+                "would have more than 100 million cells",
+                "check the scale; where it is right, import the drawing anew with larger cells");
   cv::Mat grid(static_cast<int>(rows), static_cast<int>(columns), CV_8UC1, cv::Scalar(254));
   for (const auto& wall : walls)
     cv::line(grid, to_cell(wall.segment.a, cell_m, grid.rows), to_cell(wall.segment.b, cell_m, grid.rows),

@@ -4,8 +4,10 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "core/result.hpp"
 
@@ -23,6 +25,17 @@ void sample(const Segment2<Map>& wall, double spacing_m, Cloud& cloud) {
   }
 }
 
+/// Walls of a mistaken scale are hundreds of kilometres long: they must not take the computer's memory.
+void check_length(const Walls& walls, double spacing_m) {
+  constexpr double kMostPoints = 20e6;
+  double length_m = 0.0;
+  for (const auto& wall : walls) length_m += wall.segment.length_m();
+  if (!(length_m / spacing_m < kMostPoints))
+    throw Error("walls of " + std::to_string(std::llround(std::min(length_m, 1e15))) + " m in all",
+                "are too long for points " + std::to_string(spacing_m) + " m apart",
+                "check the scale; where it is right, import the drawing anew with a wider point spacing");
+}
+
 /// PCL numbers voxels in 32 bits and would silently pass everything through beyond that.
 void check_voxels(const Cloud& cloud, double voxel_m) {
   float low_x = std::numeric_limits<float>::max(), low_y = low_x, high_x = -low_x, high_y = -low_x;
@@ -32,12 +45,14 @@ void check_voxels(const Cloud& cloud, double voxel_m) {
   }
   const double voxels = ((high_x - low_x) / voxel_m + 1.0) * ((high_y - low_y) / voxel_m + 1.0);
   if (voxels > std::numeric_limits<std::int32_t>::max())
-    throw Error("--voxel", "is too fine for a drawing of this size", "choose a larger voxel");
+    throw Error("the voxel grid", "is too fine for a drawing of this size",
+                "check the scale; where it is right, import the drawing anew with larger voxels");
 }
 
 }  // namespace
 
 PointMap make_point_map(const Walls& walls, double spacing_m, double voxel_m) {
+  check_length(walls, spacing_m);
   const Cloud::Ptr cloud(new Cloud);
   for (const auto& wall : walls) sample(wall.segment, spacing_m, *cloud);
   PointMap map;

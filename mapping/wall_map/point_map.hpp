@@ -15,7 +15,8 @@ struct PointMap {
 };
 
 /// Samples every wall at equal steps, both ends included, and thins the samples with pcl::VoxelGrid. A voxel
-/// too fine for PCL's 32-bit indices is refused with an Error. Lengths in the walls' own unit.
+/// too fine for PCL's 32-bit indices, and walls that make over 20 million samples, are refused with an Error.
+/// Lengths in the walls' own unit.
 [[nodiscard]] PointMap make_point_map(const Walls& walls, double spacing_m, double voxel_m);
 
 /// walls.pcd: binary, x y z float, z = 0. Throws Error when it cannot be written.

@@ -41,6 +41,11 @@ TEST(PointMap, RefusesAVoxelThatPclCannotCount) {
   EXPECT_THROW((void)make_point_map(far, 1000.0, 0.001), Error);
 }
 
+TEST(PointMap, WallsOfAMistakenScaleAreRefusedBeforeTheyTakeTheMemory) {
+  const Walls huge{{1, {{0.0, 0.0}, {12e6, 0.0}}}};  // a point pair whose longitude was mistyped
+  EXPECT_THROW((void)make_point_map(huge, 0.02, 0.05), Error);
+}
+
 TEST(PointMap, WritesAPcdWithEveryPoint) {
   const test::TemporaryFolder folder;
   const PointMap map = make_point_map(kSquare, 0.02, 0.05);
