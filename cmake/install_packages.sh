@@ -32,6 +32,8 @@ missing=$(missing_of "$(section build)")
 if ! command -v npm >/dev/null || ! command -v node >/dev/null; then
   install "$(section panel | tr '\n' ' ')" || echo "madori: no Node.js, so the touch panel's page is not built" >&2
 fi
+missing=$(missing_of "$(section camera)")
+[ -z "${missing// /}" ] || install "$missing" || echo "madori: not installed: $missing- no camera picture on the panel" >&2
 if [ "${1:-}" = --tests ]; then
   missing=$(missing_of "$(section tests)")
   [ -z "${missing// /}" ] || install "$missing" || echo "madori: not installed: $missing- tests that need it are skipped" >&2

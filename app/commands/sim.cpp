@@ -10,6 +10,8 @@
 
 #include "app/commands.hpp"
 #include "app/json_output.hpp"
+#include "app/simulated/camera_stream.hpp"
+#include "app/simulated/jpeg.hpp"
 #include "app/trajectory_file.hpp"
 #include "core/result.hpp"
 #include "simulation/devices/live_run.hpp"
@@ -24,6 +26,7 @@ struct SimArguments {
   simulation::LiveOptions live;
   simulation::DeviceHubOptions hub;
   std::uint16_t truth_port = 0;
+  std::optional<std::uint16_t> camera_port;
   std::optional<std::uint64_t> seed;
 };
 
@@ -108,12 +111,17 @@ void simulate(SimArguments arguments) {
     if (!tum) throw Error(arguments.truth_file, "cannot be written", "check the path and its permissions");
     tum << "# timestamp x y z qx qy qz qw, Map frame\n";
   }
+  std::optional<CameraStream> camera;
+  if (arguments.camera_port)
+    camera.emplace(*arguments.camera_port, [&factory] { return to_jpeg(simulation::take_picture(factory)); });
+  if (camera) std::printf("camera http %s\n", camera->url().c_str());
   print_devices(factory, hub, arguments, truth.port());
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   const auto report =
       run_live(factory, hub, truth, arguments.live, stop_requested, [&](const simulation::GroundTruth& t) {
         if (tum.is_open()) tum << tum_line(t.stamp, t.map_from_base);
+        if (camera) camera->poll();
       });
   const nlohmann::json result = summary(factory, report, hub.counters());
   if (arguments.json_file != "-") print_summary(result);
@@ -135,6 +143,8 @@ void add_sim(CLI::App& app) {
       ->check(CLI::Range(0.0, 1e7));
   sim->add_option("--truth", arguments->truth_file, "write the ground truth as TUM");
   sim->add_option("--truth-port", arguments->truth_port, "WebSocket port of the ground truth (0: any)");
+  sim->add_option("--camera-port", arguments->camera_port,
+                  "serve a camera at the vehicle's front as Motion JPEG on this port (0: any)");
   sim->add_option("--lidar-port", arguments->hub.vlp16_port, "UDP port that the VLP-16 sends to")
       ->check(CLI::Range(1, 65535));
   sim->add_option("--lms-port", arguments->hub.lms_port, "TCP port of the LMS1xx (0: any)");

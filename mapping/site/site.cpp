@@ -132,6 +132,7 @@ Site read_site_file(const std::filesystem::path& file) {
   if (yaml.has("georeference")) site.georeference = read_georeference(yaml.section("georeference"));
   if (yaml.has("vehicle")) site.vehicle = read_vehicle(yaml.section("vehicle"));
   for (StrictYaml& sensor : yaml.list("sensors")) site.sensors.push_back(read_sensor(sensor));
+  site.camera = yaml.text_or("camera", "");
   yaml.refuse_unknown_keys();
   return site;
 }
@@ -171,6 +172,7 @@ std::string site_yaml(const Site& site) {
     for (const SensorRecord& sensor : site.sensors) emit_sensor(out, sensor);
     out << YAML::EndSeq;
   }
+  if (!site.camera.empty()) out << YAML::Key << "camera" << YAML::Value << site.camera;
   out << YAML::EndMap;
   return std::string(out.c_str()) + "\n";
 }

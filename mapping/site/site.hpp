@@ -65,6 +65,9 @@ struct Site {
   std::optional<GeoreferenceRecord> georeference;
   VehicleRecord vehicle;
   std::vector<SensorRecord> sensors;
+  /// Where the verification camera's pictures come from: a URL (http, rtsp) or a device such as /dev/video0;
+  /// empty: there is no camera.
+  std::string camera;
 };
 
 /// Reads and checks `folder`/site.yaml; throws Error with file, line and mend.
