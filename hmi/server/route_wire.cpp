@@ -93,7 +93,9 @@ json routes_to_wire(const planning::RouteGraph& graph, const std::vector<plannin
     list.push_back({{"severity", f.severity == planning::Severity::Error ? "error" : "warning"},
                     {"file", f.file},
                     {"line", f.line},
-                    {"message", f.message}});
+                    {"message", f.message},
+                    {"code", f.code},
+                    {"values", f.values}});
   return {{"revision", revision}, {"nodes", nodes}, {"legs", legs}, {"findings", list}};
 }
 

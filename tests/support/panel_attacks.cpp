@@ -68,6 +68,10 @@ std::string head(unsigned short port, const std::string& request_line, const std
   return request_line + " HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" + host + "\r\n" + more + "\r\n";
 }
 
+std::string session_of(const std::string& cookie) {
+  return cookie.empty() ? std::string() : "Cookie: madori_session=" + cookie + "\r\n";
+}
+
 /// A client's frame: first byte, payload, masked with zeros.
 std::string masked(char first, const std::string& payload) {
   std::string frame{first};
@@ -106,10 +110,12 @@ std::size_t NeglectedSockets::open() const {
       std::ranges::count_if(impl_->sockets, [](const Socket& s) { return !s.closed(); }));
 }
 
-UploadOutcome upload_for_ever(unsigned short port, std::size_t bytes, bool chunked) {
+UploadOutcome upload_for_ever(unsigned short port, std::size_t bytes, bool chunked,
+                              const std::string& cookie) {
   const Socket socket(port);
   const std::string how =
-      chunked ? "Transfer-Encoding: chunked\r\n" : "Content-Length: " + std::to_string(bytes) + "\r\n";
+      session_of(cookie) +
+      (chunked ? "Transfer-Encoding: chunked\r\n" : "Content-Length: " + std::to_string(bytes) + "\r\n");
   UploadOutcome outcome;
   (void)socket.send(head(port, "POST /api/site/drawing?name=hall.png", how));
   const std::string part(1U << 16U, 'x');
@@ -124,11 +130,12 @@ UploadOutcome upload_for_ever(unsigned short port, std::size_t bytes, bool chunk
   return outcome;
 }
 
-bool closes_on_frames(unsigned short port, const std::string& bytes) {
+bool closes_on_frames(unsigned short port, const std::string& bytes, const std::string& cookie) {
   const Socket socket(port);
   (void)socket.send(head(port, "GET /api/live",
-                         "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"));
+                         session_of(cookie) +
+                             "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                             "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"));
   if (!socket.receive(kPatience_ms).starts_with("HTTP/1.1 101")) return false;
   (void)socket.send(bytes);
   for (int i = 0; i < 1000; ++i)  // what the server sends meanwhile is live state
@@ -150,6 +157,17 @@ std::vector<std::string> bad_frames() {
       endless,
       std::string(3000, '\xFF'),
   };
+}
+
+std::vector<std::string> bad_orders() {
+  return {"",
+          "{",
+          "null",
+          "[]",
+          "{\"stations\":[1e999]}",
+          "{\"stations\":[1],\"repeat\":99999999999999999999}",
+          "\xff\xfe",
+          std::string(100'000, '[')};
 }
 
 std::vector<std::string> climbing_paths() {

@@ -31,15 +31,20 @@ struct UploadOutcome {
   std::size_t sent_bytes = 0;
   std::string answer;  ///< first line
 };
-/// POSTs `bytes` of a drawing, announced or chunked, until the server answers or closes.
-[[nodiscard]] UploadOutcome upload_for_ever(unsigned short port, std::size_t bytes, bool chunked);
+/// POSTs `bytes` of a drawing, announced or chunked, until the server answers or closes. `cookie`: a session.
+[[nodiscard]] UploadOutcome upload_for_ever(unsigned short port, std::size_t bytes, bool chunked,
+                                            const std::string& cookie = "");
 
 /// Opens a WebSocket to /api/live and sends `bytes` as they are. True where the server closed it within two
 /// seconds.
-[[nodiscard]] bool closes_on_frames(unsigned short port, const std::string& bytes);
+[[nodiscard]] bool closes_on_frames(unsigned short port, const std::string& bytes,
+                                    const std::string& cookie = "");
 
 /// Frames that RFC 6455 forbids or that no panel sends.
 [[nodiscard]] std::vector<std::string> bad_frames();
+
+/// Bodies that are no order.
+[[nodiscard]] std::vector<std::string> bad_orders();
 
 /// Paths that try to leave the page's folder.
 [[nodiscard]] std::vector<std::string> climbing_paths();

@@ -109,6 +109,14 @@ class ScriptedVehicle : public hmi::Vehicle {
     const std::scoped_lock lock(mutex_);
     live_ = std::move(live);
   }
+  /// What it was told so far.
+  void forget() {
+    const std::scoped_lock lock(mutex_);
+    jogs_.clear();
+    poses_.clear();
+    commands_.clear();
+    orders_.clear();
+  }
   void refuse_start() {
     const std::scoped_lock lock(mutex_);
     refuse_start_ = true;
