@@ -20,6 +20,7 @@ void add_relocalize(CLI::App& app);
 void add_route(CLI::App& app);
 void add_map(CLI::App& app);
 void add_order(CLI::App& app);
+void add_pin(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_run(CLI::App& app);
 void add_scale(CLI::App& app);

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   madori::app::add_relocalize(app);
   madori::app::add_route(app);
   madori::app::add_order(app);
+  madori::app::add_pin(app);
   madori::app::add_replay(app);
   madori::app::add_run(app);
   madori::app::add_scale(app);

@@ -27,8 +27,12 @@ void add_run(CLI::App& app) {
   command->add_option("--hmi", options->hmi, "HOST:PORT of the touch panel; \"off\" for none")
       ->capture_default_str();
   command->add_option("--panel-folder", options->panel_folder, "where the built page lies");
+  command->add_option("--camera", options->camera,
+                      "URL or device of the verification camera (default: what site.yaml names)");
   command->add_flag("--resume", options->resume, "the operator has looked around: drive at once");
   command->add_flag("!--no-record", options->record, "do not record the run below DIR/runs");
+  command->add_option("--cycle-times", options->cycle_times,
+                      "CSV file for what each step of the cycle took, written at the end");
   command->callback([options] {
     std::puts("Madori is not a safety device: keep a certified scanner and an emergency stop on the drive.");
     if (!options->resume)

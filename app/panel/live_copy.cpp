@@ -58,13 +58,15 @@ void LiveCopy::take_scan(const CycleInput& input, const planning::SensorView& li
   if (input.clouds.empty()) return;
   const auto& points = input.clouds.back().points;
   const Transform2<Base, Lidar> base_from_lidar(lidar.x_m, lidar.y_m, yaw_rad);
-  const std::size_t stride = points.size() / kMostScanPoints + 1;
+  const std::size_t shown = std::min(points.size(), kMostScanPoints);
   std::vector<Point2<Base>> scan;
-  scan.reserve(points.size() / stride + 1);
-  for (std::size_t i = 0; i < points.size(); i += stride)
-    if (static_cast<double>(points[i].z_m) + lidar.z_m > kFloor_m)
+  scan.reserve(shown);
+  for (std::size_t k = 0; k < shown; ++k) {
+    const CloudPoint& point = points[k * points.size() / shown];  // evenly chosen
+    if (static_cast<double>(point.z_m) + lidar.z_m > kFloor_m)
       scan.push_back(base_from_lidar *
-                     Point2<Lidar>{static_cast<double>(points[i].x_m), static_cast<double>(points[i].y_m)});
+                     Point2<Lidar>{static_cast<double>(point.x_m), static_cast<double>(point.y_m)});
+  }
   live_.scan = std::make_shared<const std::string>(hmi::scan_frame(scan, pose));
 }
 
@@ -112,6 +114,10 @@ void LiveCopy::take_places(const CycleState& state, Stamp now) {
   for (const auto& place : state.localization->hypotheses())
     locate_.places.push_back({place.map_from_base, place.explained});
   if (!locate_.places.empty()) live_.score = locate_.places.front().score;
+  // The places that compete while none is sure: the cloud of particles of this localization.
+  live_.particles.clear();
+  if (locate_.places.size() > 1)
+    for (const auto& place : locate_.places) live_.particles.push_back(place.map_from_base);
   switch (state.pose.health.state) {
     case LocalizationState::Localized:
     case LocalizationState::Degraded:
@@ -135,13 +141,11 @@ void LiveCopy::show_setup(const CycleInput& input, const std::string& problem) {
   take_scan(input, lidar, to_rad(mount.yaw_deg), {});
   if (!due(input.now)) return;
   const auto odometer_m = live_.odometer_m;
-  const bool camera = live_.camera;
   auto scan = live_.scan;
   auto since = live_.since;
   auto state = live_.state;
   live_ = {};
   live_.odometer_m = odometer_m;
-  live_.camera = camera;
   live_.scan = std::move(scan);
   live_.since = since;
   live_.state = state;
@@ -160,11 +164,6 @@ void LiveCopy::show_setup(const CycleInput& input, const std::string& problem) {
 void LiveCopy::set_odometer(double metres) {
   const std::scoped_lock lock(mutex_);
   live_.odometer_m = metres;
-}
-
-void LiveCopy::set_camera(bool there) {
-  const std::scoped_lock lock(mutex_);
-  live_.camera = there;
 }
 
 hmi::LiveState LiveCopy::live() const {

@@ -17,7 +17,6 @@ class LiveCopy {
   void show_setup(const CycleInput& input, const std::string& problem);
   /// The vehicle's odometer, metres; added to what is shown.
   void set_odometer(double metres);
-  void set_camera(bool there);
 
   // From any thread:
   [[nodiscard]] hmi::LiveState live() const;

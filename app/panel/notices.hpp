@@ -4,6 +4,7 @@
 
 #include "app/cycle/notice.hpp"
 #include "hmi/server/vehicle.hpp"
+#include "localization/health/reasons.hpp"
 
 namespace madori::app {
 
@@ -12,9 +13,13 @@ namespace madori::app {
   return text.empty() ? hmi::Notice{} : hmi::Notice{"", {}, text};
 }
 
-/// The cycle's notice as the panel's.
+/// The cycle's notice as the panel's. Where its {reason} is one of localization, `reason_codes` lets the
+/// panel say it in its own language.
 [[nodiscard]] inline hmi::Notice shown(const Notice& notice) {
-  return {notice.code, notice.values, notice.text};
+  hmi::Notice all{notice.code, notice.values, notice.text};
+  if (const auto reason = all.values.find("reason"); reason != all.values.end())
+    all.values["reason_codes"] = localization::reason_codes(reason->second);
+  return all;
 }
 
 }  // namespace madori::app

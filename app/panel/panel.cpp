@@ -11,6 +11,7 @@
 #include "hmi/server/api.hpp"
 #include "hmi/server/origin.hpp"
 #include "hmi/server/server.hpp"
+#include "mapping/site/site.hpp"
 
 namespace madori::app {
 namespace {
@@ -26,13 +27,19 @@ hmi::ServerOptions parse_address(const std::string& host_port) {
   return options;
 }
 
+/// The camera that the command line or the site names; empty for none.
+std::string camera_of(const PanelOptions& options) {
+  if (!options.camera.empty() || !std::filesystem::exists(options.site / "site.yaml")) return options.camera;
+  return mapping::load_site(options.site).camera;
+}
+
 class ServedPanel final : public Panel {
  public:
   ServedPanel(SiteRun& run, const PanelOptions& options, const hmi::ServerOptions& server)
       : host_(server.host),
         access_(options.site / "pins", !hmi::host_allowed(server.host, true),
                 [] { return std::chrono::steady_clock::now(); }),
-        vehicle_(run, options.site / "madori.db", options.devices),
+        vehicle_(run, options.site / "madori.db", options.devices, camera_of(options)),
         files_(options.web),
         editor_(options.site),
         context_{access_,

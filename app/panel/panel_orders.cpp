@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "app/panel/event_words.hpp"
 #include "app/panel/notices.hpp"
 
 namespace madori::app {
@@ -119,8 +120,7 @@ void PanelOrders::cancel_running(const std::string& why) {
 std::vector<hmi::EventView> PanelOrders::events(std::size_t newest) const {
   const std::scoped_lock lock(mutex_);
   std::vector<hmi::EventView> list;
-  for (const auto& event : store_.events(newest))
-    list.push_back({event.stamp, event.kind == "device" ? "warning" : "info", uncoded(event.text), {}});
+  for (const auto& event : store_.events(newest)) list.push_back(event_view(event));
   return list;
 }
 

@@ -30,11 +30,20 @@ hmi::Reply confirm_first() {
 
 }  // namespace
 
-PanelVehicle::PanelVehicle(SiteRun& run, const std::filesystem::path& database, SocketOptions devices)
+PanelVehicle::PanelVehicle(SiteRun& run, const std::filesystem::path& database, SocketOptions devices,
+                           const std::string& camera)
     : run_(run),
       devices_(std::move(devices)),
       orders_(database, [&run](int id) { return run.node_name(id); }),
-      meter_(database) {}
+      meter_(database) {
+  if (!camera.empty()) camera_.emplace(camera);
+}
+
+hmi::LiveState PanelVehicle::live() const {
+  hmi::LiveState live = copy_.live();
+  live.camera = camera_ && camera_->picture();
+  return live;
+}
 
 void PanelVehicle::observe(const CycleInput& input, const CycleState& state, const TransportRun& run) {
   meter_.count(input, state);
@@ -125,8 +134,16 @@ hmi::StatisticsView PanelVehicle::statistics() const {
   return view;
 }
 
+std::vector<hmi::WallView> PanelVehicle::walls_seen() const {
+  std::vector<hmi::WallView> views;
+  for (const auto& [cell, state, share, offset_m] : run_.walls_seen())
+    views.push_back(
+        {cell.wall_id, cell.piece, cell.segment, localization::to_string(state), share, offset_m});
+  return views;
+}
+
 std::shared_ptr<const std::string> PanelVehicle::camera_jpeg() const {
-  return nullptr;
+  return camera_ ? camera_->picture() : nullptr;
 }
 
 hmi::Reply PanelVehicle::may_change_site() const {

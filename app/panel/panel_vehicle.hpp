@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "app/camera/camera_capture.hpp"
 #include "app/panel/live_copy.hpp"
 #include "app/panel/panel_orders.hpp"
 #include "app/runner/site_run.hpp"
@@ -15,14 +17,16 @@ namespace madori::app {
 /// `idle`); everything the panel asks is answered from that copy and from a database connection of its own.
 class PanelVehicle final : public hmi::Vehicle {
  public:
-  PanelVehicle(SiteRun& run, const std::filesystem::path& database, SocketOptions devices);
+  /// `camera`: a source of CameraCapture; empty for none.
+  PanelVehicle(SiteRun& run, const std::filesystem::path& database, SocketOptions devices,
+               const std::string& camera = "");
 
   /// On the cycle's thread: a run begins; after each of its steps; after a tick without a run.
   void begin_run() { meter_.forget_step(); }
   void observe(const CycleInput& input, const CycleState& state, const TransportRun& run);
   void idle(const CycleInput& input);
 
-  [[nodiscard]] hmi::LiveState live() const override { return copy_.live(); }
+  [[nodiscard]] hmi::LiveState live() const override;
   hmi::Reply command(hmi::Command command) override;
   hmi::Reply jog(const VelocityCommand& velocity) override;
   [[nodiscard]] std::vector<hmi::OrderView> orders() const override { return orders_.open(); }
@@ -37,6 +41,7 @@ class PanelVehicle final : public hmi::Vehicle {
   [[nodiscard]] std::vector<hmi::FoundDevice> found_devices() const override;
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const override;
   [[nodiscard]] hmi::StatisticsView statistics() const override;
+  [[nodiscard]] std::vector<hmi::WallView> walls_seen() const override;
   [[nodiscard]] std::shared_ptr<const std::string> camera_jpeg() const override;
   [[nodiscard]] hmi::Reply may_change_site() const override;
   void reload_site() override { run_.reload(); }
@@ -47,6 +52,7 @@ class PanelVehicle final : public hmi::Vehicle {
   LiveCopy copy_;
   PanelOrders orders_;
   WorkMeter meter_;
+  std::optional<CameraCapture> camera_;
 };
 
 }  // namespace madori::app

@@ -79,7 +79,7 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
                        [&](const CycleInput& input) {
                          if (looking_on != nullptr) looking_on->idle(input);
                        }});
-  const auto panel = open_panel(vehicle, {options.site, options.hmi, options.panel_folder, options.devices});
+  const auto panel = open_panel(vehicle, {options.site, options.hmi, options.panel_folder, options.devices, options.camera});
   looking_on = panel.get();
   if (panel)
     spdlog::info("panel at {}", panel->address());
@@ -88,12 +88,15 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
   const auto begun = std::chrono::steady_clock::now();
+  CycleTimes times;
   run_in_real_time([&](Stamp now) { vehicle.tick(now); }, interrupted,
                    [&] {
                      return options.duration_s > 0.0 &&
                             std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() >
                                 options.duration_s;
-                   });
+                   },
+                   options.cycle_times.empty() ? nullptr : &times);
+  if (!options.cycle_times.empty()) times.write(options.cycle_times);
   return onlookers.folder();
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "app/learned/learned_drawing.hpp"
 #include "app/pose/drawing_pose.hpp"
 #include "app/route_tools.hpp"
 
@@ -41,7 +42,14 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
   Loaded loaded;
   try {
     loaded.site = load_for_driving(site);
-    loaded.pose = std::make_unique<DrawingPose>(loaded.site->walls);
+    const auto& lidar = loaded.site->config.lidar;
+    loaded.watch = std::make_shared<WallWatch>(loaded.site->walls, Point2<Base>{lidar.x_m, lidar.y_m},
+                                               site / kReliabilityFile);
+    DrawingPoseOptions options;
+    options.onlooker = [watch = loaded.watch](const auto& points, const auto& pose) {
+      (void)watch->see(points, pose);
+    };
+    loaded.pose = std::make_unique<DrawingPose>(loaded.site->walls, options);
   } catch (const std::exception& e) {
     loaded.missing = e.what();
   }
@@ -62,6 +70,7 @@ void SiteRun::take(Loaded loaded) {
   {
     const std::scoped_lock lock(mutex_);
     missing_ = loaded.missing;
+    watch_ = std::move(loaded.watch);
     std::swap(run_, next);
   }
 }
@@ -125,6 +134,15 @@ std::optional<std::string> SiteRun::node_name(int id) const {
 bool SiteRun::may_change_site() const {
   const auto now = view();
   return !now || stands(*now);
+}
+
+std::vector<SeenWall> SiteRun::walls_seen() const {
+  std::shared_ptr<const WallWatch> watch;
+  {
+    const std::scoped_lock lock(mutex_);
+    watch = watch_;
+  }
+  return watch ? watch->seen() : std::vector<SeenWall>();
 }
 
 std::string SiteRun::missing() const {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/cycle/site_config.hpp"
+#include "app/learned/wall_watch.hpp"
 #include "app/runner/transport_run.hpp"
 
 namespace madori::app {
@@ -46,6 +47,8 @@ class SiteRun {
   [[nodiscard]] std::optional<std::string> node_name(int id) const;
   /// The vehicle stands, and will not move before somebody lets it.
   [[nodiscard]] bool may_change_site() const;
+  /// What the run has seen of the drawn walls; empty while there is none.
+  [[nodiscard]] std::vector<SeenWall> walls_seen() const;
   /// Why there is no run, as the site's loader says it; empty while there is one.
   [[nodiscard]] std::string missing() const;
   [[nodiscard]] std::string device_problem() const { return link_->problem(); }
@@ -54,6 +57,7 @@ class SiteRun {
   struct Loaded {
     std::optional<SiteForDriving> site;
     std::unique_ptr<PoseSource> pose;
+    std::shared_ptr<WallWatch> watch;
     std::string missing;
   };
   [[nodiscard]] static Loaded load(const std::filesystem::path& site);
@@ -67,6 +71,7 @@ class SiteRun {
   mutable std::mutex mutex_;  ///< of what follows; the ticks hold it only to exchange the run
   bool wanted_ = true;
   std::string missing_ = "the site is being loaded";
+  std::shared_ptr<WallWatch> watch_;
   std::unique_ptr<TransportRun> run_;
 };
 

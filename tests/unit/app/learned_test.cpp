@@ -1,14 +1,20 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
 
 #include "app/learned/calibration_file.hpp"
 #include "app/learned/learned_drawing.hpp"
+#include "app/learned/wall_watch.hpp"
 #include "app/plot/localizability_plot.hpp"
 #include "app/plot/reliability_plot.hpp"
 #include "core/result.hpp"
+#include "localization/scan_points.hpp"
 #include "localization/wall_reliability/reliability_file.hpp"
 #include "tests/support/made_up_buildings.hpp"
+#include "tests/support/made_up_drive.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::app {
@@ -114,6 +120,51 @@ TEST(LocalizabilityMap, MarksABareCorridorAndNotARoom) {
   EXPECT_NEAR(c(0, 1), 0.0, 0.02 * c(0, 0));
   EXPECT_GT(square.floor.size(), 40U);
   for (const auto& place : square.floor) EXPECT_NE(fix_of(place), Fix::Bare);
+}
+
+/// One scan after the other, each looked at before the next comes.
+void drive_past(WallWatch& watch, const mapping::Walls& building, LocalizationState state) {
+  std::mt19937 engine(3);
+  test::DriveSettings settings;
+  settings.lidar = test::full_turn(540, 30.0);
+  for (const auto& m : test::drive(building, {{2.0, 1.2}, {14.5, 1.0}, {14.0, 8.0}, {7.2, 7.6}, {6.8, 1.3}},
+                                   settings, engine)) {
+    if (!m.has_scan) continue;
+    const auto before = watch.looks();
+    const bool taken =
+        watch.see(localization::scan_points(m.scan, {}),
+                  {m.scan.stamp, m.truth, Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal(), {state, ""}});
+    while (taken && watch.looks() == before) std::this_thread::yield();
+  }
+}
+
+std::size_t count_of(const std::vector<SeenWall>& seen, localization::WallState state) {
+  return static_cast<std::size_t>(std::ranges::count(seen, state, &SeenWall::state));
+}
+
+TEST(WallWatch, ConfirmsWhatStandsAndMissesWhatWasTornDown) {
+  const test::TemporaryFolder folder;
+  const mapping::Walls drawn = test::laboratory_hall();
+  mapping::Walls building = drawn;
+  building.erase(building.begin() + 30);  // the screen at x = 11
+  WallWatch watch(drawn, {0.0, 0.0}, folder.path() / kReliabilityFile);
+  EXPECT_EQ(count_of(watch.seen(), localization::WallState::Unseen), watch.seen().size());
+  drive_past(watch, building, LocalizationState::Localized);
+  EXPECT_GT(count_of(watch.seen(), localization::WallState::Confirmed), 30U);
+  for (const auto& piece : watch.seen()) {
+    if (piece.state != localization::WallState::Missing) continue;
+    EXPECT_EQ(piece.cell.wall_id, drawn[30].id);
+    EXPECT_LT(piece.share_in_place, 0.5);
+  }
+  EXPECT_GT(count_of(watch.seen(), localization::WallState::Missing), 0U);
+}
+
+TEST(WallWatch, LearnsNothingWhileThePlaceIsNotSure) {
+  const mapping::Walls drawn = test::laboratory_hall();
+  WallWatch watch(drawn, {0.0, 0.0}, "no such file");
+  drive_past(watch, drawn, LocalizationState::Degraded);
+  EXPECT_EQ(watch.looks(), 0U);
+  EXPECT_EQ(count_of(watch.seen(), localization::WallState::Unseen), watch.seen().size());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/cycle/notice.hpp"
+#include "app/panel/event_words.hpp"
 
 namespace madori::app {
 namespace {
@@ -97,6 +98,34 @@ TEST(Modes, EveryModeCanBeReachedFromTheFirst) {
         if (const auto next = next_mode(mode, event)) reached.insert(*next);
   }
   EXPECT_EQ(reached.size(), kModes.size());
+}
+
+TEST(EventWords, EveryStandstillOfTheLogComesBackWithItsRemedy) {
+  for (std::size_t c = 0; c < kCauses.size(); ++c) {
+    for (std::size_t r = 0; r < kRemedies.size(); ++r) {
+      const std::map<std::string, std::string> values{
+          {"reason", "two places - look alike"}, {"node", "7"}, {"faults", "4"}};
+      const Notice cause = notice(static_cast<Cause>(c), values);
+      const Notice remedy = notice(static_cast<Remedy>(r), values);
+      const auto view = event_view({{}, "mode", "waiting: " + cause.text + " - " + remedy.text});
+      EXPECT_EQ(view.what.code, cause.code);
+      EXPECT_EQ(view.what.text, cause.text);
+      EXPECT_EQ(view.remedy.code, remedy.code) << view.remedy.text;
+    }
+  }
+}
+
+TEST(EventWords, OrdersAndModesHaveCodesAndWhatIsNotKnownStays) {
+  EXPECT_EQ(event_view({{}, "mode", "driving -> waiting: blocked"}).what.code, "event.mode-waiting");
+  const auto done = event_view({{}, "order", "order 12: stop reached; done"});
+  EXPECT_EQ(done.what.code, "event.order-done");
+  EXPECT_EQ(done.what.values.at("order"), "12");
+  EXPECT_EQ(event_view({{}, "order", "order 12: stop reached; running"}).what.code, "event.order-reached");
+  EXPECT_EQ(event_view({{}, "order", "order 3 refused: no way"}).what.values.at("reason"), "no way");
+  EXPECT_EQ(event_view({{}, "mode", "fault: the drive reports fault 4 - confirm"}).severity, "stop");
+  EXPECT_EQ(event_view({{}, "mode", "paused: paused - press Resume"}).severity, "info");
+  EXPECT_EQ(event_view({{}, "mode", "something: else"}).what.code, "");
+  EXPECT_EQ(event_view({{}, "mode", "something: else"}).what.text, "something: else");
 }
 
 }  // namespace

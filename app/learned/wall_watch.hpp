@@ -1,0 +1,61 @@
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "core/pose_estimate.hpp"
+#include "localization/scan_points.hpp"
+#include "localization/wall_reliability/wall_reliability.hpp"
+
+namespace madori::app {
+
+/// A piece of drawn wall with what was learned of it.
+struct SeenWall {
+  localization::WallCell cell;
+  localization::WallState state = localization::WallState::Unseen;
+  double share_in_place = 0.0;  ///< 0..1
+  double offset_m = 0.0;        ///< of a displaced piece, to the left of its direction
+};
+
+/// What the running vehicle sees of the drawn walls, for the panel. It looks on only, on a thread of its own:
+/// the drive under way does not depend on it. Begins with what earlier drives left with the site.
+class WallWatch {
+ public:
+  /// `sensor`: where the lidar sits, Base frame. `learned`: reliability.csv; it need not exist.
+  WallWatch(const mapping::Walls& walls, const Point2<Base>& sensor, const std::filesystem::path& learned);
+  ~WallWatch();
+  WallWatch(const WallWatch&) = delete;
+  WallWatch& operator=(const WallWatch&) = delete;
+
+  /// On the cycle's thread, after every scan: copies one now and then, while the place is sure. True where it
+  /// did.
+  bool see(const localization::ScanPoints& points, const PoseEstimate& pose);
+  /// From any thread.
+  [[nodiscard]] std::vector<SeenWall> seen() const;
+  /// Scans that were looked at so far.
+  [[nodiscard]] std::size_t looks() const;
+
+ private:
+  struct Look {
+    localization::ScanPoints points;
+    PoseEstimate pose;
+  };
+  void run();
+
+  Point2<Base> sensor_;
+  std::optional<Transform2<Map, Base>> handed_;  ///< pose of the last scan that was copied
+  std::mutex mailbox_;
+  std::condition_variable wake_;
+  std::optional<Look> waiting_;
+  bool stop_ = false;
+  mutable std::mutex mutex_;  ///< of what was learned
+  localization::WallReliability reliability_;
+  std::size_t looks_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace madori::app
