@@ -1,5 +1,7 @@
-// What a browser may send: the request's head through the gate, bodies through their handlers, and the live
-// socket's commands. The first byte chooses; a vehicle that is told to move by nonsense would be found here.
+// What a browser may send. The first byte chooses: the live socket's commands, a request's head through the
+// gate, routes, bodies through every handler of the API, and raw bytes to the server itself: HTTP requests,
+// and frames on a live socket. A vehicle that is told to move by nonsense, and an answer of 500, would be
+// found here.
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -9,6 +11,7 @@
 #include "hmi/server/json_text.hpp"
 #include "hmi/server/live_command.hpp"
 #include "hmi/server/route_wire.hpp"
+#include "tests/fuzz/fuzzed_panel.hpp"
 
 namespace {
 
@@ -64,20 +67,42 @@ void fuzz_routes(const std::string& text) {
   }
 }
 
+/// "METHOD target", then the body: with an integrator's rights, past the sockets.
+void fuzz_handlers(const std::string& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::size_t space = std::min(text.find(' '), end);
+  Request request;
+  request.method = text.substr(0, space);
+  request.headers = {{"host", "127.0.0.1:1"}, {"origin", "http://127.0.0.1:1"}};
+  request.role = Role::Integrator;
+  request.body = text.substr(std::min(end + 1, text.size()));
+  madori::fuzz::FuzzedPanel::the().call(text.substr(std::min(space + 1, end), end - std::min(space + 1, end)),
+                                        request);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  switch (data[0] % 3) {
+  switch (data[0] % 6) {
     case 0:
       fuzz_command(text);
       break;
     case 1:
       fuzz_gate(text);
       break;
-    default:
+    case 2:
       fuzz_routes(text);
+      break;
+    case 3:
+      fuzz_handlers(text);
+      break;
+    case 4:
+      madori::fuzz::FuzzedPanel::the().send(text);
+      break;
+    default:
+      madori::fuzz::FuzzedPanel::the().send_frames(text);
   }
   return 0;
 }
