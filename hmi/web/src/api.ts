@@ -68,7 +68,7 @@ export const api = {
   searchAnew: () => post("/api/locate/search"),
   setPose: (pose: wire.SetPose) => post("/api/vehicle/pose", pose),
 
-  command: (name: "start" | "pause" | "resume" | "stop" | "confirm") => post(`/api/vehicle/${name}`),
+  command: (name: "start" | "pause" | "resume" | "stop" | "confirm" | "go-on") => post(`/api/vehicle/${name}`),
   replay: async () => {
     const answer = await fetch("/api/replay", { credentials: "same-origin" });
     if (!answer.ok) throw new Refused(answer.status, "not-found", "there is no replay");

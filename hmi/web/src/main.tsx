@@ -44,14 +44,14 @@ function Rail(props: { page: PageName; role: Session["role"]; needsPin: boolean;
 }
 
 /** Calls `load` whenever somebody saved, here, on another panel or from the command line. */
-function useRevisions(load: () => void): void {
+function useRevisions(load: () => Promise<unknown>): void {
   useEffect(() => {
     let known = "";
     return live.newest.watch((frame) => {
       const revisions: SiteRevisions | undefined = frame?.live.revisions;
       if (!revisions) return;
       const next = Object.values(revisions).join();
-      if (known !== "" && known !== next) load();
+      if (known !== "" && known !== next) void load();
       known = next;
     });
   }, []);
@@ -61,8 +61,8 @@ function Panel() {
   const [session, setSession] = useState<Session | null>(null);
   const [content, setContent] = useState<Content | null>(null);
   const [page, setPage] = useState<PageName | null>(null);
-  const load = () =>
-    void attempt(async () => {
+  const load = (): Promise<unknown> =>
+    attempt(async () => {
       const [site, walls, routes] = await Promise.all([api.site(), api.walls(), api.routes()]);
       setContent({ site, walls, routes });
       setPage((old) => old ?? (site.scale && routes.nodes.length > 0 && site.sensors.length > 0 ? "drive" : "setup"));
@@ -73,7 +73,7 @@ function Panel() {
       setSession(current);
       if (current.role === "none") return;
       live.open();
-      load();
+      await load();
     });
   const leave = () => void attempt(api.logout).then(() => { live.close(); setContent(null); enter(); });
   useRevisions(load);

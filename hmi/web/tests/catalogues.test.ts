@@ -14,7 +14,30 @@ const files = sources(new URL("../src", import.meta.url).pathname).filter((file)
 
 /** The beginnings of keys that are put together in the code: `state.${state}`. */
 const composed = () => files.flatMap((file) => [...readFileSync(file, "utf8").matchAll(/`([a-z_.]+\.)\$\{/g)].map(([, prefix]) => prefix ?? ""));
-const fromTheVehicle = ["error.", "cause.", "remedy.", "finding.", "order.", "device-", "scale-", "event."];
+const fromTheVehicle = ["error.", "cause.", "remedy.", "finding.", "reason.", "order.", "device-", "scale-", "event."];
+
+/** What the vehicle's own code can say: the codes in its C++ tables and refusals, as the panel's keys. */
+function saidByTheVehicle(): string[] {
+  const root = new URL("../../..", import.meta.url).pathname;
+  const cpp = (folder: string): string[] =>
+    readdirSync(join(root, folder), { withFileTypes: true }).flatMap((entry) =>
+      entry.isDirectory() ? cpp(join(folder, entry.name)) : /\.[ch]pp$/.test(entry.name) ? [readFileSync(join(root, folder, entry.name), "utf8")] : [],
+    );
+  const found = (text: string, pattern: RegExp, prefix: string) => [...text.matchAll(pattern)].map(([, code]) => `${prefix}.${code}`);
+  const notices = readFileSync(join(root, "app/cycle/notice.hpp"), "utf8");
+  const remedies = notices.indexOf("kRemedies");
+  const panel = [...cpp("hmi/server"), ...cpp("app/panel")].join("\n");
+  return [
+    ...found(notices.slice(0, remedies), /CatalogueEntry\{"([\w-]+)"/g, "cause"),
+    ...found(notices.slice(remedies), /CatalogueEntry\{"([\w-]+)"/g, "remedy"),
+    ...found(readFileSync(join(root, "planning/route_graph/finding_texts.hpp"), "utf8"), /FindingText\{"([\w-]+)"/g, "finding"),
+    ...found(readFileSync(join(root, "localization/health/reasons.hpp"), "utf8"), /Reason k\w+\{\s*"([\w-]+)"/g, "reason"),
+    ...found(panel, /(?:Response::error|refused)\((?:\d+,\s*)?"([\w-]+)"/g, "error"),
+  ];
+}
+
+/** Said in the vehicle's English: what it holds has no fixed form. */
+const inEnglish = ["error.refused", "error.internal"];
 
 /** A word that a person would read: two letters in a row. */
 const isWord = (text: string) => /\p{L}{2}/u.test(text);
@@ -57,6 +80,12 @@ describe("the catalogues", () => {
       expect(other.trim(), key).not.toBe("");
       expect(placeholders(other), key).toEqual(placeholders(text));
     }
+  });
+
+  it("know everything that the vehicle can say by a code", () => {
+    const said = saidByTheVehicle();
+    for (const kind of ["cause", "remedy", "finding", "reason", "error"]) expect(said.filter((key) => key.startsWith(`${kind}.`)).length, kind).toBeGreaterThan(10);
+    expect(said.filter((key) => !(key in en) && !inEnglish.includes(key))).toEqual([]);
   });
 
   it("are used: no key stands there for nothing", () => {

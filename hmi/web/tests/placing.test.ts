@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { fromLatLon, overlayNumbers, tileMiddle, tileResolution, toLatLon } from "../src/map/mercator";
 import { about, angleOf, apply, compose, fromFingers, identity, inverse, scaleOf, type Similarity } from "../src/map/similarity";
-import { corners, snapTo } from "../src/map/snap";
+import { corners, snapTo, withMiddles } from "../src/map/snap";
 import { addWall, eraseAt, eraseInside, totalLength } from "../src/pages/setup/wall_edit";
 
 const close = (a: readonly number[], b: readonly number[]) => a.forEach((value, i) => expect(value).toBeCloseTo(b[i] ?? NaN, 9));
@@ -75,4 +75,13 @@ describe("editing walls", () => {
     expect(eraseInside(walls, [1, 6], [11, 4])).toEqual(walls);
   });
   it("adds one and sums up the lengths", () => expect(totalLength(addWall(walls, [0, 0], [3, 4]))).toBe(25));
+});
+
+describe("the corners of a drawn wall", () => {
+  it("have a middle between the inner and the outer one, and only there", () => {
+    const points = withMiddles([[0, 0], [0.3, 0.3], [10, 0]], 0.6);
+    expect(points).toEqual([[0, 0], [0.3, 0.3], [10, 0], [0.15, 0.15]]);
+    expect(snapTo(points, [0.16, 0.14], 1).at).toEqual([0.15, 0.15]);
+    expect(snapTo(points, [0.28, 0.31], 1).at).toEqual([0.3, 0.3]);
+  });
 });

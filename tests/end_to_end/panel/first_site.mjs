@@ -1,9 +1,9 @@
 // From a folder that does not exist to a delivered order, by touch alone: the five steps, then Drive. No typing but the
 // scale figure (on the panel's own pad). Usage: first_site.mjs MADORI PAGE DATA SHOTS WIDTHxHEIGHT
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { expect, mapReady, openBrowser, openPanel, restOnMap, skipUnlessInstalled, touch, touchMap } from "./browser.mjs";
-import { freeUdpPort, startFactory, startVehicle, stopAll, temporaryFolder } from "./processes.mjs";
+import { expect, mapReady, restOnMap, touch, touchMap } from "./browser.mjs";
+import { freeUdpPort, startFactory, startVehicle, temporaryFolder } from "./processes.mjs";
+import { expectQuietConsole, given, openGivenPanel, picture, run } from "./program.mjs";
 
 const kMostTouches = 40;
 const kFileChooser = 2;  // choose the file, confirm: fingers that the page cannot see
@@ -12,9 +12,7 @@ const kKnown = { ends: [[547.84, 2729.59], [3747.01, 2656.99]], digits: ["8", "0
 // a way past the vehicle's first place, metres on the scaled drawing; further apart than a finger reaches on the smaller panel
 const kWay = [[45.05, 52.3], [45.2, 46.2], [52, 42.5]];
 
-const [madori, page, data, shots, size] = process.argv.slice(2);
-let shown = null; // for a picture of what a person would see when it fails
-const [width, height] = size.split("x").map(Number);
+const { madori, page, data } = given;
 
 async function setUpDrawing(panel, look) {
   await look("1-drawing-empty");
@@ -44,10 +42,8 @@ async function setUpScale(panel, look) {
 async function setUpRoutes(panel, look) {
   await panel.page.getByText("Touch to set points").waitFor();
   await mapReady(panel);
-  for (const [i, place] of kWay.entries()) {
-    await touchMap(panel, place);
-    await panel.page.getByText(`${i + 1} points`).waitFor();  // a person sees the point before setting the next
-  }
+  for (const place of kWay) await touchMap(panel, place);  // one right after the other: none may be lost
+  await panel.page.getByText(`${kWay.length} points`).waitFor();
   await touch(panel, "Station", { exact: true });
   await panel.page.getByText("No fault found").waitFor();
   await look("3-routes");
@@ -114,23 +110,23 @@ async function lookAround(panel, look) {
   await touch(panel, "Look back");
   await panel.page.locator(".events li").first().waitFor();
   await look("history-events");
-  for (const tab of ["Statistics", "Downloads"]) {
-    await touch(panel, tab, { role: "tab" });
-    await look(`history-${tab.toLowerCase()}`);
-  }
+  await touch(panel, "Statistics", { role: "tab" });
+  await panel.page.locator(".figure-box").first().waitFor();
+  await look("history-statistics");
+  const [deliveries, distance] = await panel.page.locator(".figure-box dd").allInnerTexts();
+  expect(deliveries === "1" && Number.parseFloat(distance) > 0, `after one delivery the statistics say ${deliveries} and ${distance}`);
+  await touch(panel, "Downloads", { role: "tab" });
+  await panel.page.locator(".files li").nth(1).waitFor();
+  await look("history-downloads");
 }
 
-async function main() {
-  skipUnlessInstalled(page);
-  mkdirSync(shots, { recursive: true });
+async function main(browser) {
   const folder = temporaryFolder();
   const lidar = await freeUdpPort();
   const drive = await startFactory(madori, data, join(folder, "world"), lidar, join(data, "scenarios/demo.yaml"));
   const address = await startVehicle(madori, page, join(folder, "site"), lidar, drive);
-  const browser = await openBrowser();
-  const panel = await openPanel(browser, address, { width, height });
-  shown = panel;
-  const look = (name) => panel.page.screenshot({ path: join(shots, `${name}-${size}.png`) });
+  const panel = await openGivenPanel(browser, address);
+  const look = (name) => picture(panel, name);
   await setUpDrawing(panel, look);
   await setUpScale(panel, look);
   await setUpRoutes(panel, look);
@@ -140,15 +136,7 @@ async function main() {
   console.log(`delivered after ${panel.touches} touches, faults confirmed meanwhile: ${confirmed}`);
   expect(panel.touches <= kMostTouches + 2 * confirmed, `${panel.touches} touches, more than ${kMostTouches}`);
   await lookAround(panel, look);
-  expect(panel.errors.length === 0, `the console complained: ${panel.errors.slice(0, 5).join("; ")}`);
-  await browser.close();
+  expectQuietConsole(panel);
 }
 
-main().catch(async (error) => {
-  console.error(error);
-  await shown?.page.screenshot({ path: join(shots, `failed-${size}.png`) }).catch(() => undefined);
-  process.exitCode = 1;
-}).finally(async () => {
-  await stopAll();
-  process.exit();
-});
+await run(main);

@@ -53,11 +53,16 @@ export function start(program, args, ready) {
       setTimeout(() => child.kill("SIGKILL"), 5000).unref();
     }),
   });
+  const kill = () => new Promise((dead) => {
+    child.removeAllListeners("exit");
+    child.once("exit", () => { ended = true; dead(); });
+    child.kill("SIGKILL");
+  });
   return new Promise((done, fail) => {
     const take = (data) => {
       output += data;
       const match = output.match(ready);
-      if (match) done({ match, output: () => output });
+      if (match) done({ match, output: () => output, kill });
     };
     child.stdout.on("data", take);
     child.stderr.on("data", take);
@@ -75,10 +80,20 @@ export async function startFactory(madori, data, folder, lidarPort, scenario) {
   return join(folder, "devices", "drive");
 }
 
-/** The vehicle's computer with its panel; answers its address. */
-export async function startVehicle(madori, page, folder, lidarPort, drive, more = []) {
+/** The same with a camera at the vehicle's front; answers the drive's port and the camera's address. */
+export async function startFactoryWithCamera(madori, data, folder, lidarPort, scenario) {
+  runToEnd(madori, ["demo", "--import-only", "--site", folder, "--data", data, "--json", join(folder, "..", "import.json")]);
+  const { output } = await start(madori, ["sim", folder, "--scenario", scenario, "--lidar-port", String(lidarPort), "--camera-port", "0"], /truth\s+ws/);
+  return { drive: join(folder, "devices", "drive"), camera: output().match(/camera http (\S+)/)[1] };
+}
+
+/** The vehicle's computer with its panel: `address`, `kill()` (no farewell), `again()` (the same on the same port). */
+export async function startComputer(madori, page, folder, lidarPort, drive, more = []) {
   const hmi = `127.0.0.1:${await freeTcpPort()}`;
   const position = await freeUdpPort();
-  await start(madori, ["run", folder, "--hmi", hmi, "--panel-folder", page, "--lidar-port", String(lidarPort), "--position-port", String(position), "--drive", drive, ...more], /panel at/);
-  return `http://${hmi}/`;
+  const again = () => start(madori, ["run", folder, "--hmi", hmi, "--panel-folder", page, "--lidar-port", String(lidarPort), "--position-port", String(position), "--drive", drive, ...more], /panel at/);
+  return { address: `http://${hmi}/`, again, kill: (await again()).kill };
 }
+
+/** The vehicle's computer with its panel; answers its address. */
+export const startVehicle = async (...given) => (await startComputer(...given)).address;

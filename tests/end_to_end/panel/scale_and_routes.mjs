@@ -1,10 +1,11 @@
 // On a finished site: a plan placed with four point pairs on served tiles gets its scale within 0.2 %; a route drawn by
 // touch and exported is what `madori route` reads; the published CSV files go through byte for byte; axe-core finds no
 // serious issue on any page in both themes. Usage: ... MADORI PAGE DATA SHOTS WIDTHxHEIGHT
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { expect, mapReady, openBrowser, openPanel, seriousIssues, skipUnlessInstalled, touch, touchMap } from "./browser.mjs";
-import { freeUdpPort, runToEnd, startVehicle, stopAll, temporaryFolder } from "./processes.mjs";
+import { expect, mapReady, seriousIssues, touch, touchMap } from "./browser.mjs";
+import { freeUdpPort, runToEnd, startVehicle, temporaryFolder } from "./processes.mjs";
+import { expectQuietConsole, given, openGivenPanel, picture, run } from "./program.mjs";
 import { mercator, placeOf, serveTiles } from "./tiles.mjs";
 
 const kOrigin = { latitude: 35.464478, longitude: 136.739235 };
@@ -16,9 +17,7 @@ const kPublished = {
   path: "ID,x,y\n0,0,0\n1,1.8,-0.1\n2,5.46,-0.61\n3,2.34,1.7\n4,2.46,4.22\n5,5.28,-3.52\n",
 };
 const kSpreadsheet = { tree: "ID,EDA\r\n1,2\r\n2,1 3\r\n3,2\r\n", path: "ID,x,y\r\n1,45.05,52.30\r\n2,45.2,46.20\r\n3,46.800,43.4\r\n" };
-const [madori, page, data, shots, size] = process.argv.slice(2);
-let shown = null; // for a picture of what a person would see when it fails
-const [width, height] = size.split("x").map(Number);
+const { madori, page, data } = given;
 
 const readRows = (file) => readFileSync(file, "utf8").trim().split("\n").slice(1).map((line) => line.split(",").map(Number));
 
@@ -28,16 +27,19 @@ function farCorners(walls, [w, h]) {
   return [[0, 0], [w, 0], [w, h], [0, h]].map(([u, v]) => ends.reduce((best, end) => (Math.hypot(end[0] - u, end[1] - v) < Math.hypot(best[0] - u, best[1] - v) ? end : best)));
 }
 
+/** A figure, by its field and the pad. */
+async function enter(panel, label, value) {
+  await touch(panel, label);
+  await panel.page.getByRole("dialog").waitFor();
+  await panel.page.keyboard.type(String(value));
+  await touch(panel, "OK", { exact: true });
+  await panel.page.getByRole("dialog").waitFor({ state: "detached" });
+}
+
 async function placeByPairs(panel, tiles, walls, placeOfPixel, drawing, unit) {
   await panel.page.locator(".steps button").nth(1).tap();
   await touch(panel, "Point pairs");
-  for (const [label, value] of [["Latitude", kOrigin.latitude], ["Longitude", kOrigin.longitude], ["Radius", 70]]) {
-    await touch(panel, label);
-    await panel.page.getByRole("dialog").waitFor();
-    await panel.page.keyboard.type(String(value));
-    await touch(panel, "OK", { exact: true });
-    await panel.page.getByRole("dialog").waitFor({ state: "detached" });
-  }
+  for (const [label, value] of [["Latitude", kOrigin.latitude], ["Longitude", kOrigin.longitude], ["Radius", 70]]) await enter(panel, label, value);
   await panel.page.getByLabel("Source, or the address").fill(tiles.url);
   await panel.page.locator(".fetch-tiles .primary").tap();
   await panel.page.locator(".photo .map-canvas").waitFor();
@@ -49,7 +51,7 @@ async function placeByPairs(panel, tiles, walls, placeOfPixel, drawing, unit) {
   }
   const verdict = panel.page.locator("[data-verdict]");
   await verdict.waitFor();
-  await panel.page.screenshot({ path: join(shots, `2-pairs-${size}.png`) });
+  await picture(panel, "2-pairs");
   return Number(await verdict.getAttribute("data-m-per-px"));
 }
 
@@ -58,7 +60,28 @@ async function layOver(panel) {
   await mapReady(panel, 0);
   await panel.page.getByText("Z_m, drawing").waitFor();
   await panel.page.locator("[data-drawing=shown]").waitFor();
-  await panel.page.screenshot({ path: join(shots, `2-overlay-${size}.png`) });
+  await picture(panel, "2-overlay");
+}
+
+/** The published interface: the scale is what Z_m and Z_p say, by Eq. (9) of the layout-map paper, U = L_t / (R_t Z_p) Z_m. */
+async function setOverlayNumbers(panel, site) {
+  const zp = 2.5;
+  const { zoom, tile_px } = await (await panel.context.request.get(new URL("/api/site/tiles", panel.page.url()).href)).json();
+  const tileSide_m = (2 * Math.PI * 6378137 * Math.cos((kOrigin.latitude * Math.PI) / 180)) / 2 ** zoom;
+  const zm = (kTrueScale * tile_px * zp) / tileSide_m;
+  await enter(panel, "Z_p, photo", zp);
+  await enter(panel, "Z_m, drawing", zm.toPrecision(6));
+  const shown = async (label) => Number((await panel.page.getByRole("button", { name: label }).locator("span").innerText()).trim());
+  expect(Math.abs((await shown("Z_p, photo")) / zp - 1) < 1e-3, `Z_p is shown as ${await shown("Z_p, photo")}`);
+  expect(Math.abs((await shown("Z_m, drawing")) / zm - 1) < 1e-3, `Z_m is shown as ${await shown("Z_m, drawing")}, not ${zm}`);
+  const wanted = (scale) => Math.abs(Number(scale) / kTrueScale - 1) <= kTolerance / 4;
+  await panel.page.waitForFunction(([truth, part]) => Math.abs(Number(document.querySelector("[data-verdict]")?.dataset.mPerPx) / truth - 1) <= part, [kTrueScale, kTolerance / 4]);
+  await picture(panel, "2-overlay-numbers");
+  await touch(panel, "Use this scale");
+  await panel.page.getByText("Touch to set points").waitFor();
+  const applied = readFileSync(join(site, "site.yaml"), "utf8").match(/m_per_px: ([\d.e-]+)/)?.[1];
+  console.log(`Z_m and Z_p set: ${(100 * (Number(applied) / kTrueScale - 1)).toFixed(4)} % off the true scale`);
+  expect(wanted(applied), `site.yaml has the scale ${applied}`);
 }
 
 async function drawAndExport(panel, site) {
@@ -102,7 +125,7 @@ async function checkEveryPage(panel) {
   for (const theme of ["light", "dark"]) {
     const look = async (name) => {
       problems.push(...(await checkAccess(panel, `${name}, ${theme}`)));
-      if (theme === "dark") await panel.page.screenshot({ path: join(shots, `dark-${name}-${size}.png`) });
+      if (theme === "dark") await picture(panel, `dark-${name}`);
     };
     await touch(panel, "Drive");
     for (const tab of ["Orders", "By hand", "Last 30 s"]) {
@@ -124,9 +147,7 @@ async function checkEveryPage(panel) {
   expect(problems.length === 0, `axe-core: ${[...new Set(problems)].join("\n")}`);
 }
 
-async function main() {
-  skipUnlessInstalled(page);
-  mkdirSync(shots, { recursive: true });
+async function main(browser) {
   const folder = temporaryFolder();
   const site = join(folder, "site");
   runToEnd(madori, ["demo", "--import-only", "--site", site, "--data", data, "--json", join(folder, "import.json")]);
@@ -142,29 +163,20 @@ async function main() {
   const tiles = await serveTiles(walls.map(([u1, v1, u2, v2]) => [placeOfPixel(u1, v1), placeOfPixel(u2, v2)]));
   const lidar = await freeUdpPort();
   const address = await startVehicle(madori, page, site, lidar, join(folder, "no-drive"));
-  const browser = await openBrowser();
-  const panel = await openPanel(browser, address, { width, height });
-  shown = panel;
+  const panel = await openGivenPanel(browser, address);
   await touch(panel, "Set up");
   const scale = await placeByPairs(panel, tiles, walls, placeOfPixel, drawing, kTrueScale);
   const off = Math.abs(scale / kTrueScale - 1);
   console.log(`four point pairs: ${(100 * off).toFixed(3)} % off the true scale`);
   expect(off <= kTolerance, `the scale is ${(100 * off).toFixed(3)} % off`);
   await layOver(panel);
+  await setOverlayNumbers(panel, site);
   await drawAndExport(panel, site);
   await importAndExport(panel, folder, kPublished.tree, kPublished.path, 6);
   await importAndExport(panel, folder, kSpreadsheet.tree, kSpreadsheet.path, 3);
   await checkEveryPage(panel);
-  expect(panel.errors.length === 0, `the console complained: ${panel.errors.slice(0, 5).join("; ")}`);
+  expectQuietConsole(panel);
   tiles.close();
-  await browser.close();
 }
 
-main().catch(async (error) => {
-  console.error(error);
-  await shown?.page.screenshot({ path: join(shots, `failed-${size}.png`) }).catch(() => undefined);
-  process.exitCode = 1;
-}).finally(async () => {
-  await stopAll();
-  process.exit();
-});
+await run(main);

@@ -29,8 +29,14 @@ export function useText(): Translate {
   return (key, values = {}) => fill(catalogues[chosen][key], values);
 }
 
+/** The values with the {reason} in the chosen language, where its codes (the outer one first) are known. */
+function withReason(t: Translate, values: Record<string, string>): Record<string, string> {
+  const keys = (values["reason_codes"] ?? "").split("+").map((code) => `reason.${code}`);
+  return keys.every((key) => key in en) ? { ...values, reason: keys.map((key) => t(key as TextKey)).join(" ") } : values;
+}
+
 /** A notice of the vehicle: from the catalogue where it is known, else in the vehicle's own English. */
 export function noticeText(t: Translate, prefix: string, notice: Notice): string {
   const key = [`${prefix}.${notice.code}`, notice.code].find((one) => one in en);
-  return key === undefined ? notice.text : t(key as TextKey, notice.values);
+  return key === undefined ? notice.text : t(key as TextKey, withReason(t, notice.values));
 }

@@ -1,25 +1,13 @@
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef } from "preact/hooks";
 import { useText } from "../i18n";
 import { Icon } from "../ui/icon";
 import { FactoryMap } from "./factory_map";
+import { useMap } from "./use_map";
 
 /** A FactoryMap in the page, with zoom buttons. `ready` runs once; what it returns runs at the end. */
 export function MapView(props: { ready: (map: FactoryMap) => void | (() => void); children?: ComponentChildren; above?: ComponentChildren }) {
   const t = useText();
-  const target = useRef<HTMLDivElement>(null);
-  const map = useRef<FactoryMap | null>(null);
-  useEffect(() => {
-    if (!target.current) return undefined;
-    const made = new FactoryMap(target.current);
-    map.current = made;
-    const end = props.ready(made);
-    return () => {
-      end?.();
-      made.dispose();
-    };
-    // eslint-disable-next-line -- once
-  }, []);
+  const { target, map } = useMap((element) => new FactoryMap(element), props.ready);
   return (
     <div class="map">
       <div ref={target} class="map-canvas" role="application" aria-label={t("map.label")} tabIndex={0} />

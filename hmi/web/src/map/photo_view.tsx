@@ -1,27 +1,16 @@
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef } from "preact/hooks";
 import type { TileInfo } from "../api_types";
 import { loadDraft } from "../drafts";
 import { useText } from "../i18n";
 import { Icon } from "../ui/icon";
 import { PhotoMap, type PhotoPlace } from "./photo_map";
+import { useMap } from "./use_map";
 
 /** A PhotoMap in the page, with zoom buttons and the attribution that every showing needs. */
 export function PhotoView(props: { info: TileInfo; site: string; ready: (map: PhotoMap) => void | (() => void); children?: ComponentChildren }) {
   const t = useText();
-  const target = useRef<HTMLDivElement>(null);
-  const map = useRef<PhotoMap | null>(null);
-  useEffect(() => {
-    if (!target.current) return undefined;
-    const made = new PhotoMap(target.current, props.info, loadDraft<PhotoPlace>(props.site, "photographs")?.value ?? null);
-    map.current = made;
-    const end = props.ready(made);
-    return () => {
-      end?.();
-      made.dispose();
-    };
-    // eslint-disable-next-line -- once for every set of tiles: the caller gives a key
-  }, []);
+  const near = () => loadDraft<PhotoPlace>(props.site, "photographs")?.value ?? null;
+  const { target, map } = useMap((element) => new PhotoMap(element, props.info, near()), props.ready);
   return (
     <div class="map photo">
       <div ref={target} class="map-canvas" role="application" aria-label={t("scale.photo")} tabIndex={0} />

@@ -43,6 +43,18 @@ export function corners(walls: readonly Wall[], gap: number): XY[] {
   });
 }
 
+/** The corners, and the middles between those nearer than `thickness`: a drawn wall has an inner and an outer one. */
+export function withMiddles(points: readonly XY[], thickness: number): XY[] {
+  const middles: XY[] = [];
+  points.forEach(([ax, ay], i) => {
+    for (const [bx, by] of points.slice(i + 1)) {
+      const apart = Math.hypot(bx - ax, by - ay);
+      if (apart > thickness / 20 && apart <= thickness) middles.push([(ax + bx) / 2, (ay + by) / 2]);
+    }
+  });
+  return [...points, ...middles];
+}
+
 /** The corner within `reach` of a place, or the place itself. */
 export function snapTo(points: readonly XY[], at: XY, reach: number): { at: XY; snapped: boolean } {
   const found = points[nearest(points, at, reach)];

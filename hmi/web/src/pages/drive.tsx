@@ -75,7 +75,7 @@ export function DrivePage({ site, walls, routes, role }: { site: Site; walls: Wa
         <button type="button" class="target" aria-label={t("drive.follow")} aria-pressed={following} onClick={() => setFollowing(!following)}><Icon name="follow" /></button>
       </MapView>
       <aside>
-        <StateCard frame={frame} />
+        <StateCard frame={frame} may={may} />
         <Tabs label={t("drive.tabs")} tabs={tabs} shown={tab} choose={setTab}>
           {tab === "orders" && <OrdersCard nodes={routes.nodes} may={may} />}
           {tab === "hand" && <Jog />}

@@ -36,7 +36,7 @@ function Events() {
         <Tool icon="warning" label={t("history.only_stops")} pressed={only} onClick={() => setOnly(true)} />
       </div>
       <Stale age={age_s} limit={5} />
-      {shown.length === 0 && <p class="quiet">{t("history.none")}</p>}
+      {shown.length === 0 && <p class="quiet" role="status">{t(value === null ? "history.asking" : "history.none")}</p>}
       <ol class="events">{shown.map((event, index) => <EventRow key={`${event.stamp} ${index}`} event={event} />)}</ol>
     </section>
   );
@@ -47,7 +47,7 @@ const hours = (seconds: number) => `${Math.floor(seconds / 3600)}:${String(Math.
 function StatisticsCard() {
   const t = useText();
   const { value, age_s } = usePolled(api.statistics, 3000);
-  if (!value) return <p class="quiet">{t("history.none")}</p>;
+  if (!value) return <p class="quiet" role="status">{t("history.asking")}</p>;
   const stops = value.stops ?? [];
   const most = Math.max(1, ...stops.map((stop) => stop.seconds));
   const figure = (name: string, text: string) => <div class="figure-box"><dt>{name}</dt><dd>{text}</dd></div>;
@@ -62,7 +62,7 @@ function StatisticsCard() {
       </dl>
       {value.since !== null && value.since > 0 && <p class="quiet">{t("history.since", { date: new Date(value.since * 1000).toLocaleDateString() })}</p>}
       <h2>{t("history.stops")}</h2>
-      {stops.length === 0 && <p class="quiet">{t("history.none")}</p>}
+      {stops.length === 0 && <p class="quiet">{t("history.no_stops")}</p>}
       <ul class="bars">
         {stops.map((stop) => (
           <li key={stop.cause.code + stop.cause.text}>
@@ -89,7 +89,7 @@ function Files({ may }: { may: boolean }) {
       <h2>{t("history.site")}</h2>
       <ul class="files">{link("/api/site/download", "site.tar", t("history.site.download"), t("history.site.what"))}</ul>
       <h2>{t("history.recordings")}</h2>
-      {(value ?? []).length === 0 && <p class="quiet">{t("history.none")}</p>}
+      {(value ?? []).length === 0 && <p class="quiet" role="status">{t(value === null ? "history.asking" : "history.none")}</p>}
       <ul class="files">
         {(value ?? []).map((file) => link(`/api/recordings/${encodeURIComponent(file.name)}`, `${file.name}.tar`, file.name, t("unit.mb", { value: (file.bytes / 1e6).toFixed(1) })))}
       </ul>

@@ -1,3 +1,4 @@
+import { api } from "../api";
 import { noticeText, useText } from "../i18n";
 import { en, type TextKey } from "../i18n/en";
 import type { Frame } from "../live/live_socket";
@@ -5,12 +6,15 @@ import { live } from "../live/live_socket";
 import { useStore } from "../store";
 import { Icon } from "./icon";
 import { Stale, useAge } from "./stale";
+import { attempt } from "./toast";
 
 const abnormal = new Set(["fault", "emergency_stop"]);
 const standing = new Set(["waiting", "localizing"]);
+/** a stay that a person may end */
+const stays = new Set(["loading", "unloading", "order-stop"]);
 
 /** The state in large words, why the vehicle stands, since when, and what to do about it. */
-export function StateCard({ frame }: { frame: Frame | null }) {
+export function StateCard({ frame, may }: { frame: Frame | null; may: boolean }) {
   const t = useText();
   const connected = useStore(live.connected);
   const age = useAge(frame);
@@ -24,7 +28,8 @@ export function StateCard({ frame }: { frame: Frame | null }) {
   }
   const { state, cause, remedy, since, goal } = frame.live;
   const key = `state.${state}`;
-  const tone = abnormal.has(state) ? "alarm" : standing.has(state) && cause.text !== "" ? "caution" : "";
+  const staysHere = stays.has(cause.code);
+  const tone = abnormal.has(state) ? "alarm" : standing.has(state) && cause.text !== "" && !staysHere ? "caution" : "";
   return (
     <section class={`card state ${tone}`} aria-live="polite" data-state={state}>
       <h2>{tone !== "" && <Icon name="warning" />} {key in en ? t(key as TextKey) : state}</h2>
@@ -34,6 +39,7 @@ export function StateCard({ frame }: { frame: Frame | null }) {
       </p>
       {cause.text !== "" && <p class="cause">{noticeText(t, "cause", cause)}</p>}
       {remedy.text !== "" && <p class="remedy"><Icon name="next" /> {noticeText(t, "remedy", remedy)}</p>}
+      {may && staysHere && <button type="button" class="target wide" onClick={() => void attempt(() => api.command("go-on"))}>{t("command.go-on")}</button>}
     </section>
   );
 }

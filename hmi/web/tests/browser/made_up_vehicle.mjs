@@ -16,7 +16,7 @@ const walls = [[2, 2, 58, 2], [58, 2, 58, 38], [58, 38, 2, 38], [2, 38, 2, 2], [
 const node = (id, x, y, name, heading_deg = null) => ({ id, x, y, name, station: name !== "", heading_deg, speed_mps: null, action: "" });
 const nodes = [node(0, 8, 8, "Dock 1", 180), node(1, 20, 19, ""), node(2, 36, 19, ""), node(3, 48, 10, "Press 1", 0), node(4, 48, 30, "Store 1", 90)];
 const legs = [[0, 1], [1, 0], [1, 2], [2, 1], [2, 3], [2, 4], [4, 2]];
-const findings = [{ severity: "warning", file: "tree.csv", line: 4, message: "Press 1 has no way out" }];
+const findings = [{ severity: "warning", file: "tree.csv", line: 4, message: "node 3 cannot be reached from the other nodes", code: "out-of-reach", values: { node: "3" } }];
 const order = (id, status, stations, repeat = 1) => ({ id, stations, status, repeat, created: 1, detail: none, stops: [], round: 0, next_stop: 0 });
 
 /** A white page with the walls on it, as the server's drawing.png. */
@@ -115,7 +115,7 @@ const answers = {
     m_per_px: kScale, relative_uncertainty: 0.003, residuals: [{ label: "1", residual_m: 0.012, outlier: false }], verdict: "good", text: "", mirrored: false, applied: false,
     method: "known", georeference: null, overlay: null, disagreements: [], reason: { code: "scale-good", values: {}, text: "good" }, notes: [],
   }),
-  "/api/devices": () => [{ type: "vlp16", address: "udp 2368", heard: true, detail: "", sensor: lidar }, { type: "drive", address: "/dev/ttyUSB0", heard: true, detail: "", sensor: null }, { type: "s300", address: "/dev/ttyUSB1", heard: false, detail: "", sensor: null }],
+  "/api/devices": () => [{ type: "vlp16", address: "udp 2368", heard: true, detail: none, sensor: lidar }, { type: "drive", address: "/dev/ttyUSB0", heard: true, detail: none, sensor: null }, { type: "s300", address: "/dev/ttyUSB1", heard: false, detail: none, sensor: null }],
   "/api/locate": () => ({ state: "ambiguous", hypotheses: [{ ...poseAt(0), score: 0.91 }, { x: 14, y: 12, yaw: 1, score: 0.47 }] }),
   "/api/orders": () => [order(7, "running", [0, 3], 5), order(8, "queued", [4]), order(9, "queued", [3, 0])],
   "/api/orders/history": () => [order(6, "done", [4]), order(5, "failed", [3])],

@@ -111,7 +111,7 @@ function WallEditor({ site, walls, changed, next, report }: StepProps & { report
         </div>
         <p class="quiet">{t(`drawing.hint.${tool}`)}</p>
         <span class="spring" />
-        <EditBar edit={edit} kind="walls" next={() => { changed(); next(); }} />
+        <EditBar edit={edit} kind="walls" next={next} />
       </aside>
     </>
   );

@@ -104,9 +104,9 @@ export function OverlayScale({ site, ways, finish }: ScaleWay) {
         </div>
         {numbers && (
           <div class="buttons">
-            <NumberField label={t("scale.zm")} value={Number(numbers.layout_zoom.toPrecision(4))} least={0.001} most={1000}
+            <NumberField label={t("scale.zm")} value={Number(numbers.layout_zoom.toPrecision(5))} least={0.001} most={1000}
               change={(value) => value !== null && stretch(value / ((scaleOf(placed.current ?? { a: 1, b: 0, tx: 0, ty: 0 })) / (photo.current?.map.getView().getResolution() ?? 1)))} />
-            <NumberField label={t("scale.zp")} value={Number(numbers.photo_zoom.toPrecision(4))} least={0.2} most={60} change={(value) => value !== null && setPhotoZoom(value)} />
+            <NumberField label={t("scale.zp")} value={Number(numbers.photo_zoom.toPrecision(5))} least={0.2} most={60} change={(value) => value !== null && setPhotoZoom(value)} />
           </div>
         )}
         {result && <Verdict result={result} />}

@@ -11,7 +11,7 @@ import { toLatLon } from "../../map/mercator";
 import type { PhotoMap } from "../../map/photo_map";
 import { PhotoView } from "../../map/photo_view";
 import { pickOn } from "../../map/pick";
-import { corners } from "../../map/snap";
+import { corners, withMiddles } from "../../map/snap";
 import { FetchTiles } from "./fetch_tiles";
 import type { ScaleWay } from "./scale_step";
 import { useMeasure } from "./use_measure";
@@ -63,7 +63,7 @@ export function PairScale({ site, walls, ways, finish }: ScaleWay) {
     made.showSite(site, api.drawingUrl(site.walls_revision));
     made.showWalls(walls.walls);
     made.fitWalls();
-    const snaps = corners(walls.walls, 8 * unit);
+    const snaps = withMiddles(corners(walls.walls, 8 * unit), 24 * unit);
     return pickOn(made.map, { picked: (at) => begin(toPixel(at, height, unit)), corners: () => snaps, active: () => true });
   };
   const photoReady = (made: PhotoMap) => {

@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { api } from "../../api";
 import type { Finding, Routes, Site, Walls } from "../../api_types";
-import { useText } from "../../i18n";
+import { noticeText, useText } from "../../i18n";
 import type { FactoryMap } from "../../map/factory_map";
 import type { XY } from "../../map/geometry";
 import { MapView } from "../../map/map_view";
@@ -23,7 +23,7 @@ function Findings({ findings }: { findings: readonly Finding[] }) {
     <div role="status"><ul class="findings">
       {findings.map((finding, i) => (
         <li key={i} class={finding.severity === "error" ? "bad" : ""}>
-          <Icon name="warning" /> {finding.message}
+          <Icon name="warning" /> {noticeText(t, "finding", { code: finding.code, values: finding.values, text: finding.message })}
         </li>
       ))}
     </ul></div>
@@ -108,17 +108,19 @@ export function RoutesStep({ site, walls, routes, changed, next }: { site: Site;
     <>
       <MapView ready={ready} />
       <aside>
-        <div class="buttons" role="group" aria-label={t("routes.tools")}>
-          <Tool icon="pen" label={t("routes.add")} pressed={drawing && chosen === null} onClick={() => lift(true)} />
-          <Tool icon="select" label={t("routes.select")} pressed={!drawing} onClick={() => lift(false)} />
-        </div>
+        {!node && (
+          <div class="buttons" role="group" aria-label={t("routes.tools")}>
+            <Tool icon="pen" label={t("routes.add")} pressed={drawing} onClick={() => lift(true)} />
+            <Tool icon="select" label={t("routes.select")} pressed={!drawing} onClick={() => lift(false)} />
+          </div>
+        )}
         {!node && <p class="quiet">{t(drawing ? "routes.hint" : "routes.hint.select")}</p>}
         <p class="facts">{t("routes.count", { nodes: plan.nodes.length, stations: plan.nodes.filter((one) => one.station).length })}</p>
         <Findings findings={findings} />
         {node && <NodeCard key={node.id} plan={plan} node={node} tool={tool} setTool={setTool} change={edit.change} close={() => setChosen(null)} />}
         <span class="spring" />
         {!node && <CsvCard saved={routes.nodes.length > 0} imported={() => { edit.loadTheirs(); changed(); }} />}
-        <EditBar edit={edit} kind="routes" next={() => { changed(); next(); }} />
+        <EditBar edit={edit} kind="routes" next={next} />
       </aside>
     </>
   );

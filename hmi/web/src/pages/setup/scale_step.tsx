@@ -20,7 +20,7 @@ export interface ScaleWay {
 type Way = "known" | "pairs" | "overlay";
 
 /** Step 2: the drawing gets its true scale, by known lengths, by points on an aerial photograph, or laid over it by eye. */
-export function ScaleStep({ site, walls, changed, next }: { site: Site; walls: Walls; changed: () => void; next: () => void }) {
+export function ScaleStep({ site, walls, saved, next }: { site: Site; walls: Walls; saved: () => void; next: () => void }) {
   const t = useText();
   const [way, setWay] = useState<Way>("known");
   const ways = (
@@ -33,7 +33,7 @@ export function ScaleStep({ site, walls, changed, next }: { site: Site; walls: W
       </div>
     </>
   );
-  const take = (apply: () => Promise<boolean>) => void apply().then((good) => { if (good) { changed(); next(); } });
+  const take = (apply: () => Promise<boolean>) => void apply().then((good) => good && saved());
   const finish = (result: ScaleResult | null, apply: (force?: boolean) => Promise<boolean>) => (
     <div class="buttons finish">
       <Tool icon="good" label={t("scale.apply")} primary={result !== null && result.verdict !== "refused"} disabled={result === null || result.verdict === "refused"}

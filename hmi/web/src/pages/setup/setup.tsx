@@ -49,7 +49,8 @@ interface Props {
   site: Site;
   walls: Walls;
   routes: Routes;
-  changed: () => void;
+  /** loads the site anew; the next step begins with what has come */
+  changed: () => Promise<unknown>;
   finished: () => void;
 }
 
@@ -60,15 +61,17 @@ export function SetupPage({ site, walls, routes, changed, finished }: Props) {
   const { value: setup } = usePolled(api.setup, 2000);
   const locked = useStore(live.newest)?.live.locked;
   const next = () => setStep(steps[steps.indexOf(step) + 1] ?? "locate");
+  /** Not at once: the next step would begin on what was before, and a quick touch go there. */
+  const saved = () => void changed().then(next);
   return (
     <main class="page">
       <StepBar shown={step} site={site} setup={setup} choose={setStep} />
       {locked && locked.text !== "" && <p class="caution locked" role="status"><Icon name="warning" /> {noticeText(t, "error", locked)}</p>}
       <div class="with-map step" key={step}>
-        {step === "drawing" && <DrawingStep site={site} walls={walls} changed={changed} next={next} />}
-        {step === "scale" && <ScaleStep key={site.scale?.m_per_px} site={site} walls={walls} changed={changed} next={next} />}
-        {step === "routes" && <RoutesStep key={site.scale?.m_per_px} site={site} walls={walls} routes={routes} changed={changed} next={next} />}
-        {step === "vehicle" && <VehicleStep site={site} changed={changed} next={next} />}
+        {step === "drawing" && <DrawingStep site={site} walls={walls} changed={() => void changed()} next={saved} />}
+        {step === "scale" && <ScaleStep key={site.scale?.m_per_px} site={site} walls={walls} next={next} saved={saved} />}
+        {step === "routes" && <RoutesStep key={site.scale?.m_per_px} site={site} walls={walls} routes={routes} changed={() => void changed()} next={saved} />}
+        {step === "vehicle" && <VehicleStep site={site} next={saved} />}
         {step === "locate" && <LocateStep key={walls.revision} site={site} walls={walls} finished={finished} />}
       </div>
     </main>

@@ -46,7 +46,7 @@ function Found({ plan, use }: { plan: Plan; use: (sensor: SensorInfo) => void })
               <Icon name={device.heard ? "good" : "bad"} />
               <span>
                 <strong>{t(`device.${device.type}` as TextKey)}</strong> {t(device.heard ? "vehicle.heard" : "vehicle.silent")}
-                <small>{device.address} {device.detail}</small>
+                <small>{device.address} {!["heard", "silent"].includes(device.detail.code) && noticeText(t, "device", device.detail)}</small>
                 {state && <small>{state.rate_hz !== null && t("vehicle.rate", { rate: state.rate_hz.toFixed(1) })} {noticeText(t, "device", state.detail)} <Stale age={state.age_s} /></small>}
               </span>
               {device.sensor && (used(device)
@@ -76,7 +76,7 @@ function Mounted({ sensor, change, remove }: { sensor: SensorInfo; change: (next
 }
 
 /** Step 4: sensors and drive found and shown live; the vehicle's shape. */
-export function VehicleStep({ site, changed, next }: { site: Site; changed: () => void; next: () => void }) {
+export function VehicleStep({ site, next }: { site: Site; next: () => void }) {
   const t = useText();
   const [more, setMore] = useState(false);
   const edit = useEdit<Plan>({
@@ -115,7 +115,7 @@ export function VehicleStep({ site, changed, next }: { site: Site; changed: () =
         {plan.sensors.length === 0 && <p class="caution" role="status"><Icon name="warning" /> {t("vehicle.no_sensor")}</p>}
         <div class="buttons"><Tool icon="setup" label={t("vehicle.details")} pressed={more} onClick={() => setMore(!more)} /></div>
         <span class="spring" />
-        <EditBar edit={edit} kind="vehicle" next={() => { changed(); next(); }} />
+        <EditBar edit={edit} kind="vehicle" next={next} />
       </aside>
     </div>
   );
