@@ -136,7 +136,7 @@ std::vector<Transform2<Map, Map>> DrawingFit::coarse(const MemoryCloud& cloud, c
   constexpr double kStepRad = 0.03;
   const int reach = static_cast<int>(std::ceil(window.half_m / kStepM));
   const int turns = static_cast<int>(std::ceil(window.half_rad / kStepRad));
-  const std::size_t stride = cloud.size() / 500 + 1;
+  const std::size_t stride = cloud.size() / window.sample + 1;
   for (int r = -turns; r <= turns; ++r) {
     const auto turned = about(centre, 0.0, 0.0, r * kStepRad);
     std::vector<CloudSurface> sample;

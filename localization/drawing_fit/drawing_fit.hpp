@@ -30,6 +30,7 @@ struct Alignment {
 struct AlignmentWindow {
   double half_m = 1.2;
   double half_rad = 0.35;
+  std::size_t sample = 500;  ///< surfaces that are looked at on the grid
 };
 
 /// Fits the memory as a whole to the drawing, and turns the drawing into pulls on the keyframes.

@@ -58,6 +58,10 @@ LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits)
   if (e.blind_scans > 1 && e.blind_s > 0.5 * limits.blind_s) {
     return because("the last scans do not agree with what was seen before");
   }
+  if (e.off_walls_scans >= limits.off_walls_scans) {
+    return because(
+        "the last scans fit the drawing much less than usual: the drawing is poor here, or the pose is off");
+  }
   if (e.position_sigma_m > limits.degraded_sigma_m) {
     return because("the position is uncertain by " + std::to_string(e.position_sigma_m).substr(0, 4) + " m");
   }

@@ -18,6 +18,7 @@ struct HealthEvidence {
   double blind_m = 0.0;                ///< driven since a scan last agreed with the memory and the wheels
   double blind_s = 0.0;                ///< time since then
   int blind_scans = 0;                 ///< scans since then
+  int off_walls_scans = 0;             ///< scans in a row that lie on drawn walls much less than usual
   double position_sigma_m = 0.0;
 };
 
@@ -34,6 +35,8 @@ struct HealthLimits {
   double blind_m = 2.0;
   double blind_s = 1.2;
   int blind_scans = 3;
+  double off_walls_share = 0.4;  ///< of the usual share on drawn walls; below it a scan does not fit
+  int off_walls_scans = 3;       ///< such scans in a row: degraded
   double degraded_sigma_m = 0.5;
 };
 

@@ -84,17 +84,17 @@ PoseEstimate Localizer::on_odometry(const OdometryReading& reading) {
   return estimate(reading.stamp, anchor_ * since_scan_.motion);
 }
 
-MatchResult Localizer::match(const SurfaceScan& scan, const OdometryStep& step) const {
-  MatchResult best = match_from(anchor_, scan, step);
-  if (late_anchor_ && best.inlier_share < options_.sure_inliers) {
-    const MatchResult late = match_from(*late_anchor_, scan, step);
-    best = late.inlier_share > best.inlier_share ? late : best;
+Localizer::Match Localizer::match(const SurfaceScan& scan, const OdometryStep& step) const {
+  const Match best = match_from(anchor_, scan, step);
+  if (late_anchor_ && best.place.inlier_share < options_.sure_inliers) {
+    const Match late = match_from(*late_anchor_, scan, step);
+    return late.place.inlier_share > best.place.inlier_share ? late : best;
   }
   return best;
 }
 
-MatchResult Localizer::match_from(const Transform2<Map, Base>& anchor, const SurfaceScan& scan,
-                                  const OdometryStep& step) const {
+Localizer::Match Localizer::match_from(const Transform2<Map, Base>& anchor, const SurfaceScan& scan,
+                                       const OdometryStep& step) const {
   const Transform2<Map, Base> prediction = anchor * step.motion;
   const Eigen::Matrix3d covariance = with_floor(in_map_axes(step.covariance, anchor.yaw_rad()));
   const MatchPrior prior{prediction, covariance.inverse()};
@@ -112,7 +112,7 @@ MatchResult Localizer::match_from(const Transform2<Map, Base>& anchor, const Sur
   }
   MatchResult near = map.refine(scan, map.search(scan, prediction, window).map_from_base, prior, pull);
   if (near.inlier_share > options_.sure_inliers) {
-    return near;
+    return {near, near};
   }
   window.half_m = 0.5 + 0.5 * std::min(2.0, step.path_m);
   window.half_rad = 0.8;
@@ -123,7 +123,7 @@ MatchResult Localizer::match_from(const Transform2<Map, Base>& anchor, const Sur
   const double metres = std::hypot(off.x_m(), off.y_m()) / window.sigma_m;
   const double turns = off.yaw_rad() / window.sigma_rad;
   const double margin = 0.05 + 0.03 * std::log1p(metres * metres + turns * turns);
-  return far.inlier_share > near.inlier_share + margin ? far : near;
+  return {far.inlier_share > near.inlier_share + margin ? far : near, near};
 }
 
 void Localizer::recall(Memory memory) {
@@ -155,25 +155,41 @@ void Localizer::start(SurfaceScan scan) {
       map_.memory = Memory(options_.memory);
     }
   }
-  map_.memory.add(std::move(scan), way_m, anchor_, Eigen::Matrix3d::Zero());
+  map_.memory.add(std::move(scan), way_m, anchor_, MeasuredMotion{});
+  moved_ = {};
   since_scan_ = {};
   since_keyframe_ = {};
   keyframes_since_thinking_ = 1;
   started_ = true;
 }
 
-void Localizer::remember(SurfaceScan scan, const MatchResult& match) {
+/// The motion of a scan, as far as the recent keyframes tell it; else the wheels', which may have slipped.
+void Localizer::go_on(const MatchResult& recent, const OdometryStep& step) {
+  if (recent.inlier_share > options_.lost_inliers) {
+    moved_ = moved_ * (anchor_.inverse() * recent.map_from_base);
+    moved_information_ = recent.information;
+    model_.learn(step, anchor_.inverse() * recent.map_from_base, 0.02, 0.005);
+    return;
+  }
+  moved_ = moved_ * step.motion;
+  moved_information_.setZero();
+  since_keyframe_.covariance += Eigen::Vector3d(0.04, 0.04, 0.25).asDiagonal();
+}
+
+void Localizer::remember(SurfaceScan scan) {
   const Transform2<Map, Base> last = map_.memory.poses().back();
   const Eigen::Matrix3d wheels = with_floor(since_keyframe_.covariance).inverse();
-  const Eigen::Matrix3d seen = in_map_axes(match.information, -last.yaw_rad());
-  map_.memory.add(std::move(scan), since_keyframe_.path_m, match.map_from_base, seen + wheels);
+  const Eigen::Matrix3d seen = in_map_axes(moved_information_, -last.yaw_rad());
+  map_.memory.add(std::move(scan), since_keyframe_.path_m, anchor_, MeasuredMotion{moved_, seen + wheels});
   since_keyframe_ = {};
+  moved_ = {};
   ++keyframes_since_thinking_;
 }
 
 void Localizer::think_if_due(Stamp stamp) {
   const std::size_t size = map_.memory.size();
-  if (!worker_.busy() && keyframes_since_thinking_ >= (size < 20 ? 1 : size < 200 ? 4 : 8)) {
+  const bool in_doubt = map_.evidence.off_walls_scans > 1;
+  if (!worker_.busy() && keyframes_since_thinking_ >= (size < 20 || in_doubt ? 1 : size < 200 ? 4 : 8)) {
     keyframes_since_thinking_ = 0;
     worker_.start(stamp, map_, options_);
   }
@@ -186,6 +202,7 @@ void Localizer::take_in_thoughts(Stamp stamp) {
     thought->memory = std::move(map_.memory);
     thought->evidence.blind_scans = map_.evidence.blind_scans;
     thought->evidence.blind_m = map_.evidence.blind_m;
+    thought->evidence.off_walls_scans = map_.evidence.off_walls_scans;
     map_ = *std::move(thought);
     anchor_ = by * anchor_;
     if (late_anchor_) late_anchor_ = by * *late_anchor_;
@@ -200,6 +217,14 @@ bool Localizer::jumps(const MatchResult& match, const OdometryStep& step) const 
   return e.dot(covariance.inverse() * e) > 16.0;
 }
 
+/// Do the scans lie on the drawing as they usually do? A stretch that does not may have drifted. Whoever
+/// stays beside it for long has a poor drawing there: it becomes usual, slowly.
+void Localizer::note_fit(double on_walls) {
+  const bool fits = on_walls > options_.health.off_walls_share * usual_on_walls_;
+  map_.evidence.off_walls_scans = fits ? 0 : map_.evidence.off_walls_scans + 1;
+  usual_on_walls_ += (fits ? 0.05 : 0.01) * (on_walls - usual_on_walls_);
+}
+
 /// Does the scan agree with the memory as scans usually do here? Furniture and people hide walls: that the
 /// drawing does not show what is seen is no reason for doubt while memory and wheels go on. Once in doubt,
 /// the memory alone does not clear it: what was added since the doubt began agrees with itself anywhere.
@@ -207,6 +232,7 @@ void Localizer::note_agreement(const SurfaceScan& scan, const MatchResult& match
   const bool drawing_speaks = map_.drawing && !map_.evidence.searching && map_.drawing_fits(options_.health);
   const double on_walls = drawing_speaks ? map_.drawing->share_on_walls(scan, match.map_from_base) : 0.0;
   const bool exact = drawing_speaks && drawing_is_exact();
+  if (drawing_speaks) note_fit(on_walls);
   bool agrees = match.inlier_share > std::max(options_.lost_inliers, 0.5 * usual_inliers_);
   if (exact && (map_.evidence.blind_scans > 0 || jumps(match, step))) {
     agrees = agrees && on_walls > 0.5 * usual_on_walls_;
@@ -217,9 +243,6 @@ void Localizer::note_agreement(const SurfaceScan& scan, const MatchResult& match
     return;
   }
   usual_inliers_ += 0.05 * (match.inlier_share - usual_inliers_);
-  if (drawing_speaks) {
-    usual_on_walls_ += 0.05 * (on_walls - usual_on_walls_);
-  }
   last_agreed_ = scan.stamp;
   map_.evidence.blind_scans = 0;
   map_.evidence.blind_m = 0.0;
@@ -263,11 +286,12 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
   }
   take_in_thoughts(stamp);
   if (stamp < anchor_stamp_) {
-    late_anchor_ = match(scan, OdometryStep{}).map_from_base;  // which of the two clocks is right shows next
+    late_anchor_ =
+        match(scan, OdometryStep{}).place.map_from_base;  // which of the two clocks is right shows next
     return estimate(stamp, *late_anchor_);
   }
   const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
-  MatchResult matched = match(scan, step);
+  auto [matched, recent] = match(scan, step);
   late_anchor_.reset();
   note_agreement(scan, matched, step);
   const bool fits = matched.inlier_share > options_.lost_inliers;
@@ -275,17 +299,13 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
     matched.map_from_base = anchor_ * step.motion;
     matched.information.setZero();
     map_.memory.note_break();
-    since_keyframe_.covariance += Eigen::Vector3d(0.04, 0.04, 0.25).asDiagonal();  // wheels may have slipped
   }
-  if (fits) {
-    model_.learn(step, anchor_.inverse() * matched.map_from_base, 0.02, 0.005);
-  }
+  go_on(recent, step);
   anchor_ = matched.map_from_base;
   anchor_stamp_ = stamp;
   update_covariance(matched);
   since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
-  if (drawing_is_exact() && !map_.evidence.searching &&
-      map_.evidence.blind_scans >= options_.health.blind_scans &&
+  if (drawing_is_exact() && !map_.evidence.searching && map_.evidence.blind_scans >= options_.restart_scans &&
       judge(evidence_with_time(stamp), options_.health).state == LocalizationState::Lost &&
       map_.drawing_fits(options_.health)) {
     search_from_here(std::move(scan));
@@ -294,7 +314,7 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
   const Transform2<Base, Base> moved = map_.memory.poses().back().inverse() * anchor_;
   if (std::hypot(moved.x_m(), moved.y_m()) > options_.keyframe_m ||
       std::abs(moved.yaw_rad()) > options_.keyframe_rad) {
-    remember(std::move(scan), matched);
+    remember(std::move(scan));
   }
   think_if_due(stamp);
   return estimate(stamp, anchor_);

@@ -41,18 +41,26 @@ class Localizer {
 
  private:
   [[nodiscard]] PoseEstimate estimate(Stamp stamp, const Transform2<Map, Base>& map_from_base) const;
-  MatchResult match(const SurfaceScan& scan, const OdometryStep& step) const;
-  MatchResult match_from(const Transform2<Map, Base>& anchor, const SurfaceScan& scan,
-                         const OdometryStep& step) const;
+  /// Where the scan lies, and where the recent keyframes alone would put it: the way between keyframes is
+  /// measured by these, so that finding an old place again does not enter the graph as a motion.
+  struct Match {
+    MatchResult place;
+    MatchResult recent;
+  };
+  Match match(const SurfaceScan& scan, const OdometryStep& step) const;
+  Match match_from(const Transform2<Map, Base>& anchor, const SurfaceScan& scan,
+                   const OdometryStep& step) const;
   void start(SurfaceScan scan);
   [[nodiscard]] std::optional<Transform2<Map, Base>> place_in_memory(const SurfaceScan& scan) const;
-  void remember(SurfaceScan scan, const MatchResult& match);
+  void remember(SurfaceScan scan);
+  void go_on(const MatchResult& recent, const OdometryStep& step);
   void think_if_due(Stamp stamp);
   void take_in_thoughts(Stamp stamp);
   [[nodiscard]] HealthEvidence evidence_with_time(Stamp stamp) const;
   [[nodiscard]] bool drawing_is_exact() const;
   void search_from_here(SurfaceScan scan);
   [[nodiscard]] bool jumps(const MatchResult& match, const OdometryStep& step) const;
+  void note_fit(double on_walls);
   void note_agreement(const SurfaceScan& scan, const MatchResult& match, const OdometryStep& step);
   void update_covariance(const MatchResult& match);
 
@@ -66,7 +74,9 @@ class Localizer {
   Transform2<Map, Base> anchor_;                      ///< the pose at the last scan
   std::optional<Transform2<Map, Base>> late_anchor_;  ///< of a scan whose stamp ran backwards
   OdometryStep since_scan_;
-  OdometryStep since_keyframe_;
+  OdometryStep since_keyframe_;   ///< by the wheels
+  Transform2<Base, Base> moved_;  ///< since the newest keyframe, by the recent ones
+  Eigen::Matrix3d moved_information_ = Eigen::Matrix3d::Zero();  ///< of the last of these matches, Map axes
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
   int keyframes_since_thinking_ = 0;
   double usual_inliers_ = 0.6;   ///< share of a scan that fits the memory

@@ -1,6 +1,7 @@
 #include "localization/localizer/map_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "localization/drawing_fit/survey.hpp"
 
@@ -68,7 +69,7 @@ void MapState::survey_drawing(const MemoryCloud& cloud, const LocalizerOptions& 
   const Survey found = survey(*drawing, cloud);
   evidence.mirrored_nats = found.mirrored_nats - found.here_nats;
   evidence.elsewhere_nats = found.elsewhere_nats - found.here_nats;
-  const bool in_doubt = evidence.elsewhere_nats > options.health.rival_nats;
+  const bool in_doubt = evidence.elsewhere_nats > options.health.rival_nats || !drawing_fits(options.health);
   next_survey_walls = evidence.walls_seen * (in_doubt ? 1.3 : 2.0);
 }
 
@@ -94,17 +95,41 @@ void MapState::look_everywhere(const LocalizerOptions& options) {
   consult_drawing(options);
 }
 
-/// On an exact drawing, a stretch that lies beside it by many times the drawing's own error has drifted:
-/// the walls it belongs to are sought anew. On a rough drawing the building's own shape is the better guide.
+/// How far beside its place the newest stretch is sought. Where it fits the drawing as the rest does, only an
+/// exact drawing knows better by centimetres: on a rough one the building's own shape is the better guide.
+AlignmentWindow MapState::drift_window(const MemoryCloud& recent, const LocalizerOptions& options) const {
+  const double walls = DrawingFit::walls_seen(recent);
+  const double nats = drawing->likelihood(recent, {}, std::max(0.1, drawing->model().sigma_m));
+  const double usual = evidence.fit_nats / std::max(1.0, evidence.walls_seen);
+  if (walls > options.drift_walls && nats < options.drift_share * usual * walls) {
+    return {options.drift_half_m, options.drift_half_rad, 250};
+  }
+  return drawing->model().sigma_m > options.exact_drawing_m ? AlignmentWindow{0.0, 0.0}
+                                                            : AlignmentWindow{0.8, 0.09};
+}
+
+/// A stretch that lies beside the drawing, where it fits much better another way, has drifted: it is laid on
+/// the walls that it belongs to. The farther off, the more they have to say.
 bool MapState::correct_recent_drift(const LocalizerOptions& options) {
   const std::size_t first = memory.window_begin();
-  if (drawing->model().sigma_m > options.exact_drawing_m || first == 0) {
+  if (first == 0) {
     return false;
   }
-  const Alignment found = drawing->align(memory_cloud(memory, first), {0.8, 0.09});
+  const MemoryCloud recent = memory_cloud(memory, first);
+  const AlignmentWindow window = drift_window(recent, options);
+  if (window.half_m <= 0.0) {
+    return false;
+  }
+  const Alignment found = drawing->align(recent, window);
   const Point2<Map> here = memory.poses().back().translation();
-  if (found.gain < 2.0 * options.move_gain ||
-      distance_m(found.correction * here, here) < 3.0 * drawing->model().sigma_m) {
+  const double metres = distance_m(found.correction * here, here);
+  const double turns = std::abs(found.correction.yaw_rad());
+  const double far = 0.75 * std::log1p(16.0 * metres * metres + 400.0 * turns * turns);
+  const bool exact =
+      drawing->model().sigma_m < options.exact_drawing_m && window.half_m < options.drift_half_m;
+  const bool clear = exact ? metres > 3.0 * drawing->model().sigma_m
+                           : metres > options.drift_least_m || turns > options.drift_least_rad;
+  if (found.gain < 2.0 * options.move_gain + far || !clear) {
     return false;
   }
   memory.move(found.correction, first);

@@ -23,6 +23,8 @@ struct MapState {
  private:
   void consult_drawing(const LocalizerOptions& options);
   bool correct_recent_drift(const LocalizerOptions& options);
+  [[nodiscard]] AlignmentWindow drift_window(const MemoryCloud& recent,
+                                             const LocalizerOptions& options) const;
   void survey_drawing(const MemoryCloud& cloud, const LocalizerOptions& options);
   void look_everywhere(const LocalizerOptions& options);
   [[nodiscard]] double surprise(const Transform2<Map, Base>& first) const;

@@ -29,6 +29,13 @@ struct LocalizerOptions {
   double found_nats = 8.0;    ///< nats by which the best place of all must lead to be taken for the place
   double search_walls = 8.0;  ///< that must have been seen before the first look at all places
   double move_gain = 3.0;     ///< nats by which another place must explain the memory better
+  double drift_walls = 6.0;   ///< that the newest stretch must have seen to be judged by itself
+  double drift_share = 0.5;   ///< of the usual fit; a stretch that fits less may have drifted,
+  double drift_half_m = 2.4;  ///< and is sought this far around
+  double drift_half_rad = 0.3;
+  double drift_least_m = 0.5;  ///< less may be the drawing's own error, and so may a smaller turn:
+  double drift_least_rad = 0.1;
+  int restart_scans = 8;  ///< of no agreement, after which the memory is given up and the place sought anew
   HealthLimits health;
   double lost_inliers = 0.25;  ///< a scan that fits the memory less than this leaves the pose to the wheels
   /// What is thought over beside the cycle is taken in at the first scan this much later, by the stamps of

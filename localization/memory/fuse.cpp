@@ -55,8 +55,8 @@ void add(std::vector<RelativeFactor>& factors, RelativeFactor factor) {
 
 }  // namespace
 
-Eigen::Matrix3d limited(const Eigen::Matrix3d& information) {
-  const Eigen::Vector3d floor(1e-4, 1e-4, 7e-6);
+Eigen::Matrix3d limited(const Eigen::Matrix3d& information, const Eigen::Vector3d& grown) {
+  const Eigen::Vector3d floor = Eigen::Vector3d(1e-4, 1e-4, 7e-6) + grown;
   const Eigen::Matrix3d regular = information + 1e-3 * Eigen::Matrix3d::Identity();
   return (regular.inverse() + Eigen::Matrix3d(floor.asDiagonal())).inverse();
 }

@@ -19,7 +19,9 @@ namespace madori::localization {
 bool take_out(int node, const std::vector<Transform2<Map, Base>>& poses,
               std::vector<RelativeFactor>& factors);
 
-/// No scan match is better than this, however many points agree: 1 cm and 0.15 degrees.
-[[nodiscard]] Eigen::Matrix3d limited(const Eigen::Matrix3d& information);
+/// No scan match is better than this, however many points agree: 1 cm and 0.15 degrees, and the variances
+/// `grown` on top.
+[[nodiscard]] Eigen::Matrix3d limited(const Eigen::Matrix3d& information,
+                                      const Eigen::Vector3d& grown = Eigen::Vector3d::Zero());
 
 }  // namespace madori::localization

@@ -74,12 +74,22 @@ LocalMap Memory::whole_map(const Point2<Map>& centre) const {
 
 void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
                  const Eigen::Matrix3d& motion_information) {
+  add(std::move(scan), path_m, map_from_base,
+      MeasuredMotion{empty() ? Transform2<Base, Base>() : poses_.back().inverse() * map_from_base,
+                     motion_information});
+}
+
+void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
+                 const MeasuredMotion& motion) {
   const int id = static_cast<int>(size());
   double path = 0.0;
   if (!empty()) {
     path = keyframes_.back().path_m + path_m;
-    factors_.push_back(
-        {id - 1, id, poses_.back().inverse() * map_from_base, limited(motion_information), false});
+    const double metres = std::min(path_m, 10.0);
+    const Eigen::Vector3d grown(options_.chain_m * options_.chain_m * metres,
+                                options_.chain_m * options_.chain_m * metres,
+                                options_.chain_rad * options_.chain_rad * metres);
+    factors_.push_back({id - 1, id, motion.motion, limited(motion.information, grown), false});
   }
   keyframes_.push_back({std::make_shared<const SurfaceScan>(std::move(scan)), path, broken_});
   poses_.push_back(map_from_base);

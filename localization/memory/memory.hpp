@@ -25,6 +25,8 @@ struct MemoryOptions {
   double break_open_m = 60.0;   ///< a break in the chain counts as so much driving
   double drift_per_m = 0.015;   ///< growth of the uncertainty between loops, metres a metre
   double drift_rad_per_m = 0.004;
+  double chain_m = 0.02;      ///< error of the motion between keyframes, metres a root-metre:
+  double chain_rad = 0.006;   ///< what the match of a scan cannot know of itself
   double place_m = 0.6;       ///< keyframes this near to each other,
   double place_rad = 0.35;    ///< looking the same way, are of the same place
   int keyframes_a_place = 2;  ///< that stay when more recent ones come
@@ -35,6 +37,12 @@ struct Keyframe {
   std::shared_ptr<const SurfaceScan> scan;
   double path_m = 0.0;       ///< driven since the start
   bool after_break = false;  ///< the motion from its forerunner may be wrong
+};
+
+/// A motion with its information, in the axes of the pose it starts from.
+struct MeasuredMotion {
+  Transform2<Base, Base> motion;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
 };
 
 /// What the vehicle has seen itself: keyframes in a pose graph. Poses are Map frame, and are only as right as
@@ -61,8 +69,11 @@ class Memory {
   [[nodiscard]] LocalMap whole_map(const Point2<Map>& centre) const;
   /// The chain of motions may be broken here: loops are sought in a wide window until one is closed.
   void note_break() { broken_ = true; }
-  /// Adds a keyframe after `path_m` more of driving, tied to the newest one by the motion between them with
-  /// its information (axes of the newest).
+  /// Adds a keyframe after `path_m` more of driving, tied to the newest one by the measured motion between
+  /// them, which need not be the difference of the poses: where an old place was found again it is not.
+  void add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
+           const MeasuredMotion& motion);
+  /// The same where the poses' difference is what was measured, with its information (axes of the newest).
   void add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
            const Eigen::Matrix3d& motion_information);
   /// Looks for old keyframes near those added since the last time and ties them. Returns how many loops were

@@ -1,17 +1,22 @@
 // How the localizer stands harm: real logs on drawings that are wrong, from starts that are wrong, with
 // wheels and scans made worse. One configuration for all of them. Needs the data folder
 // (docs/reference/benchmarks.md).
-//   bench_robustness [DATA/lidar2d [part of a case's name]]
+//   bench_robustness [DATA/lidar2d [parts of cases' names, comma between [folder for a file of every scan's
+//   errors]]]
 // Columns: longest run of scans off by more than 2 m; position median and p95, metres; heading mean, degrees;
 // share within 0.5 m and 10 degrees; shares of the time in each state; scans LOCALIZED while over 1.5 m off;
 // mean of the relations, metres. Drawings of fr079 and aces are lines seen in the log itself, then made
 // wrong.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "app/health_log.hpp"
@@ -39,9 +44,9 @@ struct Building {
 
 struct Case {
   std::string name;
-  LogHarm log;
-  Lies lies;
-  PictureHarm picture;
+  LogHarm log{};
+  Lies lies{};
+  PictureHarm picture{};
   double start_x_m = 0.35, start_y_m = 0.35, start_deg = 10.0;
   bool has_drawing = true;
   unsigned seed = 1;
@@ -85,15 +90,20 @@ struct Outcome {
   int longest_lost = 0;
   int wrongly_sure = 0;
   double p50_ms = 0.0, p99_ms = 0.0;
+  std::string scans = "time_s,x_m,y_m,error_x_m,error_y_m,error_deg,state,reason\n";
 };
 
-void judge_scans(const Records& log, const std::vector<PoseEstimate>& at_scans, const Truth& truth,
-                 Outcome& out) {
-  (void)log;
+void judge_scans(const std::vector<PoseEstimate>& at_scans, const Truth& truth, Outcome& out) {
   int run = 0;
   for (const PoseEstimate& e : at_scans) {
     const StampedPose& t = nearest(truth, e.stamp);
     if (std::abs(to_seconds(t.stamp - e.stamp)) > 0.05) continue;
+    const Transform2<Base, Base> off = t.map_from_base.inverse() * e.map_from_base;
+    out.scans += fmt::format("{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f},{},\"{}\"\n",
+                             to_seconds(t.stamp.time_since_epoch()), t.map_from_base.x_m(),
+                             t.map_from_base.y_m(), e.map_from_base.x_m() - t.map_from_base.x_m(),
+                             e.map_from_base.y_m() - t.map_from_base.y_m(), to_deg(off.yaw_rad()),
+                             to_string(e.health.state), e.health.reason);
     const double d = distance_m(t.map_from_base.translation(), e.map_from_base.translation());
     run = d > 2.0 ? run + 1 : 0;
     out.longest_lost = std::max(out.longest_lost, run);
@@ -131,12 +141,13 @@ Outcome play(const Building& building, const Case& c) {
   std::sort(played.scan_ms.begin(), played.scan_ms.end());
   out.p50_ms = played.scan_ms[played.scan_ms.size() / 2];
   out.p99_ms = played.scan_ms[played.scan_ms.size() * 99 / 100];
-  judge_scans(log, at_scans, truth, out);
+  judge_scans(at_scans, truth, out);
   return out;
 }
 
-void print_case(const Building& building, const Case& c) {
+void print_case(const Building& building, const Case& c, const std::filesystem::path& scans) {
   const Outcome out = play(building, c);
+  if (!scans.empty()) std::ofstream(scans / (building.name + " " + c.name + ".csv")) << out.scans;
   const auto score = app::score_against_truth(out.trajectory, truth_of(building, c));
   double relations = 0.0;
   if (!c.log.reversed && std::filesystem::exists(building.relations)) {
@@ -219,8 +230,8 @@ Building intel(const std::filesystem::path& folder, const std::string& picture =
 
 class Table {
  public:
-  Table(std::filesystem::path folder, std::string filter)
-      : folder_(std::move(folder)), filter_(std::move(filter)) {
+  Table(std::filesystem::path folder, std::string filter, std::filesystem::path scans)
+      : folder_(std::move(folder)), filter_(std::move(filter)), scans_(std::move(scans)) {
     std::printf("%-26s %4s %6s %6s %6s %5s | %5s %5s %5s %5s %4s | %6s | %5s %5s\n", "case", "lost", "median",
                 "p95", "head", "in %", "LOC", "DEG", "AMB", "LOST", "sure", "relat.", "p50ms", "p99ms");
   }
@@ -228,10 +239,10 @@ class Table {
   void run(const std::string& name, const std::function<Building()>& make, const std::vector<Case>& cases) {
     std::optional<Building> building;
     for (const Case& c : cases) {
-      if ((name + "/" + c.name).find(filter_) == std::string::npos) continue;
+      if (!wanted(name + "/" + c.name)) continue;
       if (!building) building = make();
       building->name = name;
-      print_case(*building, c);
+      print_case(*building, c, scans_);
     }
   }
 
@@ -261,8 +272,18 @@ class Table {
   }
 
  private:
+  /// Any of the parts of names, which are separated by commas.
+  [[nodiscard]] bool wanted(const std::string& name) const {
+    std::istringstream parts(filter_);
+    for (std::string part; std::getline(parts, part, ',');) {
+      if (name.find(part) != std::string::npos) return true;
+    }
+    return filter_.empty();
+  }
+
   std::filesystem::path folder_;
   std::string filter_;
+  std::filesystem::path scans_;
 };
 
 }  // namespace
@@ -271,7 +292,7 @@ class Table {
 int main(int argc, char** argv) {
   const std::filesystem::path folder = argc > 1 ? argv[1] : std::string(MADORI_SHARED_DATA) + "/lidar2d";
   try {
-    madori::bench::Table(folder, argc > 2 ? argv[2] : "").all();
+    madori::bench::Table(folder, argc > 2 ? argv[2] : "", argc > 3 ? argv[3] : "").all();
   } catch (const madori::Error& e) {
     std::fprintf(stderr, "bench_robustness: %s\n", e.what());
     return 1;

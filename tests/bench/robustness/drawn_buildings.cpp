@@ -40,9 +40,11 @@ mapping::Walls picture_walls(const std::filesystem::path& picture, double m_per_
 
 mapping::Walls walls_from_log(const Records& log, const std::vector<app::StampedPose>& truth) {
   localization::Memory memory;
+  std::size_t scans = 0;
   for (const sensors::LogRecord& record : log) {
     const auto* scan = std::get_if<sensors::ScanRecord>(&record);
     if (scan == nullptr) continue;
+    ++scans;
     const auto at = std::find_if(truth.begin(), truth.end(), [&](const app::StampedPose& p) {
       return std::abs(to_seconds(p.stamp - scan->scan.stamp)) < 0.01;
     });
@@ -58,7 +60,9 @@ mapping::Walls walls_from_log(const Records& log, const std::vector<app::Stamped
                0.0, at->map_from_base, Eigen::Matrix3d::Identity());
   }
   localization::WallLineOptions options;
-  options.least_sightings = 3;
+  const bool dense = static_cast<double>(memory.size()) <
+                     0.7 * static_cast<double>(scans);  // else a wall may be in one scan alone
+  options.least_sightings = dense ? 3 : 1;
   return localization::wall_lines(localization::memory_cloud(memory), options);
 }
 

@@ -57,6 +57,15 @@ TEST(Health, ARivalPlaceIsAmbiguousABetterOneIsLost) {
   EXPECT_EQ(judge(e).state, LocalizationState::Lost);
 }
 
+TEST(Health, ScansBesideTheDrawingAreDegraded) {
+  HealthEvidence e = sound();
+  e.off_walls_scans = 2;
+  EXPECT_EQ(judge(e).state, LocalizationState::Localized);
+  e.off_walls_scans = 3;
+  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
+  EXPECT_THAT(judge(e).reason, HasSubstr("fit the drawing much less than usual"));
+}
+
 TEST(Health, OneBadScanIsNoLossManyAre) {
   HealthEvidence e = sound();
   e.blind_scans = 1;

@@ -1,0 +1,218 @@
+// From packet to pose: VLP-16 at 10 Hz in the sample factory, 30 % of the walls hidden. What the vehicle
+// would receive is made first (all 16 lasers, wheels that slip), then the bytes are played, and the work of
+// each revolution is timed: all of its packets decoded and assembled, moved to the last firing, walls
+// extracted, and a pose made of them in three ways. Processor time of this thread (what a core of one's own
+// would take) and time by the clock. The Localizer thinks in a thread beside, which is not counted in the
+// first. A load is no measurement: prefer the first figure on a busy machine.
+//   bench_cycle [seconds of driving, default 60]
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "control/diff_drive/odometry.hpp"
+#include "localization/localizer/localizer.hpp"
+#include "localization/particle_filter/particle_filter.hpp"
+#include "localization/registration/segment_icp.hpp"
+#include "localization/wall_extraction/cloud_in_base.hpp"
+#include "sensors/vlp16/encode.hpp"
+#include "simulation/lidar/vlp16_model.hpp"
+#include "tests/support/localization_trial.hpp"
+
+namespace madori::bench {
+namespace {
+
+using namespace madori::localization;
+using Pose = Transform2<Map, Base>;
+
+struct Packet {
+  Stamp stamp{};
+  std::array<std::uint8_t, sensors::vlp16::kDataBytes> bytes{};
+};
+using Event = std::variant<OdometryReading, Packet>;
+
+struct Drive {
+  std::vector<Event> events;
+  Pose start;
+  mapping::SensorRecord lidar;
+  mapping::Walls walls;
+  std::vector<std::pair<Stamp, Pose>> truth;
+};
+
+/// Drives the sample factory for some seconds and keeps what reached the vehicle.
+Drive recorded_drive(double seconds) {
+  const test::TrialSetup setup = test::sample_factory_trial(MADORI_DATA_DIR, 30.0, 0);
+  test::VirtualFloor floor(setup.walls, setup.scenario, 1);
+  test::TrueDriver driver(setup.routes, 1);
+  simulation::Vlp16Model vlp16(floor.lidar(), setup.scenario.vlp16, 1, Duration(0));
+  const mapping::VehicleRecord vehicle;
+  control::DiffDriveOdometry odometry(control::OdometryOptions{
+      {vehicle.wheel_radius_m, vehicle.wheel_radius_m, vehicle.half_wheel_separation_m}});
+  simulation::PoseTrack track;
+  const Stamp epoch = floor.now();
+  track.add(Duration(0), floor.world().frames().building_pose(floor.truth()));
+  Drive drive{{}, floor.truth(), floor.lidar(), setup.drawing, {}};
+  while (to_seconds(floor.now() - epoch) < seconds) {
+    const test::FloorInput input = floor.step(driver.command(floor));
+    track.add(input.now - epoch, floor.world().frames().building_pose(floor.truth()));
+    drive.truth.emplace_back(input.now, floor.truth());
+    for (const auto& status : input.drive) {
+      odometry.update(status,
+                      input.now - std::chrono::microseconds(input.drive.back().time_us - status.time_us));
+      drive.events.emplace_back(odometry.reading());
+    }
+    while (vlp16.next_complete() <= input.now - epoch) {
+      const Stamp due = epoch + vlp16.next_complete();
+      drive.events.emplace_back(
+          Packet{due, sensors::vlp16::encode(vlp16.measure({floor.world(), track, {}}))});
+    }
+  }
+  return drive;
+}
+
+double seconds_of(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// What makes a pose of a revolution's walls.
+struct PoseSource {
+  std::string name;
+  std::function<void(const OdometryReading&)> on_odometry;
+  std::function<Pose(Stamp, const ScanPoints&)> on_scan;
+};
+
+/// Filter of a thousand particles, then registration: the cycle as the design draws it.
+class FilterAndRefine {
+ public:
+  FilterAndRefine(const Drive& drive)
+      : field_(drive.walls, BeamModel{}), grid_(drive.walls), filter_(options(), 7), pose_(drive.start) {
+    filter_.start_at(drive.start, Eigen::Vector3d(0.01, 0.01, 0.001).asDiagonal(), kParticles);
+  }
+  void on_odometry(const OdometryReading& reading) {
+    if (!track_.empty())
+      model_.extend(step_, track_.newest().odom_from_base.inverse() * reading.odom_from_base);
+    (void)track_.add(reading);
+  }
+  Pose on_scan(Stamp /*stamp*/, const ScanPoints& points) {
+    filter_.predict(step_.motion, step_.covariance);
+    (void)filter_.correct(points, field_);
+    (void)filter_.resample_if_needed();
+    const Pose guess = filter_.estimate().map_from_base;
+    step_ = {};
+    return pose_ = segment_icp(points, grid_, guess, icp_).map_from_base;
+  }
+
+ private:
+  static constexpr std::size_t kParticles = 1000;
+  static ParticleFilterOptions options() {
+    ParticleFilterOptions options;
+    options.min_particles = options.max_particles = kParticles;
+    return options;
+  }
+  SegmentIcpOptions icp_ = {.first_scale_m = 0.25};
+  LikelihoodField field_;
+  SegmentGrid grid_;
+  ParticleFilter filter_;
+  OdometryModel model_;
+  OdometryTrack track_;
+  OdometryStep step_;
+  Pose pose_;
+};
+
+struct Times {
+  std::vector<double> processor_ms, clock_ms, error_m;
+  double points = 0.0;
+};
+
+Point2<Map> truth_at(const Drive& drive, Stamp stamp) {
+  const auto after = std::lower_bound(drive.truth.begin(), drive.truth.end(), stamp,
+                                      [](const auto& entry, Stamp s) { return entry.first < s; });
+  if (after == drive.truth.begin() || after == drive.truth.end()) return drive.start.translation();
+  const auto before = std::prev(after);
+  const double share = to_seconds(stamp - before->first) / to_seconds(after->first - before->first);
+  const Point2<Map> a = before->second.translation(), b = after->second.translation();
+  return {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m)};
+}
+
+Times play(const Drive& drive, const PoseSource& source) {
+  Times times;
+  OdometryTrack track;
+  std::vector<PointCloud<Lidar>> clouds;
+  sensors::vlp16::Assembler assembler(
+      [&](sensors::vlp16::Frame& f) { clouds.push_back(std::move(f.cloud)); });
+  const Transform2<Base, Lidar> mounting(drive.lidar.x_m, drive.lidar.y_m, to_rad(drive.lidar.yaw_deg));
+  double processor = 0.0, clock = 0.0;
+  for (const Event& event : drive.events) {
+    const double processor0 = seconds_of(CLOCK_THREAD_CPUTIME_ID), clock0 = seconds_of(CLOCK_MONOTONIC);
+    std::optional<Pose> pose;
+    Stamp stamp{};
+    if (const auto* reading = std::get_if<OdometryReading>(&event)) {
+      (void)track.add(*reading);
+      source.on_odometry(*reading);
+    } else {
+      const Packet& packet = std::get<Packet>(event);
+      (void)assembler.push(packet.bytes, packet.stamp);
+      for (const auto& cloud : clouds) {
+        const PointCloud<Base> base = cloud_in_base(cloud, mounting, drive.lidar.z_m, track);
+        const ScanPoints walls = extract_walls(base);
+        times.points += static_cast<double>(walls.size());
+        pose = source.on_scan(stamp = base.stamp, walls);
+      }
+      clouds.clear();
+    }
+    processor += seconds_of(CLOCK_THREAD_CPUTIME_ID) - processor0;
+    clock += seconds_of(CLOCK_MONOTONIC) - clock0;
+    if (!pose) continue;
+    times.processor_ms.push_back(1e3 * std::exchange(processor, 0.0));
+    times.clock_ms.push_back(1e3 * std::exchange(clock, 0.0));
+    times.error_m.push_back(distance_m(truth_at(drive, stamp), pose->translation()));
+  }
+  return times;
+}
+
+double at_share(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
+}
+
+void report(const Drive& drive, const PoseSource& source) {
+  const Times t = play(drive, source);
+  std::printf(
+      "%-42s %4zu revolutions of %.0f wall points: processor median %.2f ms, p99 %.2f, most %.2f; by the "
+      "clock "
+      "median %.2f, p99 %.2f; error median %.3f m, most %.3f\n",
+      source.name.c_str(), t.clock_ms.size(), t.points / static_cast<double>(t.clock_ms.size()),
+      at_share(t.processor_ms, 0.5), at_share(t.processor_ms, 0.99), at_share(t.processor_ms, 1.0),
+      at_share(t.clock_ms, 0.5), at_share(t.clock_ms, 0.99), at_share(t.error_m, 0.5),
+      at_share(t.error_m, 1.0));
+  std::fflush(stdout);
+}
+
+void run(double seconds) {
+  const Drive drive = recorded_drive(seconds);
+  FilterAndRefine filter(drive);
+  report(drive, {"1000 particles, then registration", [&](const auto& r) { filter.on_odometry(r); },
+                 [&](Stamp s, const ScanPoints& p) { return filter.on_scan(s, p); }});
+  WallTracker tracker(drive.walls);
+  report(drive, {"wall tracker, from nowhere", [&](const auto& r) { (void)tracker.on_odometry(r); },
+                 [&](Stamp s, const ScanPoints& p) { return tracker.on_scan(s, p).map_from_base; }});
+  Localizer localizer(drive.walls, InitialPose{drive.start});
+  report(drive,
+         {"Localizer, its map thought over beside", [&](const auto& r) { (void)localizer.on_odometry(r); },
+          [&](Stamp s, const ScanPoints& p) { return localizer.on_scan(s, p).map_from_base; }});
+}
+
+}  // namespace
+}  // namespace madori::bench
+
+int main(int argc, char** argv) {
+  madori::bench::run(argc > 1 ? std::atof(argv[1]) : 60.0);
+  return 0;
+}
