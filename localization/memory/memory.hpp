@@ -29,7 +29,7 @@ struct MemoryOptions {
   double chain_rad = 0.006;   ///< what the match of a scan cannot know of itself
   double place_m = 0.6;       ///< keyframes this near to each other,
   double place_rad = 0.35;    ///< looking the same way, are of the same place
-  int keyframes_a_place = 2;  ///< that stay when more recent ones come
+  int keyframes_a_place = 1;  ///< that stay when more recent ones come
 };
 
 /// A remembered scan at its pose. The scan never changes: copies of a memory share it.

@@ -80,11 +80,6 @@ class UnaryCost final : public ceres::SizedCostFunction<3, 3> {
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
 };
 
-ceres::LossFunction* loss_of(const RelativeFactor& factor, const GraphOptions& options) {
-  if (factor.loop) return new ceres::CauchyLoss(options.loop_loss);
-  return new ceres::HuberLoss(options.motion_loss);
-}
-
 ceres::Solver::Options solver_options(const GraphOptions& options) {
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -118,7 +113,8 @@ bool optimise_graph(std::vector<Transform2<Map, Base>>& poses, const std::vector
   ceres::Problem problem;
   const auto block = [&state](int node) { return state[static_cast<std::size_t>(node)].data(); };
   for (const RelativeFactor& f : relative) {
-    problem.AddResidualBlock(new RelativeCost(f), loss_of(f, options), block(f.from), block(f.to));
+    ceres::LossFunction* loss = f.loop ? new ceres::CauchyLoss(options.loop_loss) : nullptr;
+    problem.AddResidualBlock(new RelativeCost(f), loss, block(f.from), block(f.to));
   }
   for (const UnaryFactor& f : unary) {
     problem.AddResidualBlock(new UnaryCost(f), nullptr, block(f.node));

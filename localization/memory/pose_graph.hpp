@@ -28,8 +28,6 @@ struct UnaryFactor {
 struct GraphOptions {
   int max_iterations = 8;
   double loop_loss = 3.0;  ///< sigmas; beyond, a loop closure pulls less and less (Cauchy)
-  /// Sigmas; beyond, a motion pulls no more than here (Huber): one bad step bends there and not all around.
-  double motion_loss = 3.0;
 };
 
 /// Least squares over all poses (Ceres). `poses` holds the start and gets the answer; the first pose is held

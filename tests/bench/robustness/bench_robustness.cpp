@@ -50,6 +50,8 @@ struct Case {
   double start_x_m = 0.35, start_y_m = 0.35, start_deg = 10.0;
   bool has_drawing = true;
   unsigned seed = 1;
+  localization::LocalizerOptions options{};
+  int laps = 1;  ///< the log again and again, each time on the memory of the drives before
 };
 
 /// A log that vanishes record by record.
@@ -89,6 +91,7 @@ struct Outcome {
   app::HealthLog health;
   int longest_lost = 0;
   int wrongly_sure = 0;
+  double worst_sure_m = 0.0;
   double p50_ms = 0.0, p99_ms = 0.0;
   std::string scans = "time_s,x_m,y_m,error_x_m,error_y_m,error_deg,state,reason\n";
 };
@@ -107,11 +110,13 @@ void judge_scans(const std::vector<PoseEstimate>& at_scans, const Truth& truth, 
     const double d = distance_m(t.map_from_base.translation(), e.map_from_base.translation());
     run = d > 2.0 ? run + 1 : 0;
     out.longest_lost = std::max(out.longest_lost, run);
-    out.wrongly_sure += d > 1.5 && e.health.state == LocalizationState::Localized ? 1 : 0;
+    const bool sure = e.health.state == LocalizationState::Localized;
+    out.wrongly_sure += d > 1.5 && sure ? 1 : 0;
+    out.worst_sure_m = std::max(out.worst_sure_m, sure ? d : 0.0);
   }
 }
 
-Outcome play(const Building& building, const Case& c) {
+Outcome play(const Building& building, const Case& c, localization::Memory& memory) {
   std::mt19937 engine(c.seed);
   const mapping::Walls walls = c.has_drawing ? lie(building.walls, c.lies, engine) : mapping::Walls{};
   const Records log = harmed(building.log, c.log, engine);
@@ -121,7 +126,8 @@ Outcome play(const Building& building, const Case& c) {
   const Transform2<Map, Base> begin = nearest(truth, sensors::stamp_of(*first_scan)).map_from_base;
   const Transform2<Map, Base> start(begin.x_m() + c.start_x_m, begin.y_m() + c.start_y_m,
                                     begin.yaw_rad() + to_rad(c.start_deg));
-  localization::Localizer localizer(walls, localization::InitialPose{start});
+  localization::Localizer localizer(walls, localization::InitialPose{start}, c.options);
+  if (!memory.empty()) localizer.recall(std::move(memory));
   Outcome out;
   std::vector<PoseEstimate> at_scans;
   std::vector<Stamp> scan_stamps;
@@ -142,11 +148,13 @@ Outcome play(const Building& building, const Case& c) {
   out.p50_ms = played.scan_ms[played.scan_ms.size() / 2];
   out.p99_ms = played.scan_ms[played.scan_ms.size() * 99 / 100];
   judge_scans(at_scans, truth, out);
+  memory = localizer.finished_memory();
   return out;
 }
 
-void print_case(const Building& building, const Case& c, const std::filesystem::path& scans) {
-  const Outcome out = play(building, c);
+void print_case(const Building& building, const Case& c, const std::filesystem::path& scans,
+                localization::Memory& memory) {
+  const Outcome out = play(building, c, memory);
   if (!scans.empty()) std::ofstream(scans / (building.name + " " + c.name + ".csv")) << out.scans;
   const auto score = app::score_against_truth(out.trajectory, truth_of(building, c));
   double relations = 0.0;
@@ -155,14 +163,24 @@ void print_case(const Building& building, const Case& c, const std::filesystem::
         out.trajectory, app::load_relations(building.relations))["translation_m"]["mean"];
   }
   const auto share = [&](LocalizationState s) { return 100.0 * out.health.share(s); };
-  std::printf("%-26s %4d %6.3f %6.3f %6.2f %5.1f | %5.1f %5.1f %5.1f %5.1f %4d | %6.3f | %5.1f %5.1f\n",
-              (building.name + "/" + c.name).c_str(), out.longest_lost,
-              score["position_m"]["median"].get<double>(), score["position_m"]["p95"].get<double>(),
-              score["heading_deg"]["mean"].get<double>(), 100.0 * score["within"]["share"].get<double>(),
-              share(LocalizationState::Localized), share(LocalizationState::Degraded),
-              share(LocalizationState::Ambiguous), share(LocalizationState::Lost), out.wrongly_sure,
-              relations, out.p50_ms, out.p99_ms);
+  std::printf(
+      "%-26s %4d %6.3f %6.3f %6.2f %5.1f | %5.1f %5.1f %5.1f %5.1f %4d %5.2f | %6.3f | %5.1f %5.1f | %4zu "
+      "%5.2f\n",
+      (building.name + "/" + c.name).c_str(), out.longest_lost, score["position_m"]["median"].get<double>(),
+      score["position_m"]["p95"].get<double>(), score["heading_deg"]["mean"].get<double>(),
+      100.0 * score["within"]["share"].get<double>(), share(LocalizationState::Localized),
+      share(LocalizationState::Degraded), share(LocalizationState::Ambiguous), share(LocalizationState::Lost),
+      out.wrongly_sure, out.worst_sure_m, relations, out.p50_ms, out.p99_ms, memory.size(),
+      1e-6 * static_cast<double>(memory.bytes()));
   std::fflush(stdout);
+}
+
+Case coarse_laps(int keyframes_a_place, double place_m, double place_rad) {
+  Case c{.name = "laps " + std::to_string(place_m).substr(0, 3), .laps = 4};
+  c.options.memory.keyframes_a_place = keyframes_a_place;
+  c.options.memory.place_m = place_m;
+  c.options.memory.place_rad = place_rad;
+  return c;
 }
 
 std::vector<Case> log_harms() {
@@ -180,7 +198,23 @@ std::vector<Case> log_harms() {
           {.name = "wheels 5 % short", .log = {.distance_scale = 0.95}},
           {.name = "turns 10 % more", .log = {.turn_scale = 1.1}},
           {.name = "bias 3 deg/m", .log = {.bias_rad_per_m = 0.052}},
-          {.name = "noisy wheels", .log = {.noise = 0.15}}};
+          {.name = "noisy wheels", .log = {.noise = 0.15}},
+          {.name = "laps", .laps = 4},
+          coarse_laps(1, 0.6, 0.35),
+          coarse_laps(1, 1.0, 0.6)};
+}
+
+/// Half a metre in ten directions and ten degrees to either side.
+std::vector<Case> ten_starts() {
+  std::vector<Case> cases;
+  for (int k = 0; k < 10; ++k) {
+    const double a = 2.0 * kPi * k / 10.0;
+    cases.push_back({.name = "ten " + std::to_string(k),
+                     .start_x_m = 0.5 * std::cos(a),
+                     .start_y_m = 0.5 * std::sin(a),
+                     .start_deg = k % 2 == 0 ? -10.0 : 10.0});
+  }
+  return cases;
 }
 
 std::vector<Case> drawing_harms() {
@@ -232,8 +266,9 @@ class Table {
  public:
   Table(std::filesystem::path folder, std::string filter, std::filesystem::path scans)
       : folder_(std::move(folder)), filter_(std::move(filter)), scans_(std::move(scans)) {
-    std::printf("%-26s %4s %6s %6s %6s %5s | %5s %5s %5s %5s %4s | %6s | %5s %5s\n", "case", "lost", "median",
-                "p95", "head", "in %", "LOC", "DEG", "AMB", "LOST", "sure", "relat.", "p50ms", "p99ms");
+    std::printf("%-26s %4s %6s %6s %6s %5s | %5s %5s %5s %5s %4s %5s | %6s | %5s %5s | %4s %5s\n", "case",
+                "lost", "median", "p95", "head", "in %", "LOC", "DEG", "AMB", "LOST", "sure", "worst",
+                "relat.", "p50ms", "p99ms", "keyf", "MB");
   }
 
   void run(const std::string& name, const std::function<Building()>& make, const std::vector<Case>& cases) {
@@ -242,7 +277,8 @@ class Table {
       if (!wanted(name + "/" + c.name)) continue;
       if (!building) building = make();
       building->name = name;
-      print_case(*building, c, scans_);
+      localization::Memory memory;
+      for (int lap = 0; lap < c.laps; ++lap) print_case(*building, c, scans_, memory);
     }
   }
 
@@ -250,6 +286,7 @@ class Table {
     const auto real = [this] { return intel(folder_); };
     run("intel", real,
         {{.name = "mapping", .start_x_m = 0.0, .start_y_m = 0.0, .start_deg = 0.0, .has_drawing = false}});
+    run("intel", real, ten_starts());
     run("intel", real, log_harms());
     run("intel", real, drawing_harms());
     for (const int px : {2, 4}) {

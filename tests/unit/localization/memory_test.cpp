@@ -105,33 +105,6 @@ TEST(PoseGraph, AWrongLoopClosureLetsGo) {
   EXPECT_NEAR(poses[29].y_m(), 0.0, 0.5);
 }
 
-TEST(PoseGraph, OneBadStepBendsThereAndNotAllAround) {
-  std::vector<Transform2<Map, Base>> poses;
-  std::vector<RelativeFactor> factors;
-  const Eigen::Matrix3d tight = Eigen::Vector3d(2.5e3, 2.5e3, 2.5e4).asDiagonal();
-  Transform2<Map, Base> at;
-  for (int i = 0; i < 30; ++i) {
-    poses.push_back(at);
-    const Transform2<Base, Base> motion(1.0, 0.0,
-                                        i == 14 ? to_rad(12.0) : 0.0);  // the truth goes straight on
-    if (i < 29) factors.push_back({i, i + 1, motion, tight, false});
-    at = at * motion;
-  }
-  std::vector<UnaryFactor> ends(6);
-  for (int k = 0; k < 6; ++k) {  // walls hold both ends
-    ends[static_cast<std::size_t>(k)].node = k < 3 ? k : 24 + k;
-    ends[static_cast<std::size_t>(k)].at = {k < 3 ? k : 24.0 + k, 0.0, 0.0};
-    ends[static_cast<std::size_t>(k)].hessian = 1e4 * Eigen::Matrix3d::Identity();
-  }
-  ASSERT_TRUE(optimise_graph(poses, factors, ends, {.max_iterations = 50}));
-  double off_m = 0.0;
-  for (int i = 0; i < 30; ++i) {
-    off_m = std::max(off_m, distance_m(poses[static_cast<std::size_t>(i)].translation(), {i * 1.0, 0.0}));
-  }
-  EXPECT_LT(off_m, 0.25);
-  EXPECT_LT(std::abs(poses[14].yaw_rad()), to_rad(4.0));
-}
-
 /// A vehicle whose measured motions turn a little too much comes back to where it began and sees it: the way
 /// in between is bent straight, which it would not be if the finding were entered as one more motion.
 TEST(Memory, AnOldPlaceFoundAgainBendsTheWayBetween) {
