@@ -96,7 +96,7 @@ SiteTransaction::~SiteTransaction() {
 
 fs::path SiteTransaction::staged(const std::string& name) {
   puts_.push_back(name);
-  const fs::path file = site_ / kStaging / name;
+  fs::path file = site_ / kStaging / name;
   fs::create_directories(file.parent_path());
   return file;
 }

@@ -24,13 +24,13 @@ constexpr std::array<Unit, 6> kUnits{{{4, 0.001, "millimetres", "mm", true},
                                       {1, 0.0254, "inches", "in", false},
                                       {2, 0.3048, "feet", "ft", false}}};
 
-constexpr double kShortestBuilding_m = 3.0;
-constexpr double kLongestBuilding_m = 2000.0;
+constexpr double kShortestBuildingM = 3.0;
+constexpr double kLongestBuildingM = 2000.0;
 
 /// How well a unit explains the drawing; negative where it cannot.
 int score(const Unit& unit, const DxfUnitEvidence& evidence) {
   const double length_m = evidence.extent * unit.metres;
-  if (!(length_m >= kShortestBuilding_m && length_m <= kLongestBuilding_m)) return -1;
+  if (!(length_m >= kShortestBuildingM && length_m <= kLongestBuildingM)) return -1;
   int points = length_m >= 8.0 && length_m <= 300.0 ? 1 : 0;
   if (evidence.insunits == unit.insunits) points += 4;
   if (evidence.measurement && (*evidence.measurement == 1) == unit.metric) points += 1;

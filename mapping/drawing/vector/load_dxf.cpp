@@ -14,7 +14,7 @@
 namespace madori::mapping {
 namespace {
 
-constexpr double kLongerSide_px = 4000.0;
+constexpr double kLongerSidePx = 4000.0;
 constexpr double kMargin = 0.02;  // of the longer side
 
 struct Bounds {
@@ -119,6 +119,18 @@ std::string layer_note(const DxfContent& content, const std::vector<LayerMeaning
   return "walls are taken from the layers: " + used;
 }
 
+/// The scale from the unit that is named or that explains the drawing, and a note on it.
+void set_scale(const DxfContent& content, const PlanOptions& options, double unit_per_px, Plan& plan) {
+  const auto unit = options.unit.empty() ? choose_unit(content.units) : named_unit(options.unit);
+  if (!unit) {
+    plan.notes.emplace_back("no unit gives a building of plausible size: the site stays unscaled");
+    return;
+  }
+  plan.m_per_px = unit->metres * unit_per_px;
+  plan.scale_method = "dxf-units";
+  plan.notes.push_back(unit->note);
+}
+
 }  // namespace
 
 Plan load_dxf(const std::filesystem::path& file, const PlanOptions& options) {
@@ -131,12 +143,12 @@ Plan load_dxf(const std::filesystem::path& file, const PlanOptions& options) {
   const auto meaning = meanings(content, options, file.string());
   const bool unknown_is_wall = unknown_layers_are_walls(content, meaning);
 
-  const double unit_per_px = bounds.longer() * (1.0 + 2.0 * kMargin) / kLongerSide_px;
+  const double unit_per_px = bounds.longer() * (1.0 + 2.0 * kMargin) / kLongerSidePx;
   const double left = bounds.x0 - kMargin * bounds.longer(), low = bounds.y0 - kMargin * bounds.longer();
   const int width = static_cast<int>(
-      std::ceil((bounds.x1 - left) / unit_per_px + kMargin * kLongerSide_px / (1 + 2 * kMargin)));
+      std::ceil((bounds.x1 - left) / unit_per_px + kMargin * kLongerSidePx / (1 + 2 * kMargin)));
   const int height = static_cast<int>(
-      std::ceil((bounds.y1 - low) / unit_per_px + kMargin * kLongerSide_px / (1 + 2 * kMargin)));
+      std::ceil((bounds.y1 - low) / unit_per_px + kMargin * kLongerSidePx / (1 + 2 * kMargin)));
 
   Plan plan;
   plan.vectors.emplace();
@@ -151,16 +163,12 @@ Plan load_dxf(const std::filesystem::path& file, const PlanOptions& options) {
   }
   plan.picture = render(*plan.vectors, std::max(width, 1), std::max(height, 1));
   plan.notes.push_back(layer_note(content, meaning, unknown_is_wall));
-  if (const auto unit = options.unit.empty() ? choose_unit(content.units) : named_unit(options.unit)) {
-    plan.m_per_px = unit->metres * unit_per_px;
-    plan.scale_method = "dxf-units";
-    plan.notes.push_back(unit->note);
+  set_scale(content, options, unit_per_px, plan);
+  if (plan.m_per_px) {
     std::ostringstream origin;
     origin.precision(10);
     origin << "the Map origin is at x = " << left << ", y = " << low << " of the drawing";
     plan.notes.push_back(origin.str());
-  } else {
-    plan.notes.emplace_back("no unit gives a building of plausible size: the site stays unscaled");
   }
   return plan;
 }
