@@ -210,6 +210,7 @@ export const en = {
   "routes.import": "Import CSV",
   "routes.good": "No fault found",
   "routes.hint": "Touch to set points one after the other. Touch a point to join it, a line to branch off.",
+  "routes.hint.short": "Touch to set points.",
   "routes.hint.select": "Touch a point to change it.",
   "routes.count": "{nodes} points, {stations} stations",
   "name.station": "Station",

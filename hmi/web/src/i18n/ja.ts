@@ -211,6 +211,7 @@ export const ja: Record<TextKey, string> = {
   "routes.import": "CSVを読む",
   "routes.good": "問題はありません",
   "routes.hint": "順に触れて点を置きます。点に触れるとつながり、線に触れると分岐します。",
+  "routes.hint.short": "触れて点を置きます。",
   "routes.hint.select": "変更する点に触れてください。",
   "routes.count": "点 {nodes}、停車場所 {stations}",
   "name.station": "停車場所",

@@ -68,7 +68,7 @@ function StatisticsCard() {
           <li key={stop.cause.code + stop.cause.text}>
             <span>{noticeText(t, "cause", stop.cause)}</span>
             <meter min={0} max={most} value={stop.seconds} aria-label={noticeText(t, "cause", stop.cause)} />
-            <span class="quiet">{t("history.times", { count: stop.count, minutes: (stop.seconds / 60).toFixed(1) })}</span>
+            <span class="quiet">{t("history.times", { count: Math.max(1, stop.count), minutes: (stop.seconds / 60).toFixed(1) })}</span>
           </li>
         ))}
       </ul>

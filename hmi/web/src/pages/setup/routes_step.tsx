@@ -114,7 +114,7 @@ export function RoutesStep({ site, walls, routes, changed, next }: { site: Site;
             <Tool icon="select" label={t("routes.select")} pressed={!drawing} onClick={() => lift(false)} />
           </div>
         )}
-        {!node && <p class="quiet">{t(drawing ? "routes.hint" : "routes.hint.select")}</p>}
+        {!node && <p class="quiet">{t(!drawing ? "routes.hint.select" : plan.nodes.length < 4 ? "routes.hint" : "routes.hint.short")}</p>}
         <p class="facts">{t("routes.count", { nodes: plan.nodes.length, stations: plan.nodes.filter((one) => one.station).length })}</p>
         <Findings findings={findings} />
         {node && <NodeCard key={node.id} plan={plan} node={node} tool={tool} setTool={setTool} change={edit.change} close={() => setChosen(null)} />}
