@@ -1,0 +1,153 @@
+#include "tests/end_to_end/encounters/meetings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace madori::encounters {
+namespace {
+
+using simulation::MoverKind;
+
+constexpr double kStanding_mps = 0.01;
+
+/// Whether the vehicle was in motion at the touch: driving, or turning on the spot.
+bool moved(const simulation::Collision& c) {
+  return c.speed_mps >= kStanding_mps || c.turn_radps >= kStanding_mps;
+}
+
+}  // namespace
+
+Meetings::Meetings(const MeetingOptions& options)
+    : options_(options), site_(app::load_for_driving(options.site)) {
+  random_.seed(options.seed + static_cast<unsigned>(options.speed_mps * 1000.0));
+  auto& c = site_.config;
+  c.pursuit.speed.max_speed_mps = c.limits.max_speed_mps = c.movers.top_speed_mps = options.speed_mps;
+  c.limits.max_wheel_speed_mps = options.speed_mps + 0.3;
+  if (!options.detours) c.detour_after_s = c.reroute_after_s = 1e6;  // it is stopping that is looked at
+  auto setup = simulation::load_setup(options.site, options.scenario);
+  setup.scenario.movers.clear();
+  setup.seed = options.seed;
+  run_ = std::make_unique<test::LockStepRun>(site_, setup);
+}
+
+void Meetings::meet(MoverKind kind, int count, Tally& tally) {
+  Placements placements(*run_, random_, options_.speed_mps);
+  for (int met = 0; met < count;) {
+    go_on();
+    const auto placement = kind == MoverKind::Person ? placements.crossing() : placements.standing(kind);
+    if (!placement) {
+      run_->tick();
+      continue;
+    }
+    encounter(*placement, tally);
+    ++met;
+  }
+}
+
+void Meetings::pass_carts(int count, CartTally& tally) {
+  Placements placements(*run_, random_, options_.speed_mps);
+  while (tally.met < count) {
+    go_on();
+    const auto placement = placements.standing(MoverKind::Cart);
+    if (!placement) {
+      run_->tick();
+      continue;
+    }
+    const std::size_t touched = run_->factory->collisions().size();
+    const auto order = order_;
+    bool around = false;
+    run_->factory->add_mover(placement->mover);
+    const bool past = run_->run_until(
+        [&] {
+          around = around || run_->state().mode == app::Mode::Detouring;
+          return run_->run->orders().find(*order)->state == app::OrderState::Done;
+        },
+        150.0);
+    ++tally.met;
+    ++(!past ? tally.waited : around ? tally.around : tally.other_route);
+    tally.contacts += contacts_since(touched);
+    if (options_.verbose || !past)
+      std::printf("%8.2f s cart at (%.2f, %.2f): %s; %s\n", run_->time_s(), placement->at.x_m,
+                  placement->at.y_m, past ? (around ? "around" : "past") : "waited",
+                  run_->state().standstill.remedy.text.c_str());
+    clear();
+  }
+}
+
+/// Drives until the vehicle is on its way at speed.
+void Meetings::go_on() {
+  run_->run_until(
+      [&] {
+        if (!order_ || run_->run->orders().find(*order_)->state != app::OrderState::Running)
+          if (run_->run->orders().list(true).empty()) order_ = run_->order_somewhere(random_);
+        return run_->state().mode == app::Mode::Driving &&
+               run_->factory->truth().linear_mps > 0.5 * options_.speed_mps;
+      },
+      120.0);
+}
+
+int Meetings::contacts_since(std::size_t before) const {
+  const auto& all = run_->factory->collisions();
+  return static_cast<int>(std::count_if(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(), moved));
+}
+
+void Meetings::encounter(const Placement& placement, Tally& tally) {
+  constexpr double kTick_s = 0.02;
+  auto& factory = *run_->factory;
+  const bool walks = placement.mover.kind == MoverKind::Person;
+  const std::size_t touched = factory.collisions().size();
+  double nearest_m = 10.0, fastest_mps = 0.0, stood_s = 0.0;
+  bool stopped = false;
+  factory.add_mover(placement.mover);
+  run_->run_until(
+      [&] {
+        const auto truth = factory.truth();
+        const auto outline = simulation::outline(factory.bodies().front());
+        const double away_m =
+            test::distance_between(factory.vehicle().footprint(truth.building_from_base), outline);
+        const bool moves =
+            std::abs(truth.linear_mps) > kStanding_mps || std::abs(truth.angular_radps) > kStanding_mps;
+        fastest_mps = std::max(fastest_mps, std::abs(truth.linear_mps));
+        if (moves) nearest_m = std::min(nearest_m, away_m);
+        stood_s = run_->stands() ? stood_s + kTick_s : 0.0;
+        stopped = stopped || (run_->stands() && run_->state().mode == app::Mode::Waiting);
+        return (!walks && stopped && stood_s > 1.0) || factory.collisions().size() > touched;
+      },
+      walks ? 9.0 : 45.0);
+  const int contacts = contacts_since(touched);
+  ++tally.met;
+  tally.stopped += stopped;
+  tally.contacts += contacts > 0;
+  tally.others_touched += contacts == 0 && factory.collisions().size() > touched;
+  tally.nearest_m = std::min(tally.nearest_m, nearest_m);
+  tally.fastest_mps = std::max(tally.fastest_mps, fastest_mps);
+  if (contacts > 0 || (!stopped && !walks) || options_.verbose)
+    report(placement, stopped, contacts > 0, nearest_m);
+  clear();
+}
+
+void Meetings::report(const Placement& placement, bool stopped, bool contact, double nearest_m) const {
+  const auto truth = run_->factory->truth().map_from_base;
+  std::printf("%8.2f s %s at (%.2f, %.2f), %.2f m/s: %s%s, nearest %.3f m; vehicle (%.2f, %.2f, %.0f deg)\n",
+              run_->time_s(), placement.mover.name.c_str(), placement.at.x_m, placement.at.y_m,
+              placement.mover.kind == MoverKind::Person ? placement.mover.speed_mps : 0.0,
+              stopped ? "stopped" : "NOT STOPPED", contact ? ", CONTACT" : "", nearest_m, truth.x_m(),
+              truth.y_m(), to_deg(truth.yaw_rad()));
+  std::fflush(stdout);
+}
+
+/// Takes the body away, and plays the operator who has looked.
+void Meetings::clear() {
+  run_->factory->clear_movers();
+  run_->run_until([] { return false; }, 0.5);
+  const app::Mode mode = run_->state().mode;
+  if (mode == app::Mode::EmergencyStop || mode == app::Mode::Fault) {
+    run_->run->say({app::OperatorWord::Confirm, {}});
+    run_->tick();
+  }
+  run_->run->say({app::OperatorWord::Resume, {}});  // also: forget what no sensor sees any more
+  run_->tick();
+}
+
+}  // namespace madori::encounters
