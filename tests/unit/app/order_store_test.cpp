@@ -128,6 +128,11 @@ TEST(OrderStore, KilledAtRandomMomentsItLosesNothingAndCountsNothingTwice) {
     const pid_t child = ::fork();
     if (child == 0) work(file, ends[1]);
     ::close(ends[1]);
+    if (i % 2 == 0) {  // on a busy machine the others may be killed before they have opened the database
+      char first = 0;
+      ASSERT_EQ(::read(ends[0], &first, 1), 1);
+      ++reported;
+    }
     ::usleep(static_cast<useconds_t>(50'000 + random() % 400'000));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
