@@ -36,14 +36,32 @@ std::vector<planning::Mover<Map>> movers_on_map(const CycleState& state) {
 
 /// Whether the vehicle can turn on the spot to where its path goes next.
 bool turn_is_free(const CycleState& state, const std::vector<Point2<Map>>& obstacles,
-                  const CycleConfig& config) {
+                  const planning::CheckOptions& margins) {
   const Navigation& way = state.way;
   if (way.pursuit.piece >= way.path.pieces().size()) return true;
   const PathPoint& next = way.path.points()[way.path.pieces()[way.pursuit.piece].first];
   const Point2<Map> here = state.pose.map_from_base.translation();
   const Path turn{{{here, state.pose.map_from_base.yaw_rad()}, {here, next.heading_rad}}};
-  const auto check = planning::check_path(turn, 1, 0.0, obstacles, planning::WallGrid(), config.check);
+  const auto check = planning::check_path(turn, 1, 0.0, obstacles, planning::WallGrid(), margins);
   return !check.blocked();
+}
+
+/// The share of the ordinary margins that is kept. A vehicle may come to stand a hair within them, by the
+/// noise of what it sees; then each way begins blocked. After a while it may leave with less of them.
+double margin_share(const CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
+                    const CycleConfig& config) {
+  constexpr double kHalf = 0.5;
+  constexpr double kLeast = 0.2;
+  const Navigation& way = state.way;
+  const auto fits = [&](double share) {
+    return planning::is_free(state.pose.map_from_base, obstacles, *config.walls,
+                             planning::with_margins(config.check, share));
+  };
+  if (fits(1.0)) return 1.0;
+  const bool stands = state.mode == Mode::Waiting && way.blocked_since && !way.by_mover &&
+                      to_seconds(now - *way.blocked_since) > config.squeeze_after_s;
+  if (!stands) return way.margin_share;
+  return fits(kHalf) ? kHalf : kLeast;
 }
 
 /// Whether something has seemed to move for long at one place, so that it does not: the edge of something
@@ -101,17 +119,21 @@ void note_blocked(Navigation& way, Stamp now) {
 void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& config,
                     std::vector<Point2<Map>> obstacles, CycleOutput& output) {
   Navigation& way = state.way;
-  const bool due = way.check.blocked() && !way.by_mover && way.blocked_since && !way.detour_pending &&
+  const bool due = (way.check.blocked() || !way.turn_free) && !way.by_mover && way.blocked_since &&
+                   !way.detour_pending &&
                    to_seconds(input.now - *way.blocked_since) >= config.detour_after_s &&
                    to_seconds(input.now - way.asked_detour) >= config.detour_again_s;
-  const bool near = way.stop_along_m - way.along_m < kDetourWithinM;
+  const bool near = !way.turn_free || way.stop_along_m - way.along_m < kDetourWithinM;
   const bool going = drives(state.mode) || state.mode == Mode::Waiting;
-  if (!due || !near || !going || is_at_door(config, way.check.where)) return;
+  if (!due || !near || !going || (way.check.blocked() && is_at_door(config, way.check.where))) return;
   way.asked_detour = input.now;
   way.detour_pending = true;
   ++way.detour_id;
+  planning::PathCheck check = way.check;
+  if (!check.blocked()) check.first_blocked = check.last_blocked = way.pursuit.index;
   output.detour_wanted = planning::DetourRequest{
-      way.detour_id, way.plain, way.pursuit.index, state.pose.map_from_base, way.check, std::move(obstacles)};
+      way.detour_id,        way.plain,        way.pursuit.index, state.pose.map_from_base, check,
+      std::move(obstacles), way.margin_share, way.turn_free};
 }
 
 }  // namespace
@@ -125,8 +147,9 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   if (way.path.empty() || way.arrived || !output.computed_lidar) return;
   const auto obstacles = obstacle_points(state);
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
-  way.check =
-      planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *config.walls, config.check);
+  way.margin_share = margin_share(state, obstacles, input.now, config);
+  const auto margins = planning::with_margins(config.check, way.margin_share);
+  way.check = planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *config.walls, margins);
   const auto movers = true_movers(state, input.now, config);
   const auto crossing =
       planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps, movers,
@@ -140,7 +163,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   way.care_along_m = from_m + way.check.care_m;
   const bool may_turn = !way.pursuit.begun || way.pursuit.turning;
   way.turn_free =
-      !may_turn || (turn_is_free(state, obstacles, config) &&
+      !may_turn || (turn_is_free(state, obstacles, margins) &&
                     !planning::turn_meets(state.pose.map_from_base, movers, config.check, config.movers));
   note_blocked(way, input.now);
   ask_for_detour(state, input, config, obstacles, output);

@@ -49,10 +49,11 @@ struct CycleConfig {
   double reroute_after_s = 25.0;       ///< then the blocked leg is left out of a new route
   double door_reroute_after_s = 60.0;  ///< likewise before a door or lift, which may be about to open
   double mover_stays_after_s = 5.0;    ///< what stirs in one place for so long is no mover
-  double forget_block_s = 180.0;       ///< a leg that was found blocked counts as free again
-  double clear_for_s = 0.6;            ///< the way must have been free so long before the vehicle goes on
-  double door_zone_m = 3.0;    ///< around a door or lift node nothing is driven around, only waited for
-  double jog_timeout_s = 0.3;  ///< a held key that is silent for longer stops the vehicle
+  double squeeze_after_s = 10.0;  ///< a vehicle within its own margins of a body may leave with half of them
+  double forget_block_s = 180.0;  ///< a leg that was found blocked counts as free again
+  double clear_for_s = 0.6;       ///< the way must have been free so long before the vehicle goes on
+  double door_zone_m = 3.0;       ///< around a door or lift node nothing is driven around, only waited for
+  double jog_timeout_s = 0.3;     ///< a held key that is silent for longer stops the vehicle
 };
 
 /// Recordings hold the numbers of these words: new ones go to the end.
@@ -149,8 +150,9 @@ struct Navigation {
   double stop_along_m = planning::PathCheck::kFree;
   double care_along_m = planning::PathCheck::kFree;
   bool turn_free = true;
-  bool by_mover = false;  ///< what blocks is on its way across
-  bool unseen = false;    ///< what blocks is remembered from before it came too near for the lidar
+  double margin_share = 1.0;  ///< of the ordinary margins, until it is out of where it stands too near
+  bool by_mover = false;      ///< what blocks is on its way across
+  bool unseen = false;        ///< what blocks is remembered from before it came too near for the lidar
   std::vector<Stirring> stirring;
   std::optional<Stamp> blocked_since;
   std::optional<Stamp> free_since;

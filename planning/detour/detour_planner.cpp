@@ -30,11 +30,13 @@ Transform2<Map, Base> pose_at(const PathPoint& point) {
 
 }  // namespace
 
-DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls, const CheckOptions& check,
+DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls, const CheckOptions& ordinary,
                          const DetourOptions& options) {
+  const CheckOptions check = with_margins(ordinary, request.margin_share);
   DetourAnswer answer{request.id, std::nullopt, 0, ""};
-  auto side =
-      side_detour(request.path, request.from, request.check, request.obstacles, walls, check, options.side);
+  auto side = request.turn_free ? side_detour(request.path, request.from, request.check, request.obstacles,
+                                              walls, check, options.side)
+                                : Result<Detour>::failure("no room to turn");
   if (side) {
     answer.rejoin = side.value().rejoin;
     answer.path = std::move(side).value().path;

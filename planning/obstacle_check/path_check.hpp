@@ -23,6 +23,15 @@ struct CheckOptions {
   double turn_step_rad = 0.15;   ///< between the checked headings of a turn on the spot
 };
 
+/// The same with a share of the margins.
+[[nodiscard]] inline CheckOptions with_margins(CheckOptions options, double share) {
+  options.ends_margin_m *= share;
+  options.sides_margin_m *= share;
+  options.turn_margin_m *= share;
+  options.wall_margin_m *= share;
+  return options;
+}
+
 /// Braking: within this distance of the vehicle something must be seen, or the vehicle could not stop before
 /// it.
 struct BrakingModel {

@@ -199,6 +199,22 @@ TEST(AutonomyCycle, APalletIsDrivenAround) {
   EXPECT_THAT(v->events, Contains(HasSubstr("back on route")));
 }
 
+TEST(AutonomyCycle, StandingAHairWithinItsOwnMarginBesideABodyItGetsOutAfterAWhile) {
+  for (const bool squeezes : {true, false}) {
+    auto v = vehicle();
+    if (!squeezes) v->config.squeeze_after_s = 1e6;
+    v->lidar.posts.push_back({{0.2, 0.44}, 0.1, 1.0});  // 4 cm beside the vehicle, which keeps 6 cm
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    double nearest = 10.0;
+    v->each_step = [&] { nearest = std::min(nearest, v->clearance_m()); };
+    EXPECT_FALSE(v->run_until([&] { return v->rolling.pose().x_m() > 0.1; }, 9.0));
+    EXPECT_EQ(v->run_until([&] { return v->delivered(); }, 60.0), squeezes)
+        << ::testing::PrintToString(v->events);
+    EXPECT_GT(nearest, 0.0);
+  }
+}
+
 TEST(AutonomyCycle, ABlockedLegIsLeftOutOfANewRoute) {
   auto v = vehicle();
   v->config.detour_after_s = 1000.0;
