@@ -49,11 +49,11 @@ struct CycleConfig {
   double reroute_after_s = 25.0;       ///< then the blocked leg is left out of a new route
   double door_reroute_after_s = 60.0;  ///< likewise before a door or lift, which may be about to open
   double mover_stays_after_s = 5.0;    ///< what stirs in one place for so long is no mover
-  double squeeze_after_s = 10.0;  ///< a vehicle within its own margins of a body may leave with half of them
-  double forget_block_s = 180.0;  ///< a leg that was found blocked counts as free again
-  double clear_for_s = 0.6;       ///< the way must have been free so long before the vehicle goes on
-  double door_zone_m = 3.0;       ///< around a door or lift node nothing is driven around, only waited for
-  double jog_timeout_s = 0.3;     ///< a held key that is silent for longer stops the vehicle
+  double squeeze_after_s = 10.0;       ///< a vehicle within its own margins of a body may leave with less
+  double forget_block_s = 180.0;       ///< a leg that was found blocked counts as free again
+  double clear_for_s = 0.6;            ///< the way must have been free so long before the vehicle goes on
+  double door_zone_m = 3.0;    ///< around a door or lift node nothing is driven around, only waited for
+  double jog_timeout_s = 0.3;  ///< a held key that is silent for longer stops the vehicle
 };
 
 /// Recordings hold the numbers of these words: new ones go to the end.
