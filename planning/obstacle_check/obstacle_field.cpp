@@ -62,12 +62,14 @@ std::vector<Column> ObstacleField::assumed_feet(const SensorView& view,
   return feet;
 }
 
-/// Whether the upper part of something is still seen above a column, or right beside it.
-bool ObstacleField::is_under_something(const Column& column) const {
-  for (std::int32_t dy = -1; dy <= 1; ++dy)
-    for (std::int32_t dx = -1; dx <= 1; ++dx)
+/// Whether something as high as the lidar, which it sees at any distance, is seen above a column or within
+/// a step beside it.
+bool ObstacleField::is_under_something(const Column& column, const SensorView& view) const {
+  constexpr double kSlackM = 0.1;
+  for (std::int32_t dy = -2; dy <= 2; ++dy)
+    for (std::int32_t dx = -2; dx <= 2; ++dx)
       if (const Column* above = high_.find(column.cell_x + dx, column.cell_y + dy))
-        if (above->confirmed) return true;
+        if (above->confirmed && static_cast<double>(above->high_m) > view.z_m - kSlackM) return true;
   return false;
 }
 
@@ -81,8 +83,9 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<O
     return old.confirmed && old.misses < options_.misses_to_forget;
   }
   if (!old.confirmed) return false;
-  if (is_under_something(old)) old.under = now;
-  return !old.part_of_tall || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
+  if (is_under_something(old, view)) old.under = now;
+  // A pallet that has come too near to be seen is still there; of a person the head would be seen.
+  return old.under == Stamp{} || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
 }
 
 void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
@@ -103,6 +106,7 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
       Column both = *fresh++;
       both.confirmed = true;  // seen twice in one place
       both.since = old.since;
+      both.under = old.under;
       both.high_m = std::max(both.high_m, old.high_m);
       both.low_m = std::min(both.low_m, old.low_m);
       merged.push_back(both);
@@ -111,8 +115,11 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
     }
   }
   merged.insert(merged.end(), fresh, seen.end());
-  for (Column& column : merged)
-    if (column.seen == scan.stamp) column.entered = has_entered(column, scan.stamp);
+  for (Column& column : merged) {
+    if (column.seen != scan.stamp) continue;
+    column.entered = has_entered(column, scan.stamp);
+    if (is_under_something(column, view)) column.under = scan.stamp;
+  }
   columns_ = std::move(merged);
 }
 

@@ -51,7 +51,7 @@ class ObstacleField {
   [[nodiscard]] std::vector<Column> assumed_feet(const SensorView& view,
                                                  const Transform2<Odom, Base>& odom_from_base,
                                                  Stamp now) const;
-  [[nodiscard]] bool is_under_something(const Column& column) const;
+  [[nodiscard]] bool is_under_something(const Column& column, const SensorView& view) const;
   [[nodiscard]] bool has_entered(const Column& column, Stamp now) const;
   [[nodiscard]] bool keep(Column& old, const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
                           Stamp now) const;

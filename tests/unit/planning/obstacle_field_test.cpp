@@ -105,6 +105,24 @@ TEST(ObstacleField, ALowBodyIsRememberedInTheBlindZoneAndATallOneThatLeftIsNot) 
   EXPECT_EQ(confirmed(field), 0) << "a person who has left";
 }
 
+TEST(ObstacleField, APalletAsHighAsTheVehicleIsRememberedBeforeTheBumper) {
+  std::mt19937 random(7);
+  test::ToyLidar lidar;
+  lidar.height_m = 1.2;
+  lidar.bodies.push_back({{{3.0, -0.5}, {3.0, 0.5}}, 0.4, 0.85});
+  const SensorView view{0.0, 0.0, 1.2, to_rad(-15.0), to_rad(15.0)};
+  ObstacleField field;
+  double x = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    if (x < 1.9) x += 0.05;
+    field.update(lidar.scan({x, 0.0, 0.0}, at(0.1 * i), random), view, {x, 0.0, 0.0});
+  }
+  int before = 0;
+  for (const Column& c : field.columns())
+    before += c.confirmed && static_cast<double>(c.max_x_m) < 2.8 ? 1 : 0;
+  EXPECT_GT(before, 5) << "its face 0.7 m before the lidar, where no beam reaches lower than 1.0 m";
+}
+
 TEST(ObstacleField, APersonWhoStandsBeforeTheBumperIsNotForgotten) {
   std::mt19937 random(6);
   test::ToyLidar lidar;
