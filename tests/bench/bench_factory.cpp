@@ -61,20 +61,22 @@ void add(test::TrialFigures& all, const test::TrialFigures& f) {
   all.worst_m = std::max(all.worst_m, f.worst_m), all.worst_rad = std::max(all.worst_rad, f.worst_rad);
 }
 
-/// Drives, and tells every hundred metres how it stands. False where the vehicle comes to no end: somebody
-/// stands in its way for ever.
+/// Drives, and tells now and then how it stands. False where the vehicle comes to no end: something stands in
+/// its way for ever.
 bool drive(test::LocalizationTrial& trial, double metres) {
-  constexpr double kPiece_m = 100.0;
-  constexpr double kSlowest_mps = 0.05;
+  constexpr double kTell_s = 120.0;
   const double end_m = trial.floor().driven_m() + metres;
-  while (trial.floor().driven_m() < end_m) {
-    const double piece_m = std::min(kPiece_m, end_m - trial.floor().driven_m());
-    if (!trial.drive(piece_m, piece_m / kSlowest_mps)) return false;
+  int idle = 0;
+  for (double before_m = 0.0; idle < 5; before_m = trial.floor().driven_m()) {
+    const bool done = trial.drive(end_m - trial.floor().driven_m(), kTell_s);
     const auto& f = trial.figures();
-    std::fprintf(stderr, "  %.0f m in %.0f s, RMSE %.4f m, lost %d times\n", f.driven_m, f.simulated_s,
-                 f.rmse_m(), f.losses);
+    const auto at = trial.floor().truth();
+    std::fprintf(stderr, "  %.0f m in %.0f s at (%.1f, %.1f), RMSE %.4f m, lost %d times\n", f.driven_m,
+                 f.simulated_s, at.x_m(), at.y_m(), f.rmse_m(), f.losses);
+    if (done) return true;
+    idle = f.driven_m - before_m < 1.0 ? idle + 1 : 0;
   }
-  return true;
+  return false;
 }
 
 /// Runs of some metres, each on a day of its own.

@@ -32,6 +32,7 @@ TrialSetup sample_factory_trial(const std::filesystem::path& data, double hidden
     furniture.count = 0;
     return setup;
   }
+  for (auto& mover : setup.scenario.movers) mover.patience_s = std::max(mover.patience_s, 5.0);
   const auto& nodes = setup.routes.nodes();
   for (std::size_t i = 0; i < 12; ++i) {
     simulation::MoverSpec person;
@@ -39,6 +40,7 @@ TrialSetup sample_factory_trial(const std::filesystem::path& data, double hidden
     const Point2<Map>& at = nodes[(2 * i + static_cast<std::size_t>(day)) % nodes.size()].position;
     person.path = {{at.x_m + 1.1, at.y_m + 1.0}, {at.x_m + 1.1, at.y_m - 1.4}};
     person.pause_s = 2.0 + static_cast<double>(i % 4);
+    person.patience_s = 5.0;  // else a person and the vehicle may wait for each other for ever
     setup.scenario.movers.push_back(person);
   }
   return setup;
