@@ -20,19 +20,12 @@ bool is_elsewhere(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b
          std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) > kStep_rad;
 }
 
-std::vector<Point2<Base>> places(const localization::ScanPoints& points) {
-  std::vector<Point2<Base>> result;
-  result.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) result.push_back(points.point(i));
-  return result;
-}
-
 }  // namespace
 
 WallWatch::WallWatch(const mapping::Walls& walls, const Point2<Base>& sensor,
                      const std::filesystem::path& learned)
-    : sensor_(sensor), reliability_(walls) {
-  const std::string message = localization::load_reliability(learned, reliability_);
+    : sensor_(sensor), learner_(walls) {
+  const std::string message = localization::load_reliability(learned, learner_.reliability());
   if (!message.empty()) spdlog::warn("{}", message);
   thread_ = std::thread([this] { run(); });
 }
@@ -66,10 +59,9 @@ void WallWatch::run() {
     if (stop_) return;
     const Look look = *std::exchange(waiting_, std::nullopt);
     lock.unlock();
-    const auto scan = localization::make_surface_scan(look.pose.stamp, sensor_, places(look.points));
     {
       const std::scoped_lock learning(mutex_);
-      reliability_.observe(scan, look.pose);
+      learner_.observe(look.points, sensor_, look.pose);
       ++looks_;
     }
     lock.lock();
@@ -81,14 +73,25 @@ std::size_t WallWatch::looks() const {
   return looks_;
 }
 
+std::string WallWatch::reliability_text() const {
+  const std::scoped_lock lock(mutex_);
+  return localization::reliability_csv(learner_.reliability());
+}
+
+std::vector<localization::CalibrationKeyframe> WallWatch::keyframes() const {
+  const std::scoped_lock lock(mutex_);
+  return learner_.keyframes();
+}
+
 std::vector<SeenWall> WallWatch::seen() const {
   const std::scoped_lock lock(mutex_);
   std::vector<SeenWall> all;
-  const auto& cells = reliability_.cells().all();
+  const localization::WallReliability& reliability = learner_.reliability();
+  const auto& cells = reliability.cells().all();
   all.reserve(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i)
-    all.push_back({cells[i], reliability_.state(i), reliability_.share_in_place(i),
-                   reliability_.beliefs()[i].offset_m});
+    all.push_back(
+        {cells[i], reliability.state(i), reliability.share_in_place(i), reliability.beliefs()[i].offset_m});
   return all;
 }
 

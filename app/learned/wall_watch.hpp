@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include "core/pose_estimate.hpp"
+#include "localization/drawing_learner/drawing_learner.hpp"
 #include "localization/scan_points.hpp"
 #include "localization/wall_reliability/wall_reliability.hpp"
 
@@ -21,8 +23,9 @@ struct SeenWall {
   double offset_m = 0.0;        ///< of a displaced piece, to the left of its direction
 };
 
-/// What the running vehicle sees of the drawn walls, for the panel. It looks on only, on a thread of its own:
-/// the drive under way does not depend on it. Begins with what earlier drives left with the site.
+/// What the running vehicle learns of the drawing: for the panel, and for the site's keeper. It looks on
+/// only, on a thread of its own: the drive under way does not depend on it. Begins with what earlier drives
+/// left with the site.
 class WallWatch {
  public:
   /// `sensor`: where the lidar sits, Base frame. `learned`: reliability.csv; it need not exist.
@@ -36,6 +39,9 @@ class WallWatch {
   bool see(const localization::ScanPoints& points, const PoseEstimate& pose);
   /// From any thread.
   [[nodiscard]] std::vector<SeenWall> seen() const;
+  /// What reliability.csv is to hold, and the scans that tell the drawing's scale. From any thread.
+  [[nodiscard]] std::string reliability_text() const;
+  [[nodiscard]] std::vector<localization::CalibrationKeyframe> keyframes() const;
   /// Scans that were looked at so far.
   [[nodiscard]] std::size_t looks() const;
 
@@ -53,7 +59,7 @@ class WallWatch {
   std::optional<Look> waiting_;
   bool stop_ = false;
   mutable std::mutex mutex_;  ///< of what was learned
-  localization::WallReliability reliability_;
+  localization::DrawingLearner learner_;
   std::size_t looks_ = 0;
   std::thread thread_;
 };

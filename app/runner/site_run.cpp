@@ -8,6 +8,7 @@
 #include "app/learned/learned_drawing.hpp"
 #include "app/pose/drawing_pose.hpp"
 #include "app/route_tools.hpp"
+#include "mapping/wall_map/wall_fingerprint.hpp"
 
 namespace madori::app {
 namespace {
@@ -50,6 +51,9 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
       (void)watch->see(points, pose);
     };
     loaded.pose = std::make_unique<DrawingPose>(loaded.site->walls, options);
+    loaded.last = load_stored_pose(site, mapping::walls_fingerprint(loaded.site->walls));
+    if (!loaded.last.message.empty()) spdlog::info("{}", loaded.last.message);
+    loaded.keeper = std::make_unique<SiteKeeper>(site, loaded.site->walls, loaded.watch);
   } catch (const std::exception& e) {
     loaded.missing = e.what();
   }
@@ -58,6 +62,12 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
 
 void SiteRun::take(Loaded loaded) {
   if (run_ && hooks_.closing) hooks_.closing();
+  if (keeper_)  // its last writing takes a while: not on this thread
+    kept_ =
+        std::async(std::launch::async,
+                   [keeper = std::shared_ptr<SiteKeeper>(std::move(keeper_))]() mutable { keeper.reset(); });
+  keeper_ = std::move(loaded.keeper);
+  recall_ = PoseRecall(std::move(loaded.last.pose));
   std::unique_ptr<TransportRun> next;
   if (loaded.missing.empty()) {
     next =
@@ -96,10 +106,19 @@ void SiteRun::look_for_site() {
   loading_ = std::async(std::launch::async, [site = site_] { return load(site); });
 }
 
+/// Once, when the drive has told where its wheels stand.
+void SiteRun::recall_pose() {
+  if (!run_->state().drive_heard || !recall_.verdict().empty()) return;
+  if (const auto word = recall_.on_status(run_->state().drive)) run_->say(*word);
+  if (!recall_.verdict().empty()) spdlog::info("{}", recall_.verdict());
+}
+
 void SiteRun::tick(Stamp now) {
   look_for_site();
   if (run_) {
     run_->tick(now);
+    recall_pose();
+    keeper_->observe(run_->state(), now);
     return;
   }
   CycleInput input;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/cycle/site_config.hpp"
+#include "app/keeping/site_keeper.hpp"
 #include "app/learned/wall_watch.hpp"
 #include "app/runner/transport_run.hpp"
 
@@ -16,7 +17,8 @@ namespace madori::app {
 
 /// The vehicle of a site from an empty folder on. While something is missing it only listens to the devices;
 /// once the site can be driven it runs it (TransportRun), and anew after every change of the site, as soon as
-/// the vehicle stands: no restart. A new run begins paused.
+/// the vehicle stands: no restart. A new run begins paused. What driving teaches of the drawing, and the last
+/// pose, are kept with the site (SiteKeeper).
 class SiteRun {
  public:
   struct Hooks {
@@ -58,11 +60,14 @@ class SiteRun {
     std::optional<SiteForDriving> site;
     std::unique_ptr<PoseSource> pose;
     std::shared_ptr<WallWatch> watch;
+    std::unique_ptr<SiteKeeper> keeper;
+    LoadedPose last;  ///< of the run before
     std::string missing;
   };
   [[nodiscard]] static Loaded load(const std::filesystem::path& site);
   void take(Loaded loaded);
   void look_for_site();
+  void recall_pose();
 
   std::filesystem::path site_;
   std::unique_ptr<VehicleLink> link_;
@@ -73,6 +78,10 @@ class SiteRun {
   std::string missing_ = "the site is being loaded";
   std::shared_ptr<WallWatch> watch_;
   std::unique_ptr<TransportRun> run_;
+  // of the ticks' thread alone:
+  std::unique_ptr<SiteKeeper> keeper_;
+  PoseRecall recall_{std::nullopt};
+  std::future<void> kept_;  ///< what the run before learned is being written
 };
 
 }  // namespace madori::app

@@ -1,0 +1,71 @@
+#include "app/keeping/site_keeper.hpp"
+
+#include <utility>
+
+#include "app/learned/calibration_file.hpp"
+#include "app/learned/learned_drawing.hpp"
+#include "localization/self_calibration/self_calibration.hpp"
+#include "mapping/site/atomic_file.hpp"
+#include "mapping/wall_map/wall_fingerprint.hpp"
+
+namespace madori::app {
+namespace {
+
+constexpr double kPoseEveryS = 1.0;
+constexpr double kLearnedEveryS = 60.0;
+
+}  // namespace
+
+SiteKeeper::SiteKeeper(std::filesystem::path site, const mapping::Walls& walls,
+                       std::shared_ptr<const WallWatch> watch)
+    : site_(std::move(site)),
+      walls_(walls),
+      fingerprint_(mapping::walls_fingerprint(walls)),
+      watch_(std::move(watch)) {}
+
+SiteKeeper::~SiteKeeper() {
+  if (watch_) keep_learned();
+  jobs_.wait();
+}
+
+void SiteKeeper::observe(const CycleState& state, Stamp now) {
+  if (!state.drive_heard) return;
+  const WheelCounters wheels = counters_of(state.drive);
+  const bool stands = wheels == wheels_before_;
+  const bool came_to_stand = stands && !stood_;
+  wheels_before_ = wheels;
+  stood_ = stands;
+  if (came_to_stand || to_seconds(now - pose_kept_) >= kPoseEveryS) keep_pose(state, now);
+  if (watch_ && stands && to_seconds(now - learned_kept_) >= kLearnedEveryS) {
+    if (learned_kept_ != Stamp{}) keep_learned();
+    learned_kept_ = now;
+  }
+}
+
+/// A vehicle that is lost may have been carried away with its wheels still: then no pose is better.
+void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
+  const auto file = site_ / kPoseFile;
+  if (state.pose.health.state == LocalizationState::Lost && pose_known_) {
+    pose_known_ = false;
+    pose_kept_ = now;
+    jobs_.put("pose", [file] { std::filesystem::remove(file); });
+  }
+  const WheelCounters wheels = counters_of(state.drive);
+  if (state.pose.health.state != LocalizationState::Localized) return;
+  if (pose_known_ && same_place(wheels, kept_wheels_)) return;
+  pose_known_ = true;
+  pose_kept_ = now;
+  kept_wheels_ = wheels;
+  const StoredPose pose{now, state.pose.map_from_base, state.pose.covariance, wheels, fingerprint_};
+  jobs_.put("pose", [file, pose] { mapping::write_file_atomically(file, stored_pose_yaml(pose)); });
+}
+
+void SiteKeeper::keep_learned() {
+  jobs_.put("learned", [site = site_, walls = walls_, watch = watch_] {
+    mapping::write_file_atomically(site / kReliabilityFile, watch->reliability_text());
+    const auto found = localization::self_calibrate(localization::WallIndex(walls), watch->keyframes());
+    (void)keep_calibration(site, walls, found);
+  });
+}
+
+}  // namespace madori::app

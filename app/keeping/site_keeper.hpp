@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/cycle/cycle.hpp"
+#include "app/keeping/background_jobs.hpp"
+#include "app/learned/wall_watch.hpp"
+#include "app/pose/pose_store.hpp"
+#include "mapping/wall_map/wall.hpp"
+
+namespace madori::app {
+
+/// Keeps with the site what the next start wants to know: the pose (at most every second, and when the
+/// vehicle comes to stand), and what was learned of the drawing (when it stands, at most every minute, and at
+/// the end). Files are written on a thread of its own, atomically.
+class SiteKeeper {
+ public:
+  SiteKeeper(std::filesystem::path site, const mapping::Walls& walls, std::shared_ptr<const WallWatch> watch);
+  /// Keeps everything once more.
+  ~SiteKeeper();
+  SiteKeeper(const SiteKeeper&) = delete;
+  SiteKeeper& operator=(const SiteKeeper&) = delete;
+
+  /// After every step, on the cycle's thread.
+  void observe(const CycleState& state, Stamp now);
+  /// Waits until what was put so far is on the disk.
+  void flush() { jobs_.wait(); }
+  [[nodiscard]] std::string problem() const { return jobs_.problem(); }
+
+ private:
+  void keep_pose(const CycleState& state, Stamp now);
+  void keep_learned();
+
+  std::filesystem::path site_;
+  mapping::Walls walls_;
+  std::string fingerprint_;
+  std::shared_ptr<const WallWatch> watch_;
+  Stamp pose_kept_{};
+  Stamp learned_kept_{};
+  WheelCounters kept_wheels_;
+  WheelCounters wheels_before_;
+  bool pose_known_ = false;  ///< last_pose.yaml is of this run
+  bool stood_ = false;
+  BackgroundJobs jobs_;
+};
+
+}  // namespace madori::app
