@@ -113,7 +113,7 @@ void trim_edges(const GrayImage& image, const Paper& paper, GrayImage& ink) {
     for (std::size_t u = skip_paper(row, 0, width); u < width; u = skip_paper(row, u + 1, width)) {
       const auto column = static_cast<int>(u);
       const float edge = (image.at(column, v) - kEdge * levels[u]) / (1 - kEdge);
-      if (edge > 0 && darker_near(image, column, v, static_cast<int>(edge))) row[u] = 0;
+      if (edge > 0 && darker_near(image, column, v, static_cast<int>(std::ceil(edge)))) row[u] = 0;
     }
   }
 }
