@@ -10,6 +10,7 @@ namespace madori::localization {
 namespace {
 
 constexpr double kSmallestStep = 1e-7;  // of the strain, converged below
+constexpr double kShareOfSigma = 0.1;   // likewise: what is smaller is lost in the uncertainty
 
 /// Median absolute value as a standard deviation.
 double robust_sigma(std::vector<double> values) {
@@ -58,8 +59,9 @@ SelfCalibration self_calibrate(const WallIndex& drawing, const std::vector<Calib
     wall_sigma =
         std::clamp(robust_sigma(solution.wall_offsets_m), options.wall_least_m, options.wall_prior_m);
   }
-  result.converged = solution.step.cwiseAbs().maxCoeff() <
-                     std::max(kSmallestStep, 1e-2 * std::sqrt(solution.covariance.diagonal().minCoeff()));
+  result.converged =
+      solution.step.cwiseAbs().maxCoeff() <
+      std::max(kSmallestStep, kShareOfSigma * std::sqrt(solution.covariance.diagonal().minCoeff()));
   result.strain = system.strain();
   result.covariance = solution.covariance * std::max(1.0, solution.chi2_per_freedom);
   result.wall_sigma_m = wall_sigma;

@@ -24,7 +24,7 @@ struct CalibrationOptions {
   double wall_least_m = 0.005;  ///< no drawing is taken to be better
   double beside_m = 1.3;        ///< a wall farther beside than this is not the one drawn
   double parallel_cosine = 0.97;
-  int rounds = 14;
+  int rounds = 30;
 };
 
 /// How the drawing is stretched against the building: drawn = (I + strain) * true, after a rigid motion, with

@@ -100,7 +100,9 @@ int accuracy(const Arguments& a) {
 bool calibrate(const localization::SelfCalibration& found, test::TrialSetup& setup) {
   constexpr double kCertainEnough = 0.003;
   if (!found.converged || found.uniform_sigma() > kCertainEnough) {
-    std::printf("  the scale could not be measured\n");
+    std::printf("  the scale could not be measured (%s; seems %.3f %% +- %.3f %%; %d scans on %d walls)\n",
+                found.converged ? "converged" : "not converged", 100.0 * found.uniform(),
+                100.0 * found.uniform_sigma(), found.keyframes, found.walls);
     return false;
   }
   const double left = setup.drawing_scale / (1.0 + found.uniform());
