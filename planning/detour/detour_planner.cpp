@@ -28,11 +28,16 @@ Transform2<Map, Base> pose_at(const PathPoint& point) {
   return {point.position.x_m, point.position.y_m, point.heading_rad};
 }
 
-}  // namespace
+/// Beside the vehicle, more than what it is checked with while it drives: no curve is followed exactly.
+CheckOptions with_room(CheckOptions check, double room_m) {
+  check.sides_margin_m += room_m;
+  check.turn_margin_m += room_m;
+  check.wall_margin_m += room_m;
+  return check;
+}
 
-DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls, const CheckOptions& ordinary,
+DetourAnswer plan_within(const DetourRequest& request, const WallGrid& walls, const CheckOptions& check,
                          const DetourOptions& options) {
-  const CheckOptions check = with_margins(ordinary, request.margin_share);
   DetourAnswer answer{request.id, std::nullopt, 0, ""};
   auto side = request.turn_free ? side_detour(request.path, request.from, request.check, request.obstacles,
                                               walls, check, options.side)
@@ -64,6 +69,15 @@ DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls, co
     return answer;
   }
   return answer;
+}
+
+}  // namespace
+
+DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls, const CheckOptions& ordinary,
+                         const DetourOptions& options) {
+  const CheckOptions check = with_margins(ordinary, request.margin_share);
+  DetourAnswer answer = plan_within(request, walls, with_room(check, options.room_m), options);
+  return answer.path ? answer : plan_within(request, walls, check, options);
 }
 
 DetourPlanner::DetourPlanner(std::shared_ptr<const WallGrid> walls, CheckOptions check, DetourOptions options)

@@ -35,9 +35,11 @@ struct DetourAnswer {
 struct DetourOptions {
   SideDetourOptions side;
   FreeSpaceOptions free_space;
+  double room_m = 0.08;  ///< beside the vehicle beyond the margins, where there is so much
 };
 
-/// First beside the route, then through the free space. Always ends: the search is bounded.
+/// First beside the route, then through the free space, with more room than the margins where there is.
+/// Always ends: the search is bounded.
 [[nodiscard]] DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls,
                                        const CheckOptions& check, const DetourOptions& options);
 
