@@ -12,7 +12,6 @@ namespace {
 constexpr double kLargestRadius = 25;  // wall thicknesses: about the leaf of a gate
 constexpr double kLeastTurn = 0.6;     // radians
 constexpr double kPairedShare = 0.5;
-constexpr double kTightest = 3;  // wall thicknesses: no wall bends so sharply, a basin does
 
 /// The turn of a chain from piece to piece, when all turns go one way; 0 for anything else.
 double turn_of(const DrawnLines& lines, const std::vector<std::size_t>& pieces) {
@@ -41,10 +40,8 @@ void reject_arcs(DrawnLines& lines, const std::vector<Evidence>& evidence, const
       paired += std::min(evidence[i].paired_px, lines[i].length_px());
     }
     const double turn = turn_of(lines, pieces);
-    if (turn < kLeastTurn) continue;
-    const double radius = length / turn;
-    if (paired > kPairedShare * length && radius > kTightest * style.thickness_px) continue;
-    if (radius > kLargestRadius * style.thickness_px) continue;
+    if (turn < kLeastTurn || paired > kPairedShare * length) continue;
+    if (length / turn > kLargestRadius * style.thickness_px) continue;
     const auto reason = turn > 1.2 * std::numbers::pi ? RejectReason::Furniture : RejectReason::DoorArc;
     for (const std::size_t i : pieces) lines[i].rejected = reason;
   }

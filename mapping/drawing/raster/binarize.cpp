@@ -9,7 +9,6 @@
 
 #include "mapping/drawing/raster/cv_view.hpp"
 #include "mapping/drawing/raster/paper.hpp"
-#include "mapping/drawing/raster/skip_paper.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -19,7 +18,6 @@ constexpr int kRowStep = 5;     // every fifth row is sample enough
 constexpr int kNoiseStep = 16;  // ... and far fewer for the noise
 constexpr int kSharedRows = 4;
 constexpr double kLeastContrast = 16;
-constexpr float kEdge = 0.55F;      // of the way from a stroke's darkest to the paper
 constexpr double kNearBest = 0.96;  // thresholds that cross almost as many edges form the plateau
 using Levels = std::array<double, 257>;
 
@@ -94,30 +92,6 @@ void compare_with_paper(const GrayImage& image, const Paper& paper, double share
   }
 }
 
-/// Whether a pixel darker than this lies within reach.
-bool darker_near(const GrayImage& image, int u, int v, int than) {
-  for (int y = std::max(0, v - kReach); y <= std::min(image.height_px - 1, v + kReach); ++y)
-    for (int x = std::max(0, u - kReach); x <= std::min(image.width_px - 1, u + kReach); ++x)
-      if (image.at(x, y) < than) return true;
-  return false;
-}
-
-/// Takes from the ink what is nearer to the paper than to the darkest pixel around: half way lies the edge of
-/// a stroke, whatever its grey, and however blurred.
-void trim_edges(const GrayImage& image, const Paper& paper, GrayImage& ink) {
-  const auto width = static_cast<std::size_t>(image.width_px);
-  std::vector<float> levels(width, static_cast<float>(paper.level()));
-  for (int v = 0; v < image.height_px; ++v) {
-    if (!paper.is_even() && v % kSharedRows == 0) paper.row(v + kSharedRows / 2, levels);
-    std::uint8_t* row = &ink.pixels[static_cast<std::size_t>(v) * width];
-    for (std::size_t u = skip_paper(row, 0, width); u < width; u = skip_paper(row, u + 1, width)) {
-      const auto column = static_cast<int>(u);
-      const float edge = (image.at(column, v) - kEdge * levels[u]) / (1 - kEdge);
-      if (edge > 0 && darker_near(image, column, v, static_cast<int>(std::ceil(edge)))) row[u] = 0;
-    }
-  }
-}
-
 }  // namespace
 
 Binarized binarize(const GrayImage& image, std::optional<double> threshold) {
@@ -127,10 +101,9 @@ Binarized binarize(const GrayImage& image, std::optional<double> threshold) {
   if (paper.is_even()) {
     const double level = threshold ? *threshold : result.threshold * paper.level() / 255;
     cv::threshold(cv_view(image), ink, std::floor(level), 255, cv::THRESH_BINARY_INV);
-  } else {
-    compare_with_paper(image, paper, result.threshold / 255, result.ink);
+    return result;
   }
-  if (!threshold) trim_edges(image, paper, result.ink);
+  compare_with_paper(image, paper, result.threshold / 255, result.ink);
   return result;
 }
 

@@ -16,7 +16,6 @@ constexpr double kMostOblong = 1.35;
 constexpr double kLikeSize = 0.12;
 constexpr double kApart = 4;  // sides, between the nearest two
 constexpr std::size_t kFewest = 4;
-constexpr double kLetterGap = 0.5, kLetterSize = 1.5;  // of a mark's size: the next letter of a word
 constexpr int kMargin = 3;
 
 using Masks = std::map<int, cv::Mat>;
@@ -77,18 +76,6 @@ bool recurs(const Square& self, const std::vector<Square>& all) {
   return alike >= kFewest && nearest >= kApart * self.side;
 }
 
-/// A mark of like size close by: an R with its holes filled is a square, but it stands before an M.
-bool beside_letter(const Component& self, const std::vector<Component>& all) {
-  return std::any_of(all.begin(), all.end(), [&](const Component& other) {
-    if (&other == &self || other.size() > kLetterSize * self.size() ||
-        self.size() > kLetterSize * other.size())
-      return false;
-    const int apart_u = std::max({0, other.left - self.right, self.left - other.right});
-    const int apart_v = std::max({0, other.top - self.bottom, self.top - other.bottom});
-    return std::max(apart_u, apart_v) <= kLetterGap * self.size();
-  });
-}
-
 Column column_at(const Square& square, const Component& c) {
   cv::Point2f corners[4];
   square.place.points(corners);
@@ -108,8 +95,8 @@ std::vector<Column> find_columns(const Components& marks, const std::vector<bool
   std::vector<int> owners;
   for (auto& [mark, mask] : draw_candidates(marks, taken, pen_px)) {
     const auto place = square_in(mask);
+    if (!place) continue;
     const Component& c = marks.all()[static_cast<std::size_t>(mark)];
-    if (!place || beside_letter(c, marks.all())) continue;
     Square square{*place, 0.5 * (place->size.width + place->size.height)};
     square.place.center += cv::Point2f(static_cast<float>(c.left), static_cast<float>(c.top));
     squares.push_back(square);
