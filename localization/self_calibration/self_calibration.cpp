@@ -43,18 +43,23 @@ double SelfCalibration::stretch_chi2() const {
   return rest.dot(covariance.llt().solve(rest));
 }
 
-SelfCalibration self_calibrate(const WallIndex& drawing, const std::vector<CalibrationKeyframe>& keyframes,
-                               const std::vector<RelativeFactor>& motions,
-                               const CalibrationOptions& options) {
-  SelfCalibration result;
-  result.keyframes = static_cast<int>(keyframes.size());
-  StrainSystem system(drawing, keyframes, motions, options);
+namespace {
+
+/// One descent, and the metres of surface that its stretched drawing explains.
+struct Descent {
+  SelfCalibration found;
+  double explained_m = 0.0;
+};
+
+Descent descend(StrainSystem system, const CalibrationOptions& options) {
+  Descent descent;
+  SelfCalibration& result = descent.found;
   double scale = options.first_scale_m;
   double wall_sigma = options.wall_prior_m;
   StrainSolution solution;
   for (int round = 0; round < options.rounds; ++round) {
     solution = system.solve(scale, wall_sigma);
-    if (!solution.good) return result;
+    if (!solution.good) return descent;
     scale = std::max(options.last_scale_m, 0.7 * scale);
     wall_sigma =
         std::clamp(robust_sigma(solution.wall_offsets_m), options.wall_least_m, options.wall_prior_m);
@@ -70,7 +75,22 @@ SelfCalibration self_calibrate(const WallIndex& drawing, const std::vector<Calib
       std::count_if(solution.wall_offsets_m.begin(), solution.wall_offsets_m.end(),
                     [&](double d) { return std::abs(d) > std::max(0.15, kWallLossSigmas * wall_sigma); }));
   result.pieces = solution.pieces;
-  return result;
+  descent.explained_m = system.explained_m(options.last_scale_m);
+  return descent;
+}
+
+}  // namespace
+
+SelfCalibration self_calibrate(const WallIndex& drawing, const std::vector<CalibrationKeyframe>& keyframes,
+                               const std::vector<RelativeFactor>& motions,
+                               const CalibrationOptions& options) {
+  Descent best;
+  for (const double start : options.starts) {
+    const Descent descent = descend({drawing, keyframes, motions, options, start}, options);
+    if (descent.explained_m > best.explained_m) best = descent;
+  }
+  best.found.keyframes = static_cast<int>(keyframes.size());
+  return best.found;
 }
 
 }  // namespace madori::localization

@@ -25,6 +25,9 @@ struct CalibrationOptions {
   double beside_m = 1.3;        ///< a wall farther beside than this is not the one drawn
   double parallel_cosine = 0.97;
   int rounds = 30;
+  /// Strains, the same along x and y, from which it is tried: from one alone it may end where walls a little
+  /// beside each other are taken for one another.
+  std::vector<double> starts{0.0, -0.02, -0.01, 0.01, 0.02};
 };
 
 /// How the drawing is stretched against the building: drawn = (I + strain) * true, after a rigid motion, with
@@ -49,9 +52,11 @@ struct SelfCalibration {
 
 /// Strain of the drawing, jointly with the pose of every keyframe and with how far each wall is misdrawn, by
 /// robust least squares (Gauss-Newton, graduated Geman-McClure; a wall's own error is a random effect whose
-/// spread is estimated too). The lidar's metre is the truth: without `motions` only what one scan saw at once
-/// tells lengths. `motions` between keyframes (measured by scan matching) tie them together, so that lengths
-/// that no single scan sees are told as well. An unknown direction keeps the prior of 5 %.
+/// spread is estimated too), from several starts: the one whose
+/// drawing explains the greatest length of surfaces counts. The lidar's metre is the truth: without `motions`
+/// only what one scan saw at once tells lengths. `motions` between keyframes (measured by scan matching) tie
+/// them together, so that lengths that no single scan sees are told as well. An unknown direction keeps the
+/// prior of 5 %.
 [[nodiscard]] SelfCalibration self_calibrate(const WallIndex& drawing,
                                              const std::vector<CalibrationKeyframe>& keyframes,
                                              const std::vector<RelativeFactor>& motions = {},

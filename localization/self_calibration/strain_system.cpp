@@ -125,7 +125,8 @@ Step step_of(const Equations& eq) {
 }  // namespace
 
 StrainSystem::StrainSystem(const WallIndex& drawing, const std::vector<CalibrationKeyframe>& keyframes,
-                           const std::vector<RelativeFactor>& motions, const CalibrationOptions& options)
+                           const std::vector<RelativeFactor>& motions, const CalibrationOptions& options,
+                           double too_large)
     : drawing_(drawing),
       keyframes_(keyframes),
       motions_(motions),
@@ -136,7 +137,21 @@ StrainSystem::StrainSystem(const WallIndex& drawing, const std::vector<Calibrati
     middle_.x_m += k.map_from_base.x_m() / static_cast<double>(keyframes.size());
     middle_.y_m += k.map_from_base.y_m() / static_cast<double>(keyframes.size());
   }
+  strain_ = {too_large, too_large, 0.0};
+  for (Transform2<Map, Base>& pose : poses_)
+    pose = {middle_.x_m + (pose.x_m() - middle_.x_m) / (1.0 + too_large),
+            middle_.y_m + (pose.y_m() - middle_.y_m) / (1.0 + too_large), pose.yaw_rad()};
   first_poses_ = poses_;
+}
+
+double StrainSystem::explained_m(double scale_m) {
+  double explained = 0.0;
+  for (std::size_t k = 0; k < keyframes_.size(); ++k)
+    for (const SurfacePiece& piece : keyframes_[k].pieces)
+      if (const auto row = row_of(poses_[k], piece))
+        explained += piece.length_m *
+                     geman_mcclure(row->residual_m + offsets_[static_cast<std::size_t>(row->wall)], scale_m);
+  return explained;
 }
 
 Point2<Map> StrainSystem::drawn(const Point2<Map>& p) const {

@@ -36,13 +36,17 @@ struct StrainSolution {
 /// eliminated (Schur complement), sparse.
 class StrainSystem {
  public:
+  /// Begins with the drawing taken to be `too_large` times the building, less one.
   StrainSystem(const WallIndex& drawing, const std::vector<CalibrationKeyframe>& keyframes,
-               const std::vector<RelativeFactor>& motions, const CalibrationOptions& options);
+               const std::vector<RelativeFactor>& motions, const CalibrationOptions& options,
+               double too_large = 0.0);
 
   /// Associates pieces with walls, takes one step. `scale_m` is of the robust loss, `wall_sigma_m` the spread
   /// of the walls' own errors.
   StrainSolution solve(double scale_m, double wall_sigma_m);
   [[nodiscard]] const Eigen::Vector3d& strain() const { return strain_; }
+  /// Metres of surface that lie on the stretched drawing itself, no wall moved.
+  [[nodiscard]] double explained_m(double scale_m);
 
  private:
   [[nodiscard]] Point2<Map> drawn(const Point2<Map>& true_place) const;
