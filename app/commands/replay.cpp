@@ -28,7 +28,11 @@ void run(const ReplayArguments& arguments) {
     std::printf("%llu steps, %.1f s of driving, replayed %.1f x as fast; %llu commands differ\n",
                 static_cast<unsigned long long>(result.steps), result.recorded_s, speed,
                 static_cast<unsigned long long>(result.different));
-  write_json(arguments.json_file, {{"steps", result.steps},
+  if (result.recorded_poses && arguments.json_file != "-")
+    std::puts(
+        "the run's beginning is not among these bags: localization as recorded, everything else computed");
+  write_json(arguments.json_file, {{"recorded_poses", result.recorded_poses},
+                                   {"steps", result.steps},
                                    {"different", result.different},
                                    {"first_different", result.first_different},
                                    {"recorded_s", result.recorded_s},

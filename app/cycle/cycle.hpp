@@ -21,6 +21,7 @@
 #include "planning/route_graph/route_search.hpp"
 #include "planning/waypoints/waypoints.hpp"
 #include "sensors/device_clock.hpp"
+#include "sensors/raw_packet.hpp"
 
 namespace madori::app {
 
@@ -89,8 +90,10 @@ struct OperatorCommand {
 struct CycleInput {
   Stamp now{};
   std::vector<control::wire::Status> drive;
-  std::vector<PointCloud<Lidar>> clouds;  ///< whole revolutions
-  bool protective_stop = false;           ///< a certified scanner's protective field is interrupted
+  std::vector<PointCloud<Lidar>> clouds;    ///< whole revolutions
+  std::vector<std::int64_t> firings_us;     ///< the lidar's own time of each one's begin, for recordings
+  std::vector<sensors::RawPacket> packets;  ///< what they were assembled from, for recordings
+  bool protective_stop = false;             ///< a certified scanner's protective field is interrupted
   std::vector<OperatorCommand> commands;
   std::optional<Order> order;  ///< the running order as it is stored
   std::optional<planning::DetourAnswer> detour;

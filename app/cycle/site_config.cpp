@@ -46,6 +46,8 @@ SiteForDriving load_for_driving(const std::filesystem::path& folder) {
   const auto& lidar = vlp16_of(loaded.site, folder);
   config.lidar = {lidar.x_m, lidar.y_m, lidar.z_m, -kVlp16ElevationRad, kVlp16ElevationRad};
   config.lidar_yaw_rad = to_rad(lidar.yaw_deg);
+  for (const auto& sensor : loaded.site.sensors)
+    config.check.protective_m = std::max(config.check.protective_m, sensor.protective_m);
   std::vector<Segment2<Map>> segments;
   for (const auto& wall : loaded.walls) segments.push_back(wall.segment);
   config.walls = std::make_shared<const planning::WallGrid>(std::move(segments));

@@ -6,9 +6,9 @@
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <optional>
 
 #include "app/cycle/site_config.hpp"
+#include "app/demo/played_operator.hpp"
 #include "app/pose/drawing_pose.hpp"
 #include "app/recording/recorder.hpp"
 #include "app/runner/real_time.hpp"
@@ -98,31 +98,6 @@ class Observer {
   std::vector<double> off_route_m_;
 };
 
-/// Plays the operator who looks around and confirms: a busy machine may silence the virtual drive for longer
-/// than the cycle allows. Every word is counted.
-class Operator {
- public:
-  Operator(TransportRun& run, DemoResult& result) : run_(run), result_(result) {}
-
-  void look() {
-    const bool stopped = run_.view().mode == Mode::Fault;
-    if (!stopped) since_.reset();
-    if (!stopped || (since_ && seconds_since(*since_) < kLooksAround_s)) return;
-    if (since_) {
-      run_.say({OperatorWord::Confirm, {}});
-      run_.say({OperatorWord::Resume, {}});
-      ++result_.confirmed;
-    }
-    since_ = Clock::now();
-  }
-
- private:
-  static constexpr double kLooksAround_s = 3.0;
-  TransportRun& run_;
-  DemoResult& result_;
-  std::optional<Clock::time_point> since_;
-};
-
 }  // namespace
 
 bool DemoResult::all_delivered() const {
@@ -147,7 +122,7 @@ DemoResult run_demo(const DemoOptions& options) {
   Observer observer(result, run.config(), factory);
   fs::remove_all(options.site / "runs/demo");
   Recorder recorder(options.site / "runs/demo", {.max_bytes = kMostRecording_bytes});
-  Operator person(run, result);
+  PlayedOperator person;
   run.set_tap([&](const auto& in, const auto& out, const auto& state) {
     recorder.add(in, out, state);
     observer.look(out, state);
@@ -160,7 +135,7 @@ DemoResult run_demo(const DemoOptions& options) {
     const auto id = run.orders().add({{node, StopAction::Unload, 1.0}}, 1, std::chrono::system_clock::now());
     bool delivered = false;
     run_in_real_time(run, never, [&] {
-      person.look();
+      for (const OperatorWord word : person.look(run.view().mode, run.view().now)) run.say({word, {}});
       const auto order = run.view().order;
       delivered = order && order->id == id && order->state == OrderState::Done;
       return delivered || seconds_since(begun) > options.limit_s;
@@ -169,6 +144,7 @@ DemoResult run_demo(const DemoOptions& options) {
     if (!delivered) break;
   }
   observer.finish();
+  result.confirmed = person.confirmed();
   return result;
 }
 

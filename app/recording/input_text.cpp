@@ -2,7 +2,9 @@
 
 #include <array>
 #include <bit>
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "core/result.hpp"
 
@@ -92,6 +94,27 @@ planning::DetourAnswer detour_from(const json& value) {
   return answer;
 }
 
+/// Stamp of every revolution, and its first firing where its packets are recorded.
+json clouds_json(const CycleInput& input) {
+  json clouds = json::array();
+  for (std::size_t i = 0; i < input.clouds.size(); ++i) {
+    clouds.push_back({input.clouds[i].stamp.time_since_epoch().count()});
+    if (has_packets(input)) clouds.back().push_back(input.firings_us[i]);
+  }
+  return clouds;
+}
+
+/// Sine and cosine are kept too: made again from the yaw they could differ in the last bit.
+json pose_json(const PoseEstimate& pose) {
+  static_assert(std::is_trivially_copyable_v<Transform2<Map, Base>> && sizeof pose.map_from_base == 40);
+  std::array<std::uint64_t, 5> numbers{};
+  std::memcpy(numbers.data(), &pose.map_from_base, sizeof numbers);
+  std::array<std::uint64_t, 9> covariance{};
+  std::memcpy(covariance.data(), pose.covariance.data(), sizeof covariance);
+  return {pose.stamp.time_since_epoch().count(), numbers, covariance, static_cast<int>(pose.health.state),
+          pose.health.reason};
+}
+
 json parsed(const std::string& text) {
   json value = json::parse(text, nullptr, false);
   if (value.is_discarded())
@@ -101,8 +124,14 @@ json parsed(const std::string& text) {
 
 }  // namespace
 
-std::string input_text(const CycleInput& input) {
-  json value{{"now", input.now.time_since_epoch().count()}, {"clouds", input.clouds.size()}};
+bool has_packets(const CycleInput& input) {
+  return !input.clouds.empty() && input.firings_us.size() == input.clouds.size();
+}
+
+std::string input_text(const CycleInput& input, const PoseEstimate& pose) {
+  json value{{"now", input.now.time_since_epoch().count()},
+             {"clouds", clouds_json(input)},
+             {"pose", pose_json(pose)}};
   for (const auto& status : input.drive) value["drive"].push_back(status_json(status));
   if (input.protective_stop) value["protective_stop"] = true;
   for (const auto& command : input.commands) value["words"].push_back(word_json(command));
@@ -127,8 +156,35 @@ CycleInput input_from_text(const std::string& text) {
   }
 }
 
-std::size_t clouds_of_text(const std::string& text) {
-  return parsed(text).value("clouds", std::size_t{0});
+std::vector<RecordedCloud> clouds_of_text(const std::string& text) {
+  const json value = parsed(text);
+  try {
+    std::vector<RecordedCloud> clouds;
+    for (const json& cloud : value.at("clouds")) {
+      clouds.push_back({Stamp(Duration(cloud.at(0).get<std::int64_t>())), std::nullopt});
+      if (cloud.size() > 1) clouds.back().firing_us = cloud.at(1).get<std::int64_t>();
+    }
+    return clouds;
+  } catch (const json::exception& e) {
+    throw Error("recording", e.what(), "was it written by another Madori?");
+  }
+}
+
+PoseEstimate pose_from_text(const std::string& text) {
+  const json value = parsed(text);
+  try {
+    const json& from = value.at("pose");
+    PoseEstimate pose;
+    pose.stamp = Stamp(Duration(from.at(0).get<std::int64_t>()));
+    const auto numbers = from.at(1).get<std::array<std::uint64_t, 5>>();
+    std::memcpy(static_cast<void*>(&pose.map_from_base), numbers.data(), sizeof numbers);
+    const auto covariance = from.at(2).get<std::array<std::uint64_t, 9>>();
+    std::memcpy(pose.covariance.data(), covariance.data(), sizeof covariance);
+    pose.health = {static_cast<LocalizationState>(from.at(3).get<int>()), from.at(4)};
+    return pose;
+  } catch (const json::exception& e) {
+    throw Error("recording", e.what(), "was it written by another Madori?");
+  }
 }
 
 std::string command_text(const CycleOutput& output, Stamp now) {

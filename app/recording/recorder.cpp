@@ -7,11 +7,38 @@
 #include <utility>
 
 #include "app/recording/input_text.hpp"
+#include "app/recording/state_bytes.hpp"
 #include "sensors/rosbag/writer.hpp"
 
 namespace madori::app {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kThinEvery_s = 0.5;
+constexpr std::size_t kRevolutionPackets = 120;  ///< 76 at 10 Hz
+
+/// Every fourth firing.
+PointCloud<Lidar> thinned(const PointCloud<Lidar>& cloud) {
+  constexpr std::size_t kRings = 16;
+  PointCloud<Lidar> thin{cloud.stamp, {}};
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (i / kRings % 4 == 0) thin.points.push_back(cloud.points[i]);
+  return thin;
+}
+
+/// The input without its revolutions, which take much memory.
+CycleInput without_clouds(const CycleInput& in) {
+  CycleInput input;
+  input.now = in.now;
+  input.drive = in.drive;
+  input.packets = in.packets;
+  if (!has_packets(in)) input.clouds = in.clouds;
+  return input;
+}
+
+}  // namespace
 
 Recorder::Recorder(fs::path folder, const RecorderOptions& options)
     : folder_(std::move(folder)), options_(options), thread_([this] { run(); }) {}
@@ -26,12 +53,29 @@ Recorder::~Recorder() {
 }
 
 void Recorder::add(const CycleInput& input, const CycleOutput& output, const CycleState& state) {
-  Record record{input, output, state.pose, state.odometry.reading(), std::nullopt, false};
+  Record record{without_clouds(input),
+                input_text(input, state.pose),
+                std::nullopt,
+                "",
+                output,
+                state.pose,
+                state.odometry.reading(),
+                std::nullopt,
+                false};
+  if (has_packets(input) && to_seconds(input.now - thinned_) >= kThinEvery_s) {
+    thinned_ = input.now;
+    record.thinned = thinned(input.clouds.back());
+  }
   const auto& points = state.way.plain.points;
   if (points.size() != path_size_ || state.way.detour_id != path_of_) {
     path_size_ = points.size();
     path_of_ = state.way.detour_id;
     record.path = state.way.plain;
+  }
+  if (segment_begun_ == Stamp{}) segment_begun_ = input.now;
+  if (to_seconds(input.now - segment_begun_) >= options_.segment_s) {
+    segment_begun_ = input.now;
+    record.state = state_bytes(state);
   }
   const bool drives_now = drives(state.mode);
   record.stop = drove_ && !drives_now && !state.way.arrived && state.mode != Mode::Idle;
@@ -60,10 +104,14 @@ fs::path Recorder::bag_name(int number) const {
   return folder_ / fmt::format("{:03}.bag", number);
 }
 
-void Recorder::begin_segment(Stamp now) {
+void Recorder::begin_segment() {
   fs::create_directories(folder_);
   bag_ = std::make_unique<sensors::BagWriter>(bag_name(number_));
-  begun_ = now;
+}
+
+void Recorder::remember(const std::vector<sensors::RawPacket>& packets) {
+  newest_.insert(newest_.end(), packets.begin(), packets.end());
+  while (newest_.size() > kRevolutionPackets) newest_.pop_front();
 }
 
 void Recorder::end_segment() {
@@ -101,16 +149,25 @@ void Recorder::make_room() const {
 
 void Recorder::write(const Record& record) {
   const Stamp now = record.input.now;
-  if (bag_ && to_seconds(now - begun_) >= options_.segment_s) end_segment();
-  if (!bag_) begin_segment(now);
+  if (!bag_) begin_segment();
+  if (!record.input.packets.empty()) bag_->write(kPacketTopic, record.input.packets, now);
+  remember(record.input.packets);
+  if (record.thinned) bag_->write(kThinTopic, *record.thinned);
   for (const auto& cloud : record.input.clouds) bag_->write(kCloudTopic, cloud);
   if (!record.input.drive.empty()) bag_->write("/odom", record.odometry);
   bag_->write("/pose", record.pose);
   if (record.path) bag_->write("/path", *record.path, now);
-  bag_->write(kInputTopic, input_text(record.input), now);
+  bag_->write(kInputTopic, record.text, now);
   bag_->write(kCommandTopic, command_text(record.output, now), now);
   for (const std::string& event : record.output.events) bag_->write(kEventTopic, event, now);
   keep_ = keep_ || record.stop;
+  if (record.state.empty()) return;
+  end_segment();
+  begin_segment();
+  const Stamp after = now + Duration(1);  // before everything of the next step
+  bag_->write(kStateTopic, record.state, after);
+  if (!newest_.empty())
+    bag_->write(kEarlierTopic, std::vector<sensors::RawPacket>(newest_.begin(), newest_.end()), after);
 }
 
 void Recorder::run() {

@@ -19,10 +19,16 @@ class BagWriter;
 
 namespace madori::app {
 
-/// Topics of a recording. The last three are std_msgs/String.
+/// Topics of a recording. Those of /madori are std_msgs/String. Revolutions are recorded as the packets that
+/// they came in, a few of them thinned for the eye too; whole clouds only where a link knows no packets.
+inline constexpr const char* kPacketTopic = "/velodyne_packets";
+inline constexpr const char* kEarlierTopic =
+    "/velodyne_packets_before";  ///< of the bag before, to begin with
+inline constexpr const char* kThinTopic = "/velodyne_points_thin";
 inline constexpr const char* kCloudTopic = "/velodyne_points";
 inline constexpr const char* kInputTopic = "/madori/input";
 inline constexpr const char* kCommandTopic = "/madori/command";
+inline constexpr const char* kStateTopic = "/madori/state";  ///< at the beginning of a bag
 inline constexpr const char* kEventTopic = "/madori/event";
 
 struct RecorderOptions {
@@ -31,7 +37,8 @@ struct RecorderOptions {
   std::size_t max_waiting = 500;              ///< steps (10 s); a slower disk loses steps, which is counted
 };
 
-/// Writes every step as ROS 1 bags `folder`/000.bag, 001.bag ... from a thread of its own: revolutions,
+/// A bag can be replayed alone: it begins with what the cycle remembered, and each step holds its pose.
+/// Writes every step as ROS 1 bags `folder`/000.bag, 001.bag ... from a thread of its own: lidar packets,
 /// odometry, pose, path, input, command, events. At each stop that is not part of an order, hard links in
 /// `folder`/stops keep the bag at hand and the one before, and so at least the 30 s before the stop, beyond
 /// the size limit.
@@ -51,7 +58,10 @@ class Recorder {
 
  private:
   struct Record {
-    CycleInput input;
+    CycleInput input;  ///< without clouds where there are packets
+    std::string text;  ///< of the whole input
+    std::optional<PointCloud<Lidar>> thinned;
+    std::string state;  ///< after the step, where a new bag begins with the next one; else empty
     CycleOutput output;
     PoseEstimate pose;
     OdometryReading odometry;
@@ -61,7 +71,8 @@ class Recorder {
 
   void run();
   void write(const Record& record);
-  void begin_segment(Stamp now);
+  void remember(const std::vector<sensors::RawPacket>& packets);
+  void begin_segment();
   void end_segment();
   void keep(const std::filesystem::path& bag) const;
   void make_room() const;
@@ -79,9 +90,11 @@ class Recorder {
   bool drove_ = false;
   std::uint32_t path_of_ = 0;
   std::size_t path_size_ = 0;
+  Stamp thinned_{};
+  Stamp segment_begun_{};
   // of the thread
   std::unique_ptr<sensors::BagWriter> bag_;
-  Stamp begun_{};
+  std::deque<sensors::RawPacket> newest_;  ///< a little more than a revolution
   int number_ = 0;
   bool keep_ = false;
   std::thread thread_;

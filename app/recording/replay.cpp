@@ -9,9 +9,11 @@
 
 #include "app/recording/input_text.hpp"
 #include "app/recording/recorder.hpp"
+#include "app/recording/state_bytes.hpp"
 #include "core/result.hpp"
 #include "sensors/rosbag/bridge.hpp"
 #include "sensors/rosbag/cloud_fields.hpp"
+#include "sensors/vlp16/assembler.hpp"
 
 namespace madori::app {
 namespace {
@@ -30,12 +32,57 @@ std::vector<fs::path> bags_of(const fs::path& run) {
   return bags;
 }
 
+/// The number in NNN.bag; -1 for other names.
+int number_of(const fs::path& bag) {
+  const std::string stem = bag.stem().string();
+  const bool digits =
+      !stem.empty() && stem.size() < 9 && stem.find_first_not_of("0123456789") == std::string::npos;
+  return digits ? std::stoi(stem) : -1;
+}
+
+/// Gives the poses of a recording back.
+class RecordedPose final : public PoseSource {
+ public:
+  explicit RecordedPose(const PoseEstimate& pose) : pose_(pose) {}
+  PoseEstimate on_odometry(const OdometryReading& /*reading*/) override { return pose_; }
+  void on_cloud(const PointCloud<Base>& /*cloud*/, const Transform2<Odom, Base>& /*odom*/) override {}
+  void set_pose(const Transform2<Map, Base>& /*pose*/, const PoseSigma& /*sigma*/) override {}
+  void search_anew() override {}
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return {}; }
+
+ private:
+  const PoseEstimate& pose_;
+};
+
 /// Feeds recorded steps to the cycle and compares its commands.
 class Player {
  public:
   Player(const CycleConfig& config, std::unique_ptr<PoseSource> source)
       : config_(config), state_(config, std::move(source)) {}
 
+  /// The bag that follows does not go on where the one before ended.
+  void begin_anew() {
+    finish();
+    state_ = CycleState(config_, std::make_unique<RecordedPose>(pose_));
+    clouds_.clear();
+    revolutions_.clear();
+    assembler_ = assembler();
+    assembled_any_ = false;
+    result_.recorded_poses = awaits_state_ = true;
+  }
+  void take_state(const std::string& bytes) {
+    if (!awaits_state_) return;
+    restore_state(state_, bytes, config_);
+    awaits_state_ = false;
+  }
+  void take_packets(const std::vector<bridge::Packet>& packets) {
+    for (const auto& packet : packets) assembler_.push(packet.bytes, Stamp(Duration(packet.received_ns)));
+    assembled_any_ = assembled_any_ || !packets.empty();
+  }
+  /// The packets before the first bag's: the revolution that was under way when it began.
+  void take_earlier(const std::vector<bridge::Packet>& packets) {
+    if (!assembled_any_) take_packets(packets);
+  }
   void take_cloud(const bridge::Cloud& message) {
     auto cloud = sensors::cloud_from_fields(message);
     if (!cloud)
@@ -45,12 +92,17 @@ class Player {
   /// A step is run when the next one begins: messages of the same moment may stand in any order.
   void take_input(const std::string& text) {
     finish();
+    if (awaits_state_)
+      throw Error("recording", "does not say what the cycle remembered at its beginning",
+                  "replay the whole run");
     input_ = text;
+    if (result_.recorded_poses) pose_ = pose_from_text(text);
   }
   void take_command(const std::string& text) { recorded_[stamp_of_command(text)] = text; }
   void finish() {
     if (input_.empty()) return;
     const CycleInput input = next_input();
+    if (result_.recorded_poses) state_.pose = pose_;
     if (result_.steps++ == 0) begun_ = input.now;
     result_.recorded_s = to_seconds(input.now - begun_);
     const auto before = std::chrono::steady_clock::now();
@@ -66,20 +118,42 @@ class Player {
   [[nodiscard]] const ReplayResult& result() const { return result_; }
 
  private:
+  sensors::vlp16::Assembler assembler() {
+    return sensors::vlp16::Assembler(
+        [this](sensors::vlp16::Frame& frame) { revolutions_.push_back(std::move(frame)); });
+  }
   CycleInput next_input() {
     CycleInput input = input_from_text(input_);
-    const std::size_t count = clouds_of_text(input_);
-    if (clouds_.size() < count) throw Error("recording", "misses a revolution", "use another recording");
-    for (std::size_t i = 0; i < count; ++i) {
-      input.clouds.push_back(std::move(clouds_.front()));
-      clouds_.pop_front();
+    for (const RecordedCloud& recorded : clouds_of_text(input_)) {
+      input.clouds.push_back(recorded.firing_us ? assembled(*recorded.firing_us) : cloud());
+      input.clouds.back().stamp = recorded.stamp;
     }
     return input;
+  }
+  PointCloud<Lidar> cloud() {
+    if (clouds_.empty()) throw Error("recording", "misses a revolution", "use another recording");
+    PointCloud<Lidar> next = std::move(clouds_.front());
+    clouds_.pop_front();
+    return next;
+  }
+  /// The revolution that began at this time of the lidar; those before it never reached the cycle.
+  PointCloud<Lidar> assembled(std::int64_t firing_us) {
+    while (!revolutions_.empty()) {
+      sensors::vlp16::Frame next = std::move(revolutions_.front());
+      revolutions_.pop_front();
+      if (next.first_firing_us == firing_us) return std::move(next.cloud);
+    }
+    throw Error("recording", "misses a revolution", "use another recording");
   }
 
   const CycleConfig& config_;
   CycleState state_;
   std::deque<PointCloud<Lidar>> clouds_;
+  std::deque<sensors::vlp16::Frame> revolutions_;
+  sensors::vlp16::Assembler assembler_ = assembler();
+  PoseEstimate pose_;  ///< of the step at hand, where poses are those of the recording
+  bool awaits_state_ = false;
+  bool assembled_any_ = false;
   Stamp begun_{};
   std::string input_;
   std::map<Stamp, std::string> recorded_;
@@ -92,14 +166,22 @@ ReplayResult replay(const fs::path& run, const CycleConfig& config, std::unique_
   Player player(config, std::move(source));
   bridge::Input::Sinks sinks;
   sinks.cloud = [&](const std::string&, const bridge::Cloud& cloud) { player.take_cloud(cloud); };
+  sinks.packets = [&](const std::string& topic, const std::vector<bridge::Packet>& packets) {
+    if (topic == kPacketTopic) player.take_packets(packets);
+    if (topic == kEarlierTopic) player.take_earlier(packets);
+  };
   sinks.text = [&](const std::string& topic, const std::string& text) {
+    if (topic == kStateTopic) player.take_state(text);
     if (topic == kInputTopic) player.take_input(text);
     if (topic == kCommandTopic) player.take_command(text);
   };
+  int expected = 0;
   for (const fs::path& bag : bags_of(run)) {
+    if (number_of(bag) != expected) player.begin_anew();
+    expected = number_of(bag) + 1;
     try {
       bridge::Input input(bag.string());
-      input.choose({kCloudTopic, kInputTopic, kCommandTopic});
+      input.choose({kPacketTopic, kEarlierTopic, kCloudTopic, kStateTopic, kInputTopic, kCommandTopic});
       while (input.next(sinks)) {
       }
     } catch (const Error& e) {

@@ -15,10 +15,14 @@ struct ReplayResult {
   std::int64_t first_different = -1;
   double recorded_s = 0.0;  ///< of vehicle time
   double worked_s = 0.0;    ///< of computing, reading the bags not counted
+  bool recorded_poses =
+      false;  ///< the run's beginning is missing: localization as recorded, all else computed
 };
 
-/// Runs the cycle on the bags of a recorded run from its beginning, in order. `source` must be made as it was
-/// for the run. Throws Error where a bag is missing, damaged, or no recording of Madori.
+/// Runs the cycle on the bags of a recorded run in order, `source` made as it was for the run. Where bags are
+/// missing, at the beginning or in the middle (what is kept of a stop), the cycle begins with what it
+/// remembered then, and its poses are those of the recording. Throws Error where a bag is missing, damaged,
+/// or no recording of Madori.
 [[nodiscard]] ReplayResult replay(const std::filesystem::path& run, const CycleConfig& config,
                                   std::unique_ptr<PoseSource> source);
 

@@ -7,6 +7,7 @@ namespace {
 
 constexpr std::size_t kMostStatuses = 200;  ///< a hung cycle must not fill the memory
 constexpr std::size_t kMostClouds = 3;
+constexpr std::size_t kMostPackets = 2000;
 
 }  // namespace
 
@@ -25,8 +26,16 @@ SocketLink::SocketLink(const SocketOptions& options, const WheelGeometry& wheels
       sensors::vlp16::ReceiverOptions{options.lidar_address, options.lidar_port, options.lidar_position_port},
       [this](sensors::vlp16::Frame& frame) {
         const std::scoped_lock lock(mutex_);
-        if (clouds_.size() >= kMostClouds) clouds_.erase(clouds_.begin());
+        if (clouds_.size() >= kMostClouds) {
+          clouds_.erase(clouds_.begin());
+          firings_us_.erase(firings_us_.begin());
+        }
         clouds_.push_back(std::move(frame.cloud));
+        firings_us_.push_back(frame.first_firing_us);
+      },
+      [this](std::span<const std::uint8_t> bytes, Stamp received) {
+        const std::scoped_lock lock(mutex_);
+        if (packets_.size() < kMostPackets) packets_.push_back({received, {bytes.begin(), bytes.end()}});
       });
 }
 
@@ -34,6 +43,8 @@ void SocketLink::collect(CycleInput& input) {
   const std::scoped_lock lock(mutex_);
   input.drive = std::exchange(statuses_, {});
   input.clouds = std::exchange(clouds_, {});
+  input.firings_us = std::exchange(firings_us_, {});
+  input.packets = std::exchange(packets_, {});
   input.protective_stop = scanner_ && scanner_->must_stop();
 }
 

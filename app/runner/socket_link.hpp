@@ -38,6 +38,8 @@ class SocketLink final : public VehicleLink {
   std::mutex mutex_;
   std::vector<control::wire::Status> statuses_;
   std::vector<PointCloud<Lidar>> clouds_;
+  std::vector<std::int64_t> firings_us_;
+  std::vector<sensors::RawPacket> packets_;
   std::unique_ptr<sensors::s300::Receiver> scanner_;
   std::unique_ptr<control::DriveLink> drive_;  ///< last: their threads use all of the above
   std::unique_ptr<sensors::vlp16::Receiver> lidar_;

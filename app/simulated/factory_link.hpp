@@ -5,6 +5,7 @@
 
 #include "app/runner/vehicle_link.hpp"
 #include "control/drive_link/wire.hpp"
+#include "sensors/s300/telegram.hpp"
 #include "sensors/vlp16/assembler.hpp"
 #include "simulation/factory.hpp"
 
@@ -27,6 +28,9 @@ class FactoryLink final : public VehicleLink {
   WheelGeometry wheels_;
   Duration step_;
   std::vector<PointCloud<Lidar>> clouds_;
+  std::vector<std::int64_t> firings_us_;
+  sensors::s300::Stream scanner_;
+  bool field_interrupted_ = false;
   sensors::vlp16::Assembler assembler_;
   control::wire::FrameCutter cutter_;
   std::uint16_t sequence_ = 0;

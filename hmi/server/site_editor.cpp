@@ -60,12 +60,18 @@ mapping::VehicleRecord vehicle_from(const json& wire) {
           .max_turn_rate_radps = wire.at("max_turn_rate_radps").get<double>()};
 }
 
-std::vector<mapping::SensorRecord> sensors_from(const json& wire) {
+/// What the panel does not show of a sensor stays as it was in the site.
+std::vector<mapping::SensorRecord> sensors_from(const json& wire,
+                                                const std::vector<mapping::SensorRecord>& before) {
   std::vector<mapping::SensorRecord> sensors;
-  for (const auto& s : wire)
+  for (const auto& s : wire) {
     sensors.push_back({one_line(s.at("name").get<std::string>()), one_line(s.at("type").get<std::string>()),
                        s.at("x_m").get<double>(), s.at("y_m").get<double>(), s.at("z_m").get<double>(),
                        s.at("yaw_deg").get<double>()});
+    for (const auto& old : before)
+      if (old.name == sensors.back().name && old.type == sensors.back().type)
+        sensors.back().protective_m = old.protective_m;
+  }
   return sensors;
 }
 
@@ -153,7 +159,7 @@ json SiteEditor::save_vehicle(const json& edit) {
   require_revision(edit, vehicle_revision(folder_));
   mapping::Site site = mapping::load_site(folder_);
   site.vehicle = vehicle_from(edit.at("vehicle"));
-  site.sensors = sensors_from(edit.at("sensors"));
+  site.sensors = sensors_from(edit.at("sensors"), site.sensors);
   mapping::SiteTransaction change(folder_);
   const fs::path staged = change.staged("site.yaml");
   mapping::write_new_file(staged, mapping::site_yaml(site));

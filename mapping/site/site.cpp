@@ -73,6 +73,7 @@ SensorRecord read_sensor(StrictYaml& yaml) {
   record.y_m = yaml.number_or("y_m", 0.0, -20.0, 20.0);
   record.z_m = yaml.number_or("z_m", 0.0, -5.0, 20.0);
   record.yaw_deg = yaml.number_or("yaw_deg", 0.0, -360.0, 360.0);
+  if (record.type == "s300") record.protective_m = yaml.number_or("protective_m", 0.0, 0.0, 5.0);
   yaml.refuse_unknown_keys();
   return record;
 }
@@ -108,6 +109,7 @@ void emit_sensor(YAML::Emitter& out, const SensorRecord& s) {
   out << YAML::Key << "type" << YAML::Value << s.type;
   out << YAML::Key << "x_m" << YAML::Value << s.x_m << YAML::Key << "y_m" << YAML::Value << s.y_m;
   out << YAML::Key << "z_m" << YAML::Value << s.z_m << YAML::Key << "yaw_deg" << YAML::Value << s.yaw_deg;
+  if (s.protective_m > 0.0) out << YAML::Key << "protective_m" << YAML::Value << s.protective_m;
   out << YAML::EndMap;
 }
 

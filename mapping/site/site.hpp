@@ -55,6 +55,8 @@ struct SensorRecord {
   double y_m = 0.0;
   double z_m = 0.0;
   double yaw_deg = 0.0;
+  double protective_m =
+      0.0;  ///< of an s300: how far its protective field reaches ahead of the vehicle's front
 };
 
 /// site.yaml of a site folder (docs/reference/site-folder.md).

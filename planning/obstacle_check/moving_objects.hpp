@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "core/path.hpp"
@@ -38,14 +39,6 @@ struct MoverOptions {
 /// Remembered columns, and things that only come into sight, are no movers.
 class MovingObjects {
  public:
-  explicit MovingObjects(const MoverOptions& options = {}) : options_(options) {}
-
-  /// `columns` after a scan taken at `stamp`.
-  void update(const std::vector<Column>& columns, Stamp stamp);
-  [[nodiscard]] std::vector<Mover<Odom>> movers() const;
-  [[nodiscard]] const MoverOptions& options() const { return options_; }
-
- private:
   struct Sighting {
     Stamp stamp{};
     Point2<Odom> at;
@@ -56,6 +49,17 @@ class MovingObjects {
     [[nodiscard]] Mover<Odom> mover() const;
   };
 
+  explicit MovingObjects(const MoverOptions& options = {}) : options_(options) {}
+
+  /// `columns` after a scan taken at `stamp`.
+  void update(const std::vector<Column>& columns, Stamp stamp);
+  [[nodiscard]] std::vector<Mover<Odom>> movers() const;
+  [[nodiscard]] const MoverOptions& options() const { return options_; }
+  /// What is remembered, and going on with what was remembered at another time.
+  [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
+  void restore(std::vector<Track> tracks) { tracks_ = std::move(tracks); }
+
+ private:
   MoverOptions options_;
   std::vector<Track> tracks_;
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+#include <utility>
 #include <vector>
 
 #include "core/frames.hpp"
@@ -39,9 +41,15 @@ class ObstacleField {
   void update(const PointCloud<Base>& scan, const SensorView& view,
               const Transform2<Odom, Base>& odom_from_base);
   void clear() { columns_.clear(); }
+  /// Goes on with what was remembered at another time.
+  void restore(std::vector<Column> columns, std::deque<SightHistory::Sight> sights) {
+    columns_ = std::move(columns);
+    sights_.restore(std::move(sights));
+  }
 
   /// Sorted by cell; only confirmed ones count as obstacles.
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+  [[nodiscard]] const SightHistory& sights() const { return sights_; }
   [[nodiscard]] const GroundPlane& ground() const { return ground_; }
   [[nodiscard]] const FieldOptions& options() const { return options_; }
 

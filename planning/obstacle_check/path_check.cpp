@@ -24,7 +24,8 @@ struct Zone {
   double radius_m;
 
   Zone(const CheckOptions& o, double ends_m, double sides_m)
-      : outline(o.vehicle.grown(ends_m, sides_m)), radius_m(o.vehicle.half_width_m + sides_m) {}
+      : outline(o.vehicle.grown(std::max(ends_m, o.protective_m), ends_m, sides_m)),
+        radius_m(o.vehicle.half_width_m + sides_m) {}
   [[nodiscard]] double reach_m() const { return std::max(outline.reach_m(), radius_m); }
   [[nodiscard]] bool holds(const Point2<Base>& p) const {
     return outline.contains(p) || p.x_m * p.x_m + p.y_m * p.y_m <= radius_m * radius_m;
@@ -45,7 +46,8 @@ std::optional<Contact> meets_point(const Transform2<Map, Base>& pose,
 
 std::optional<Contact> meets_wall(const Transform2<Map, Base>& pose, const WallGrid& walls,
                                   const CheckOptions& options) {
-  const VehicleOutline outline = options.vehicle.grown(options.wall_margin_m, options.wall_margin_m);
+  const VehicleOutline outline = options.vehicle.grown(std::max(options.wall_margin_m, options.protective_m),
+                                                       options.wall_margin_m, options.wall_margin_m);
   const auto base_from_map = pose.inverse();
   std::optional<Contact> contact;
   walls.any_near(pose.translation(), outline.reach_m(), [&](const Segment2<Map>& wall) {

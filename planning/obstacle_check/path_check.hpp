@@ -18,6 +18,7 @@ struct CheckOptions {
   double sides_margin_m = 0.06;  ///< ... beside it
   double turn_margin_m = 0.06;   ///< ... on all sides during a slow turn on the spot
   double care_margin_m = 0.15;   ///< something within this much more only slows the vehicle
+  double protective_m = 0.0;     ///< kept free before the vehicle, of walls too: a scanner's protective field
   double wall_margin_m = 0.03;   ///< to drawn walls, which lie as exactly as the drawing
   double step_m = 0.15;          ///< waypoints nearer together than this are checked once
   double turn_step_rad = 0.15;   ///< between the checked headings of a turn on the spot

@@ -32,12 +32,12 @@ bool SightHistory::begin(const SensorView& view, const Transform2<Odom, Base>& o
   return true;
 }
 
-bool SightHistory::Sight::shows_empty(const Point2<Odom>& place, double side_m, double low_m, double high_m,
-                                      double margin_m) const {
-  const Point2<Base> at = base_from_odom * place;
-  if (!view.sees(at, low_m, high_m)) return false;
-  const double x = at.x_m - view.x_m;
-  const double y = at.y_m - view.y_m;
+bool SightHistory::shows_empty(const Sight& sight, const Point2<Odom>& place, double side_m, double low_m,
+                               double high_m) const {
+  const Point2<Base> at = sight.base_from_odom * place;
+  if (!sight.view.sees(at, low_m, high_m)) return false;
+  const double x = at.x_m - sight.view.x_m;
+  const double y = at.y_m - sight.view.y_m;
   const double away_m = std::hypot(x, y);
   if (away_m < side_m) return false;
   const double half = 0.5 * side_m / away_m;  // of the square, across the line of sight
@@ -45,8 +45,8 @@ bool SightHistory::Sight::shows_empty(const Point2<Odom>& place, double side_m, 
   const std::size_t last = direction(x - half * y, y + half * x);
   bool known = false;
   for (std::size_t i = first;; i = (i + 1) % kDirections) {
-    if (nearest_m[i] >= 0.0F) {
-      if (static_cast<double>(nearest_m[i]) < away_m + margin_m) return false;
+    if (sight.nearest_m[i] >= 0.0F) {
+      if (static_cast<double>(sight.nearest_m[i]) < away_m + options_.margin_m) return false;
       known = true;
     }
     if (i == last) return known;
@@ -58,7 +58,7 @@ bool SightHistory::was_empty(const Point2<Odom>& place, double side_m, double lo
   int empty = 0;
   for (const Sight& sight : sights_) {
     if (to_seconds(now - sight.stamp) < options_.youngest_s) break;
-    if (sight.shows_empty(place, side_m, low_m, high_m, options_.margin_m)) ++empty;
+    if (shows_empty(sight, place, side_m, low_m, high_m)) ++empty;
     if (empty >= options_.fewest_scans) return true;
   }
   return false;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "core/frames.hpp"
@@ -35,6 +36,14 @@ struct SightOptions {
 /// now where they saw through has come there; what merely came into sight has not.
 class SightHistory {
  public:
+  /// One scan.
+  struct Sight {
+    Stamp stamp{};
+    Transform2<Base, Odom> base_from_odom;
+    SensorView view;
+    std::vector<float> nearest_m;  ///< by direction; negative where no ray returned
+  };
+
   explicit SightHistory(const SightOptions& options = {}) : options_(options) {}
 
   /// Begins a scan; whether it is kept, and add() wanted.
@@ -49,19 +58,15 @@ class SightHistory {
   /// Whether a thing of those heights on a square of `side_m` there would have been seen, and was not.
   [[nodiscard]] bool was_empty(const Point2<Odom>& place, double side_m, double low_m, double high_m,
                                Stamp now) const;
-  void clear() { sights_.clear(); }
+  /// What is remembered, oldest first, and going on with what was remembered at another time.
+  [[nodiscard]] const std::deque<Sight>& sights() const { return sights_; }
+  void restore(std::deque<Sight> sights) { sights_ = std::move(sights); }
 
  private:
   static constexpr int kDirections = 512;
   static constexpr float kNothing = 1e9F;
-  struct Sight {
-    Stamp stamp{};
-    Transform2<Base, Odom> base_from_odom;
-    SensorView view;
-    std::vector<float> nearest_m;  ///< by direction; negative where no ray returned
-    [[nodiscard]] bool shows_empty(const Point2<Odom>& place, double side_m, double low_m, double high_m,
-                                   double margin_m) const;
-  };
+  [[nodiscard]] bool shows_empty(const Sight& sight, const Point2<Odom>& place, double side_m, double low_m,
+                                 double high_m) const;
   /// Diamond angle: as monotone as the angle, at the price of a division.
   [[nodiscard]] static double turn(double x_m, double y_m) {
     const double sum = std::abs(x_m) + std::abs(y_m);

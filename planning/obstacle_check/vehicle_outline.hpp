@@ -16,7 +16,10 @@ struct VehicleOutline {
 
   /// The outline, wider on every side.
   [[nodiscard]] VehicleOutline grown(double ends_m, double sides_m) const {
-    return {front_m + ends_m, rear_m + ends_m, half_width_m + sides_m, height_m};
+    return grown(ends_m, ends_m, sides_m);
+  }
+  [[nodiscard]] VehicleOutline grown(double ahead_m, double behind_m, double sides_m) const {
+    return {front_m + ahead_m, rear_m + behind_m, half_width_m + sides_m, height_m};
   }
   [[nodiscard]] bool contains(const Point2<Base>& p) const {
     return p.x_m >= -rear_m && p.x_m <= front_m && std::abs(p.y_m) <= half_width_m;

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sensors/rosbag/velodyne_scan.hpp"
+
 namespace madori::sensors::rosbag_bridge {
 namespace {
 
@@ -62,6 +64,14 @@ Cloud from_message(const sensor_msgs::PointCloud2& m) {
   for (const auto& field : m.fields)
     cloud.fields.push_back({field.name, field.offset, field.count, field.datatype});
   return cloud;
+}
+
+std::vector<Packet> from_message(const VelodyneScan& m) {
+  std::vector<Packet> packets;
+  packets.reserve(m.packets.size());
+  for (const VelodynePacket& p : m.packets)
+    packets.push_back({to_ns(p.stamp), {p.data.begin(), p.data.end()}});
+  return packets;
 }
 
 Pose from_message(const nav_msgs::Odometry& m) {
@@ -122,6 +132,8 @@ bool Input::next(const Sinks& sinks) {
     sinks.odometry(message.getTopic(), from_message(*odometry));
   else if (const auto text = message.instantiate<std_msgs::String>(); text && sinks.text)
     sinks.text(message.getTopic(), text->data);
+  else if (const auto packets = message.instantiate<VelodyneScan>(); packets && sinks.packets)
+    sinks.packets(message.getTopic(), from_message(*packets));
   return true;
 }
 
@@ -131,6 +143,7 @@ struct Output::State {
 
 Output::Output(const std::string& file) : state_(std::make_unique<State>()) {
   state_->bag.open(file, rosbag::bagmode::Write);
+  state_->bag.setCompression(rosbag::compression::LZ4);
 }
 Output::~Output() = default;
 
@@ -167,6 +180,21 @@ void Output::write(const std::string& topic, const Cloud& cloud) {
     message.fields.push_back(entry);
   }
   message.data = cloud.data;
+  state_->bag.write(topic, message.header.stamp, message);
+}
+
+void Output::write(const std::string& topic, std::int64_t stamp_ns, const std::vector<Packet>& packets) {
+  VelodyneScan message;
+  message.header.stamp = to_time(stamp_ns);
+  message.header.frame_id = "lidar";
+  for (const Packet& packet : packets) {
+    VelodynePacket entry;
+    if (packet.bytes.size() != entry.data.size())
+      throw std::runtime_error("a packet has " + std::to_string(packet.bytes.size()) + " bytes, not 1206");
+    entry.stamp = to_time(packet.received_ns);
+    std::copy(packet.bytes.begin(), packet.bytes.end(), entry.data.begin());
+    message.packets.push_back(entry);
+  }
   state_->bag.write(topic, message.header.stamp, message);
 }
 

@@ -39,6 +39,11 @@ struct Cloud {
   std::vector<std::uint8_t> data;
 };
 
+struct Packet {
+  std::int64_t received_ns = 0;
+  std::vector<std::uint8_t> bytes;  ///< 1206 of a VLP-16
+};
+
 enum class Kind { Scan, Cloud, Odometry, Text };
 
 struct Topic {
@@ -65,6 +70,7 @@ class Input {
     std::function<void(const std::string& topic, const Cloud&)> cloud;
     std::function<void(const std::string& topic, const Pose&)> odometry;
     std::function<void(const std::string& topic, const std::string& text)> text;
+    std::function<void(const std::string& topic, const std::vector<Packet>& packets)> packets;
   };
   /// Hands the next message to its sink; false at the end.
   bool next(const Sinks& sinks);
@@ -76,13 +82,15 @@ class Input {
 
 class Output {
  public:
-  explicit Output(const std::string& file);
+  explicit Output(const std::string& file);  ///< its chunks are packed by LZ4
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
   void write(const std::string& topic, const Scan& scan);
   void write(const std::string& topic, const Cloud& cloud);
+  void write(const std::string& topic, std::int64_t stamp_ns,
+             const std::vector<Packet>& packets);  ///< velodyne_msgs/VelodyneScan
   void write_odometry(const std::string& topic, const Pose& pose);
   void write_estimate(const std::string& topic, const Pose& pose);
   void write_path(const std::string& topic, std::int64_t stamp_ns, const std::vector<Pose>& poses);

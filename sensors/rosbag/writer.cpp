@@ -65,6 +65,14 @@ void BagWriter::write(const std::string& topic, const PointCloud<Lidar>& cloud) 
   guarded([&] { output_->write(topic, fields_from_cloud(cloud)); });
 }
 
+void BagWriter::write(const std::string& topic, const std::vector<RawPacket>& packets, Stamp stamp) {
+  std::vector<rosbag_bridge::Packet> out;
+  out.reserve(packets.size());
+  for (const RawPacket& packet : packets)
+    out.push_back({packet.received.time_since_epoch().count(), packet.bytes});
+  guarded([&] { output_->write(topic, stamp.time_since_epoch().count(), out); });
+}
+
 void BagWriter::write(const std::string& topic, const OdometryReading& reading) {
   const auto& pose = reading.odom_from_base;
   guarded([&] {

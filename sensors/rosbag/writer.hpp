@@ -3,12 +3,14 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/laser_scan.hpp"
 #include "core/odometry.hpp"
 #include "core/path.hpp"
 #include "core/point_cloud.hpp"
 #include "core/pose_estimate.hpp"
+#include "sensors/raw_packet.hpp"
 
 namespace madori::sensors::rosbag_bridge {
 class Output;
@@ -16,8 +18,8 @@ class Output;
 
 namespace madori::sensors {
 
-/// Writes a ROS 1 bag that Foxglove, PlotJuggler and rviz open. Every function throws Error (disk full, no
-/// permission).
+/// Writes a ROS 1 bag, packed by LZ4, that Foxglove, PlotJuggler and rviz open. Every function throws Error
+/// (disk full, no permission).
 class BagWriter {
  public:
   explicit BagWriter(const std::filesystem::path& file);
@@ -27,6 +29,8 @@ class BagWriter {
 
   void write(const std::string& topic, const LaserScan& scan);           ///< sensor_msgs/LaserScan
   void write(const std::string& topic, const PointCloud<Lidar>& cloud);  ///< sensor_msgs/PointCloud2
+  /// velodyne_msgs/VelodyneScan: data packets of a VLP-16 as they came.
+  void write(const std::string& topic, const std::vector<RawPacket>& packets, Stamp stamp);
   void write(const std::string& topic, const OdometryReading& reading);  ///< nav_msgs/Odometry
   void write(const std::string& topic,
              const PoseEstimate& estimate);  ///< geometry_msgs/PoseWithCovarianceStamped

@@ -52,7 +52,8 @@ class ToyVehicle {
     time_s_ += kStep_s;
     const auto micros = static_cast<std::uint32_t>(std::llround((time_s_ - drive_started_s) * 1e6));
     turn_wheels();
-    controller_.tick({emergency_stop, bumper, 0, angle(left_rad_), angle(right_rad_), 25'000}, micros);
+    controller_.tick({emergency_stop, bumper, drive_faults, angle(left_rad_), angle(right_rad_), 25'000},
+                     micros);
     app::CycleInput input;
     input.now = stamp_from_seconds(1'000.0 + time_s_);
     if (!drive_silent) input.drive.push_back(controller_.next_status());
@@ -115,6 +116,7 @@ class ToyVehicle {
   RollingVehicle rolling;
   ToyLidar lidar;
   bool emergency_stop = false, bumper = false, drive_silent = false, lidar_silent = false;
+  std::uint16_t drive_faults = 0;
   double drive_started_s = 0.0;  ///< when its power came: its clock counts from there
   std::vector<app::OperatorCommand> commands;
   std::optional<app::Order> order;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/demo/played_operator.hpp"
 #include "planning/route_graph/route_csv.hpp"
 #include "tests/support/toy_vehicle.hpp"
 
@@ -184,6 +185,37 @@ TEST(AutonomyCycle, ADriveThatRestartsWhileAllCommandsEnableIsArmedAgain) {
   v->restart_drive();
   EXPECT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.1; }, 2.0));
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << v->state().standstill.cause.text;
+}
+
+TEST(AutonomyCycle, ThePlayedOperatorConfirmsAFaultAndTheOrderIsDelivered) {
+  auto v = vehicle();
+  PlayedOperator person;
+  v->each_step = [&] {
+    v->drive_faults = v->time_s() > 5.0 && v->time_s() < 6.0 ? 1 : 0;
+    for (const OperatorWord word : person.look(v->state().mode, stamp_from_seconds(v->time_s())))
+      v->say(word);
+  };
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << v->state().standstill.cause.text;
+  EXPECT_EQ(person.confirmed(), 1);
+  EXPECT_THAT(v->events, Contains("driving -> fault: fault on"));
+  EXPECT_THAT(v->events, Contains("fault -> paused: confirmed"));
+}
+
+TEST(AutonomyCycle, ThePlayedOperatorLeavesAnEmergencyStopAlone) {
+  auto v = vehicle();
+  PlayedOperator person;
+  v->each_step = [&] {
+    v->emergency_stop = v->time_s() > 5.0 && v->time_s() < 6.0;
+    for (const OperatorWord word : person.look(v->state().mode, stamp_from_seconds(v->time_s())))
+      v->say(word);
+  };
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 40.0));
+  EXPECT_EQ(v->state().mode, Mode::EmergencyStop);
+  EXPECT_EQ(person.confirmed(), 0);
 }
 
 TEST(AutonomyCycle, APalletIsDrivenAround) {

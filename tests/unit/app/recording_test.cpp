@@ -108,6 +108,25 @@ TEST(Recording, TheSizeLimitHoldsAndStopsAreKept) {
   EXPECT_TRUE(fs::exists(folder.path() / "run/stops")) << "the vehicle stopped while the lidar was silent";
 }
 
+TEST(Recording, ACutOutReplaysBitForBit) {
+  const test::TemporaryFolder folder;
+  RecorderOptions options;
+  options.max_waiting = 1'000'000;
+  options.segment_s = 1.0;
+  record_run(folder.path() / "run", options);
+  const auto stops = folder.path() / "run/stops";
+  ASSERT_FALSE(fs::exists(stops / "000.bag")) << "the stop was later";
+  const auto result = replay(stops, config(), std::make_unique<WheelPose>());
+  EXPECT_TRUE(result.recorded_poses);
+  EXPECT_GE(result.steps, 95U);
+  EXPECT_EQ(result.different, 0U) << "first at step " << result.first_different;
+  const auto last = replay(folder.path() / "run/003.bag", config(), std::make_unique<WheelPose>());
+  EXPECT_EQ(last.different, 0U) << "first at step " << last.first_different;
+  CycleConfig other = config();
+  other.pursuit.speed.max_speed_mps = 0.3;
+  EXPECT_GT(replay(stops, other, std::make_unique<WheelPose>()).different, 10U);
+}
+
 TEST(Recording, WhatIsNoRecordingIsRefused) {
   const test::TemporaryFolder folder;
   EXPECT_THROW((void)replay(folder.path(), config(), std::make_unique<WheelPose>()), Error);

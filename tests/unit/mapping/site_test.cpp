@@ -34,11 +34,13 @@ TEST(Site, SurvivesSavingAndLoading) {
   site.scale = ScaleRecord{0.00846, "known", 0.002, 0.01, "2026-01-02T03:04:05Z", {"1,2,3,4=5.0"}, {0.001}};
   site.georeference = GeoreferenceRecord{35.464478, 136.739235, -12.5};
   site.sensors.push_back({"roof", "vlp16", 0.1, 0.0, 1.2, 90.0});
+  site.sensors.push_back({"front", "s300", 0.7, 0.0, 0.2, 0.0, 0.65});
   save_site(folder.path(), site);
   const Site loaded = load_site(folder.path());
   EXPECT_EQ(site_yaml(loaded), site_yaml(site));
   EXPECT_DOUBLE_EQ(loaded.scale->m_per_px, 0.00846);
   EXPECT_EQ(loaded.scale->residuals_m, std::vector<double>{0.001});
+  EXPECT_DOUBLE_EQ(loaded.sensors.at(1).protective_m, 0.65);
 }
 
 TEST(Site, RefusesUnknownKeysWithTheirLine) {

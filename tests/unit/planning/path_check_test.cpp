@@ -36,6 +36,20 @@ TEST(PathCheck, AnObstacleLeavesRoomForTheVehiclesFront) {
       << "beyond what is asked";
 }
 
+TEST(PathCheck, TheScannersProtectiveFieldStaysFree) {
+  CheckOptions options;
+  options.protective_m = 0.8;
+  const auto check = check_path(straight(8), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options);
+  ASSERT_TRUE(check.blocked());
+  EXPECT_LE(check.free_m, 5.0 - options.vehicle.front_m - options.protective_m);
+  EXPECT_GE(check.free_m, 5.0 - options.vehicle.front_m - options.protective_m - 2.0 * options.step_m);
+  EXPECT_FALSE(check_path(straight(3.3), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options).blocked());
+  EXPECT_TRUE(check_path(straight(3.5), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options).blocked());
+  const WallGrid walls(std::vector<Segment2<Map>>{{{5.0, -2.0}, {5.0, 2.0}}});
+  EXPECT_FALSE(check_path(straight(3.3), 0, 7.0, {}, walls, options).blocked());
+  EXPECT_TRUE(check_path(straight(3.5), 0, 7.0, {}, walls, options).by_wall) << "the scanner sees walls too";
+}
+
 TEST(PathCheck, SomethingBesideTheWayOnlyAsksForCare) {
   const double side = kOptions.vehicle.half_width_m + kOptions.sides_margin_m + 0.05;
   const auto check = check_path(straight(6), 0, 5.0, {{3.0, side}}, kNoWalls, kOptions);
