@@ -83,8 +83,8 @@ void each_of_way(Bytes& bytes, Way& w) {
   bytes(w.target), bytes(w.stop), bytes(w.nodes), bytes(w.plain.points), bytes(w.pursuit), bytes(w.status);
   bytes(w.along_m), bytes(w.cross_track_m), bytes(w.arrived), bytes(w.reported), bytes(w.dwell_until);
   bytes(w.rejoin_m), bytes(w.check), bytes(w.stop_along_m), bytes(w.care_along_m), bytes(w.turn_free);
-  bytes(w.by_mover), bytes(w.unseen), bytes(w.stirring), bytes(w.blocked_since), bytes(w.free_since),
-      bytes(w.asked_detour);
+  bytes(w.margin_share), bytes(w.by_mover), bytes(w.unseen), bytes(w.stirring), bytes(w.blocked_since),
+      bytes(w.free_since), bytes(w.asked_detour);
   bytes(w.detour_id), bytes(w.detour_pending), bytes(w.detour_failed), bytes(w.blocked_legs);
 }
 
