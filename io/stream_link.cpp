@@ -1,5 +1,7 @@
 #include "io/stream_link.hpp"
 
+#include <termios.h>
+
 #include <array>
 #include <atomic>
 #include <boost/asio/connect.hpp>
@@ -173,6 +175,8 @@ struct SerialOpener {
     set(Port::parity(Port::parity::none));
     set(Port::stop_bits(Port::stop_bits::one));
     set(Port::flow_control(Port::flow_control::none));
+    // What came before it was opened is old, and of unknown age.
+    if (!problem) ::tcflush(port.native_handle(), TCIFLUSH);
     done(problem);
   }
 };

@@ -10,13 +10,13 @@ namespace {
 constexpr double kTrackS = 0.5;
 
 /// Whether the drive was switched off and on between two statuses: its clock, which starts at power-up and
-/// wraps after 71.6 min, went back, or further on than ours. Statuses that have waited, or come twice, are no
-/// sign.
-bool was_switched_off(const control::wire::Status& before, const control::wire::Status& after,
-                      double passed_s) {
+/// wraps after 71.6 min, went back, or ran ahead of ours. Statuses that have waited in a buffer, come twice,
+/// or were lost in between are no sign.
+bool was_switched_off(const CycleState& state, const control::wire::Status& status, Stamp now) {
   constexpr double kSlackS = 1.0;
-  const double step_s = static_cast<std::int32_t>(after.time_us - before.time_us) * 1e-6;
-  return step_s < -kSlackS || step_s > passed_s + kSlackS;
+  const auto step_us = static_cast<std::int32_t>(status.time_us - state.drive.time_us);
+  const Stamp expected = state.drive_clock.stamp_of(state.drive_us + step_us);
+  return step_us * 1e-6 < -kSlackS || to_seconds(expected - now) > kSlackS;
 }
 
 /// When the wheels were measured, by the controller's clock: a step that comes late, on a busy computer, does
@@ -88,8 +88,7 @@ void take_given_pose(CycleState& state, const GivenPose& given) {
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   bool restarted = false;
   for (const auto& status : input.drive) {
-    const bool off = state.drive_heard &&
-                     was_switched_off(state.drive, status, to_seconds(input.now - *state.drive_heard));
+    const bool off = state.drive_heard && was_switched_off(state, status, input.now);
     restarted = restarted || off;
     const Stamp stamp = measured_at(state, status, input.now, off);
     state.drive = status;

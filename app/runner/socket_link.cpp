@@ -19,8 +19,9 @@ SocketLink::SocketLink(const SocketOptions& options, const WheelGeometry& wheels
       std::make_unique<control::DriveLink>(control::DriveLinkOptions{.device = options.drive_device},
                                            [this](const control::wire::Status& status, Stamp /*received*/) {
                                              const std::scoped_lock lock(mutex_);
-                                             if (statuses_.size() < kMostStatuses)
-                                               statuses_.push_back(status);
+                                             if (statuses_.size() >= kMostStatuses)
+                                               statuses_.erase(statuses_.begin());
+                                             statuses_.push_back(status);
                                            });
   lidar_ = std::make_unique<sensors::vlp16::Receiver>(
       sensors::vlp16::ReceiverOptions{options.lidar_address, options.lidar_port, options.lidar_position_port},

@@ -34,5 +34,38 @@ TEST(WheelTimes, StepsThatComeLateDoNotMakeTheReadingsLate) {
   }
 }
 
+/// A status of the controller's clock at `device_ms`, taken in at `now_ms`.
+CycleInput status_at(std::int64_t device_ms, std::int64_t now_ms) {
+  CycleInput input;
+  input.now = Stamp(std::chrono::milliseconds(now_ms));
+  control::wire::Status status;
+  status.time_us = static_cast<std::uint32_t>(1000 * device_ms);
+  input.drive.push_back(status);
+  return input;
+}
+
+/// The computer stood still for 5 s: of what the drive said meanwhile the port kept the beginning alone, and
+/// it comes at once. That is no loss of power; a clock that begins anew is, also where 32 bits cannot tell it
+/// from one that ran ahead.
+TEST(WheelTimes, ABacklogIsNoLossOfPowerButAClockThatBeginsAnewIs) {
+  const CycleConfig config =
+      test::toy_config(planning::parse_routes("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,0,0\n1,9,0\n").graph);
+  const test::RollingVehicle rolling(Transform2<Map, Base>(0.0, 0.0, 0.0));
+  for (const std::int64_t up_ms : {4'000, 600'000, 2'400'000}) {  // in 2,400 s the clock passes 2^31 us
+    CycleState state(config, std::make_unique<test::TruePose>(rolling));
+    std::int64_t now_ms = 50'000'000;
+    for (int i = 0; i < 50; ++i)
+      state = step(std::move(state), status_at(up_ms + 20 * i, now_ms += 20), config).state;
+    CycleInput backlog = status_at(up_ms + 1'000, now_ms += 5'000);
+    for (std::int64_t i = 1; i < 130; ++i)
+      backlog.drive.push_back(status_at(up_ms + 1'000 + 10 * i, now_ms).drive.front());
+    state = step(std::move(state), backlog, config).state;
+    state = step(std::move(state), status_at(up_ms + 6'000, now_ms += 20), config).state;
+    EXPECT_NE(state.mode, Mode::EmergencyStop) << up_ms;
+    state = step(std::move(state), status_at(500, now_ms += 1'000), config).state;
+    EXPECT_EQ(state.mode, Mode::EmergencyStop) << up_ms;
+  }
+}
+
 }  // namespace
 }  // namespace madori::app

@@ -1,7 +1,9 @@
 #include "control/drive_link/drive_link.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "control/drive_link/controller.hpp"
@@ -54,6 +56,30 @@ TEST(DriveLink, DrivesAControllerOverASerialLine) {
     return link.latest().status.state == wire::DriveState::WatchdogStop;
   }));
   EXPECT_EQ(link.counters().damaged, 0U);
+}
+
+TEST(DriveLink, WhatCameBeforeThePortWasOpenedIsNotTaken) {
+  Device device;
+  const int kept_open = ::open(device.cable.name().c_str(), O_RDWR | O_NOCTTY);  // else nothing is buffered
+  ASSERT_GE(kept_open, 0);
+  constexpr int kBefore = 20;
+  for (int i = 0; i < kBefore; ++i) device.step();
+  ASSERT_TRUE(eventually([&] {
+    int waiting = 0;
+    return ::ioctl(kept_open, FIONREAD, &waiting) == 0 && waiting > 0;
+  }));
+  std::atomic<int> first = -1;
+  DriveLink link({.device = device.cable.name()}, [&](const wire::Status& status, Stamp /*received*/) {
+    int none = -1;
+    first.compare_exchange_strong(none, status.sequence);
+  });
+  ASSERT_TRUE(eventually([&] { return link.is_open(); }));
+  ASSERT_TRUE(eventually([&] {
+    device.step();
+    return first >= 0;
+  }));
+  EXPECT_GE(first, kBefore);
+  ::close(kept_open);
 }
 
 TEST(DriveLink, SendsNothingThatIsNoNumber) {
