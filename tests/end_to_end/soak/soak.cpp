@@ -76,6 +76,8 @@ int main(int argc, char** argv) {
   app.add_option("--crossings", a.wishes.crossing_share, "share of the deliveries with a person crossing");
   app.add_option("--pallets", a.wishes.pallet_share, "share of the deliveries with a pallet on the way");
   app.add_option("--json", a.json_file, "the figures of every day are appended, one line each");
+  app.add_option("--trace", a.day.trace_s,
+                 "FROM TO, as printed with --verbose: tell of every revolution between");
   app.add_flag("--verbose", a.day.verbose, "print every event and delivery");
   CLI11_PARSE(app, argc, argv);
   spdlog::set_level(spdlog::level::warn);

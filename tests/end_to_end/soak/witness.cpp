@@ -1,6 +1,7 @@
 #include "tests/end_to_end/soak/witness.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "core/segment_distance.hpp"
@@ -50,6 +51,11 @@ double clearance_m(const simulation::Factory& factory) {
   return best;
 }
 
+double Witness::time_s() const {
+  constexpr double kEpochS = 1'767'225'600.0;  // of the first day
+  return to_seconds(factory_.now().time_since_epoch()) - kEpochS;
+}
+
 void Witness::kidnapped() {
   kidnapped_at_ = last_kidnapping_ = factory_.now();
   ++figures_.kidnapped;
@@ -70,25 +76,24 @@ void Witness::compare_pose(const app::CycleState& state) {
     figures_.off_route.add(distance_from_path(state.way, truth.translation()));
 }
 
-void Witness::count_events(const app::CycleInput& input, const app::CycleOutput& output) {
+void Witness::count_events(const app::CycleOutput& output) {
   for (const auto& event : output.events) {
     if (event.find("-> detouring") != std::string::npos) ++figures_.detours;
     if (event.find("taking another route") != std::string::npos) ++figures_.other_routes;
     if (!verbose_) continue;
     const auto truth = factory_.truth().map_from_base;
-    std::printf("%10.2f  %s  (%.2f, %.2f)\n", to_seconds(input.now.time_since_epoch()) - 1'767'225'600.0,
-                event.c_str(), truth.x_m(), truth.y_m());
+    std::printf("%10.2f  %s  (%.2f, %.2f)\n", time_s(), event.c_str(), truth.x_m(), truth.y_m());
   }
 }
 
 void Witness::look_for_contact() {
   for (; collisions_ < factory_.collisions().size(); ++collisions_) {
     const auto& c = factory_.collisions()[collisions_];
-    const bool moving = c.speed_mps >= 0.01;
+    const bool moving = c.speed_mps >= 0.01 || c.turn_radps >= 0.01;
     char text[160];
-    std::snprintf(text, sizeof text, "day %d, %.1f s: %s at %.2f m/s, (%.2f, %.2f)", figures_.day,
-                  to_seconds(c.stamp.time_since_epoch()) - 1'767'225'600.0, c.what.c_str(), c.speed_mps,
-                  c.map_from_base.x_m(), c.map_from_base.y_m());
+    std::snprintf(text, sizeof text, "day %d, %.1f s: %s at %.2f m/s and %.2f rad/s, (%.2f, %.2f)",
+                  figures_.day, time_s(), c.what.c_str(), c.speed_mps, c.turn_radps, c.map_from_base.x_m(),
+                  c.map_from_base.y_m());
     (moving ? figures_.collisions_moving : figures_.collisions_standing).emplace_back(text);
     std::printf("collision: %s\n", text);
   }
@@ -120,11 +125,51 @@ void Witness::tell_of_standstill(const app::CycleState& state) const {
   std::printf("\n");
 }
 
-void Witness::observe(const app::CycleInput& input, const app::CycleOutput& output,
+/// One revolution: where the vehicle is, what it does, what it knows around itself (Base frame) and what is
+/// there.
+void Witness::trace(const app::CycleOutput& output, const app::CycleState& state) const {
+  constexpr double kNearM = 1.6;
+  const auto& way = state.way;
+  const auto truth = factory_.truth();
+  const auto at = truth.map_from_base;
+  std::printf(
+      "%10.2f  %s (%.3f, %.3f, %.1f deg) %.2f m/s %.2f rad/s, asked %.2f %.2f; free %.2f, share %.1f%s%s\n",
+      time_s(), to_string(state.mode), at.x_m(), at.y_m(), to_deg(at.yaw_rad()), truth.linear_mps,
+      truth.angular_radps, output.command.linear_mps, output.command.angular_radps,
+      way.stop_along_m - way.along_m, way.margin_share, way.by_mover ? ", mover" : "",
+      way.turn_free ? "" : ", no room to turn");
+  std::printf("            path:");
+  const auto base_from_map = at.inverse();
+  for (std::size_t i = way.pursuit.index; i < way.plain.points.size() && i < way.pursuit.index + 20; i += 3) {
+    const auto p = base_from_map * way.plain.points[i].position;
+    std::printf(" (%.2f, %.2f)", p.x_m, p.y_m);
+  }
+  std::printf("\n            columns:");
+  const auto base_from_odom = state.odometry.reading().odom_from_base.inverse();
+  for (const auto& c : state.obstacles.columns()) {
+    const auto p = base_from_odom * c.centre();
+    if (std::hypot(p.x_m - 0.3, p.y_m) < kNearM)
+      std::printf(" (%.2f, %.2f: %.1f-%.1f%s)", p.x_m, p.y_m, static_cast<double>(c.low_m),
+                  static_cast<double>(c.high_m), c.confirmed ? "" : " unsure");
+  }
+  std::printf("\n            there:");
+  for (const auto& body : factory_.bodies()) {
+    if (distance_m(body.centre, truth.building_from_base.translation()) > 2.5) continue;
+    std::printf(" %s", body.name.c_str());
+    for (const auto& corner : simulation::outline(body)) {
+      const auto p = truth.building_from_base.inverse() * corner;
+      std::printf(" (%.2f, %.2f)", p.x_m, p.y_m);
+    }
+  }
+  std::printf("\n");
+}
+
+void Witness::observe(const app::CycleInput& /*input*/, const app::CycleOutput& output,
                       const app::CycleState& state) {
   compare_pose(state);
-  count_events(input, output);
+  count_events(output);
   look_for_contact();
+  if (output.computed_lidar && time_s() >= trace_s_.first && time_s() < trace_s_.second) trace(output, state);
   constexpr int kEvery = 250;
   stood_ = state.mode == app::Mode::Waiting ? stood_ + 1 : 0;
   if (verbose_ && stood_ > 0 && stood_ % kEvery == 0) tell_of_standstill(state);

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/cycle/cycle.hpp"
 #include "simulation/factory.hpp"
@@ -12,8 +13,9 @@ namespace madori::soak {
 /// Sees every step of the cycle beside what is true, and keeps the figures.
 class Witness {
  public:
-  Witness(simulation::Factory& factory, Figures& figures, bool verbose)
-      : factory_(factory), figures_(figures), verbose_(verbose) {}
+  /// Between the two times of `trace_s` (seconds as printed) every revolution is told of in detail.
+  Witness(simulation::Factory& factory, Figures& figures, bool verbose, std::pair<double, double> trace_s)
+      : factory_(factory), figures_(figures), verbose_(verbose), trace_s_(trace_s) {}
 
   void observe(const app::CycleInput& input, const app::CycleOutput& output, const app::CycleState& state);
   void kidnapped();
@@ -21,14 +23,17 @@ class Witness {
   [[nodiscard]] bool searching() const { return kidnapped_at_.has_value(); }
 
  private:
+  [[nodiscard]] double time_s() const;
   void compare_pose(const app::CycleState& state);
-  void count_events(const app::CycleInput& input, const app::CycleOutput& output);
+  void count_events(const app::CycleOutput& output);
   void look_for_contact();
   void tell_of_standstill(const app::CycleState& state) const;
+  void trace(const app::CycleOutput& output, const app::CycleState& state) const;
 
   simulation::Factory& factory_;
   Figures& figures_;
   bool verbose_;
+  std::pair<double, double> trace_s_;
   bool near_ = false;
   int stood_ = 0;  ///< steps in a row of waiting
   std::size_t collisions_ = 0;

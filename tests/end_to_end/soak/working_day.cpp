@@ -54,7 +54,7 @@ WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int numb
       loaded_.config, std::make_unique<app::DrawingPose>(loaded_.walls),
       std::make_unique<app::FactoryLink>(factory_, loaded_.config.odometry.wheels, kStep), transport);
   surprises_ = std::make_unique<Surprises>(*factory_, setup.scenario, run_->config());
-  witness_ = std::make_unique<Witness>(*factory_, figures_, options.verbose);
+  witness_ = std::make_unique<Witness>(*factory_, figures_, options.verbose, options.trace_s);
   run_->set_tap(
       [this](const auto& in, const auto& out, const auto& state) { witness_->observe(in, out, state); });
   if (plan_.closed_aisle) surprises_->close_aisle(*plan_.closed_aisle);
@@ -133,6 +133,7 @@ void WorkingDay::befall(const Delivery& delivery, Stamp began) {
 /// The operator: confirms what only a person may confirm, and takes away what blocks every way.
 void WorkingDay::look_after(const Delivery& delivery) {
   const auto& state = run_->state();
+  pressed_ = state.mode == app::Mode::EmergencyStop && (pressed_ || state.drive.bumper);
   const std::string because = std::string(to_string(state.mode)) + ": " + state.standstill.cause.text;
   // While it localizes the reasons change from scan to scan; it is one standstill nevertheless.
   const std::string one_standstill = state.mode == app::Mode::Localizing ? to_string(state.mode) : because;
@@ -147,7 +148,7 @@ void WorkingDay::look_after(const Delivery& delivery) {
     run_->say({app::OperatorWord::Resume, {}, {}});
     stands_since_ = factory_->now();
   } else if (asks && stood_s > kConfirmsAfterS) {
-    if (state.drive.bumper) surprises_->carry_away(chance_);
+    if (pressed_) surprises_->carry_away(chance_);  // "free the vehicle, then confirm"
     run_->say({app::OperatorWord::Confirm, {}, {}});
     help(delivery, because, false);
   } else if (state.mode == app::Mode::Waiting && state.way.unseen && stood_s > kLooksAfterS) {

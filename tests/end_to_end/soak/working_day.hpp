@@ -20,6 +20,7 @@ struct DayOptions {
   std::filesystem::path database;  ///< folder of madori.db, kept from day to day
   double limit_s = 900.0;          ///< for one order
   bool verbose = false;
+  std::pair<double, double> trace_s;  ///< every revolution between these times is told of; none by default
 };
 
 /// One day in the virtual factory, lock-step: the program is started in the morning, gets its orders one
@@ -59,6 +60,7 @@ class WorkingDay {
   bool kidnapping_due_ = false, pallet_due_ = false, person_due_ = false;
   std::string stands_because_;
   Stamp stands_since_{};
+  bool pressed_ = false;  ///< the bumper was, in this emergency stop
   std::uint64_t ticks_ = 0;
 };
 
