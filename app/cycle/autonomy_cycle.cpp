@@ -31,12 +31,14 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   CycleOutput output;
   const double step_s = state.previous ? to_seconds(input.now - *state.previous) : 0.0;
   state.previous = input.now;
+  state.previous_step_s = step_s;
   state.protective_stop = input.protective_stop;
-  localize(state, input, config, output);     // wheel angles and revolutions -> map_from_base
-  navigate(state, input, config, output);     // order -> route -> path
-  check_way(state, input, config, output);    // path against scan and drawing: free, slow, blocked
-  change_mode(state, input, config, output);  // what happened -> what the vehicle is about
-  const VelocityCommand wanted = wanted_command(state, input, config);
+  localize(state, input, config, output);      // wheel angles and revolutions -> map_from_base
+  watch_effort(state, input, config, output);  // driven, but not moved: something holds the vehicle
+  navigate(state, input, config, output);      // order -> route -> path
+  check_way(state, input, config, output);     // path against scan and drawing: free, slow, blocked
+  change_mode(state, input, config, output);   // what happened -> what the vehicle is about
+  const VelocityCommand wanted = guarded(state, wanted_command(state, input, config), config);
   const bool may_move = (drives(state.mode) || state.mode == Mode::Manual) && !state.protective_stop &&
                         !is_silent(state.drive_heard, input.now, config.drive_silent_s);
   const double free_m =

@@ -8,20 +8,6 @@ namespace {
 
 constexpr double kDetourWithinM = 4.0;  ///< what is further away may be gone when the vehicle gets there
 
-/// Confirmed columns around the vehicle, Map frame: their corners and centres.
-std::vector<Point2<Map>> obstacle_points(const CycleState& state) {
-  const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
-  std::vector<Point2<Map>> points;
-  for (const planning::Column& c : state.obstacles.columns()) {
-    if (!c.confirmed) continue;
-    const std::array<double, 2> x{static_cast<double>(c.min_x_m), static_cast<double>(c.max_x_m)};
-    const std::array<double, 2> y{static_cast<double>(c.min_y_m), static_cast<double>(c.max_y_m)};
-    for (const double px : x)
-      for (const double py : y) points.push_back(map_from_odom * Point2<Odom>{px, py});
-  }
-  return points;
-}
-
 /// What crosses the way, Map frame.
 std::vector<planning::Mover<Map>> movers_on_map(const CycleState& state) {
   const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
@@ -106,7 +92,7 @@ bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now) {
 }
 
 void note_blocked(Navigation& way, Stamp now) {
-  const bool blocked = way.check.blocked() || !way.turn_free;
+  const bool blocked = way.check.blocked() || !way.turn_free || way.held;
   if (blocked) {
     way.free_since.reset();
     if (!way.blocked_since) way.blocked_since = now;
@@ -119,11 +105,12 @@ void note_blocked(Navigation& way, Stamp now) {
 void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& config,
                     std::vector<Point2<Map>> obstacles, CycleOutput& output) {
   Navigation& way = state.way;
-  const bool due = (way.check.blocked() || !way.turn_free) && !way.by_mover && way.blocked_since &&
+  const bool stuck = !way.turn_free || way.held;
+  const bool due = (way.check.blocked() || stuck) && !way.by_mover && way.blocked_since &&
                    !way.detour_pending &&
                    to_seconds(input.now - *way.blocked_since) >= config.detour_after_s &&
                    to_seconds(input.now - way.asked_detour) >= config.detour_again_s;
-  const bool near = !way.turn_free || way.stop_along_m - way.along_m < kDetourWithinM;
+  const bool near = stuck || way.stop_along_m - way.along_m < kDetourWithinM;
   const bool going = drives(state.mode) || state.mode == Mode::Waiting;
   if (!due || !near || !going || (way.check.blocked() && is_at_door(config, way.check.where))) return;
   way.asked_detour = input.now;
@@ -132,18 +119,51 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
   planning::PathCheck check = way.check;
   if (!check.blocked()) check.first_blocked = check.last_blocked = way.pursuit.index;
   output.detour_wanted = planning::DetourRequest{
-      way.detour_id,        way.plain,        way.pursuit.index, state.pose.map_from_base, check,
-      std::move(obstacles), way.margin_share, way.turn_free};
+      way.detour_id,    way.plain, way.pursuit.index, state.pose.map_from_base, check, std::move(obstacles),
+      way.margin_share, !stuck};
+}
+
+/// Whether what the vehicle would do next is not to be done: it leads into something beside the path. A
+/// moment's shape of the noise does not count.
+void note_held(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
+               const CycleConfig& config) {
+  constexpr double kNothingLeft = 0.12;
+  constexpr double kMomentS = 0.25;
+  Navigation& way = state.way;
+  const bool going = drives(state.mode) || state.mode == Mode::Waiting;
+  const VelocityCommand next = going ? follow(state, config).command : VelocityCommand{};
+  const double share = planning::guarded_share(state.pose.map_from_base, next, obstacles, *config.walls,
+                                               config.check.vehicle, config.braking, config.guard);
+  if (share > kNothingLeft)
+    way.held_since.reset();
+  else if (!way.held_since)
+    way.held_since = now;
+  way.held = way.held_since && to_seconds(now - *way.held_since) >= kMomentS;
 }
 
 }  // namespace
+
+std::vector<Point2<Map>> obstacle_points(const CycleState& state) {
+  const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+  std::vector<Point2<Map>> points;
+  for (const planning::Column& c : state.obstacles.columns()) {
+    if (!c.confirmed) continue;
+    const std::array<double, 2> x{static_cast<double>(c.min_x_m), static_cast<double>(c.max_x_m)};
+    const std::array<double, 2> y{static_cast<double>(c.min_y_m), static_cast<double>(c.max_y_m)};
+    for (const double px : x)
+      for (const double py : y) points.push_back(map_from_odom * Point2<Odom>{px, py});
+  }
+  return points;
+}
 
 void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   Navigation& way = state.way;
   for (const auto& command : input.commands)
     if (command.word == OperatorWord::ForgetObstacles ||
-        (command.word == OperatorWord::Resume && state.mode == Mode::Waiting))
+        (command.word == OperatorWord::Resume && state.mode == Mode::Waiting)) {
+      way.felt = false;
       state.obstacles.clear();  // the operator has looked; what is seen comes back with the next scan
+    }
   if (way.path.empty() || way.arrived || !output.computed_lidar) return;
   const auto obstacles = obstacle_points(state);
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
@@ -165,6 +185,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   way.turn_free =
       !may_turn || (turn_is_free(state, obstacles, margins) &&
                     !planning::turn_meets(state.pose.map_from_base, movers, config.check, config.movers));
+  note_held(state, obstacles, input.now, config);
   note_blocked(way, input.now);
   ask_for_detour(state, input, config, obstacles, output);
 }

@@ -16,6 +16,7 @@
 #include "control/limits/limits.hpp"
 #include "control/pure_pursuit/pure_pursuit.hpp"
 #include "planning/detour/detour_planner.hpp"
+#include "planning/obstacle_check/motion_guard.hpp"
 #include "planning/obstacle_check/moving_objects.hpp"
 #include "planning/obstacle_check/obstacle_field.hpp"
 #include "planning/route_graph/route_search.hpp"
@@ -34,6 +35,7 @@ struct CycleConfig {
   control::LimitOptions limits;
   planning::CheckOptions check;
   planning::BrakingModel braking;
+  planning::GuardOptions guard;
   planning::FieldOptions field;
   planning::MoverOptions movers;
   planning::WaypointOptions waypoints;
@@ -132,6 +134,13 @@ struct Stirring {
   Stamp last{};
 };
 
+/// What was asked of the drive since the vehicle last got on, and from where.
+struct Effort {
+  Transform2<Map, Base> from;
+  Stamp since{};
+  double asked_m = 0.0;  ///< of way, turns counted at the outline
+};
+
 /// The way to the current target.
 struct Navigation {
   std::optional<Target> target;
@@ -153,6 +162,9 @@ struct Navigation {
   double stop_along_m = planning::PathCheck::kFree;
   double care_along_m = planning::PathCheck::kFree;
   bool turn_free = true;
+  bool held = false;  ///< driving on leads into something beside the path
+  std::optional<Stamp> held_since;
+  bool felt = false;          ///< something that was not seen has held the vehicle
   double margin_share = 1.0;  ///< of the ordinary margins, until it is out of where it stands too near
   bool by_mover = false;      ///< what blocks is on its way across
   bool unseen = false;        ///< what blocks is remembered from before it came too near for the lidar
@@ -184,10 +196,12 @@ struct CycleState {
   std::int64_t drive_us = 0;  ///< the controller's clock, unwrapped
   std::optional<Stamp> lidar_heard;
   std::optional<Stamp> previous;
+  double previous_step_s = 0.0;  ///< between the last two steps
   bool protective_stop = false;
   VelocityCommand jog;
   Stamp jog_heard{};
   Navigation way;
+  std::optional<Effort> effort;  ///< while it drives by itself
   control::LimitState limits;
   int unarmed_steps = 0;  ///< enabled in a row while the drive stayed idle
 };

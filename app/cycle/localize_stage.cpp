@@ -7,7 +7,7 @@
 namespace madori::app {
 namespace {
 
-constexpr double kTrackS = 0.5;
+constexpr double kTrackS = 3.0;  ///< revolutions may have waited so long on a busy computer
 
 /// Whether the drive was switched off and on between two statuses: its clock, which starts at power-up and
 /// wraps after 71.6 min, went back, or ran ahead of ours. Statuses that have waited in a buffer, come twice,
@@ -32,16 +32,15 @@ Stamp measured_at(CycleState& state, const control::wire::Status& status, Stamp 
 
 /// Where the wheels were at a moment, between the readings around it.
 Transform2<Odom, Base> odometry_at(const std::deque<OdometryReading>& track, Stamp moment) {
-  if (moment <= track.front().stamp) return track.front().odom_from_base;
-  for (std::size_t i = 1; i < track.size(); ++i) {
-    if (track[i].stamp < moment) continue;
-    const auto& before = track[i - 1];
-    const double share = to_seconds(moment - before.stamp) / to_seconds(track[i].stamp - before.stamp);
-    const auto step = before.odom_from_base.inverse() * track[i].odom_from_base;
-    return before.odom_from_base *
-           Transform2<Base, Base>(share * step.x_m(), share * step.y_m(), share * step.yaw_rad());
-  }
-  return track.back().odom_from_base;
+  const auto after = std::lower_bound(track.begin(), track.end(), moment,
+                                      [](const auto& reading, Stamp at) { return reading.stamp < at; });
+  if (after == track.begin()) return track.front().odom_from_base;
+  if (after == track.end()) return track.back().odom_from_base;
+  const auto& before = *(after - 1);
+  const double share = to_seconds(moment - before.stamp) / to_seconds(after->stamp - before.stamp);
+  const auto step = before.odom_from_base.inverse() * after->odom_from_base;
+  return before.odom_from_base *
+         Transform2<Base, Base>(share * step.x_m(), share * step.y_m(), share * step.yaw_rad());
 }
 
 /// A revolution in the Base frame of its last firing: each point is moved by what the vehicle did since its
@@ -73,6 +72,14 @@ PointCloud<Base> in_base(const PointCloud<Lidar>& cloud, const std::deque<Odomet
     result.points.push_back(q);
   }
   return result;
+}
+
+/// Whether nobody knows any more where the vehicle was when a revolution was taken: its bodies would stand
+/// where they are not. Where the track has just begun, the vehicle stood.
+bool is_too_old(const PointCloud<Lidar>& cloud, const std::deque<OdometryReading>& track) {
+  constexpr double kWholeTrackS = 0.9 * kTrackS;
+  return !track.empty() && cloud.stamp < track.front().stamp &&
+         to_seconds(track.back().stamp - track.front().stamp) > kWholeTrackS;
 }
 
 /// What is no pose is refused here: it reaches the cycle from a panel.
@@ -107,6 +114,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     if (command.word == OperatorWord::SearchPose) state.localization->search_anew();
   }
   for (const auto& cloud : input.clouds) {
+    if (is_too_old(cloud, state.track)) continue;
     const PointCloud<Base> base = in_base(cloud, state.track, config);
     state.lidar_heard = input.now;
     output.computed_lidar = true;

@@ -28,7 +28,7 @@ bool misses_a_device(const CycleState& state, const CycleInput& input, const Cyc
 bool is_clear(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Navigation& way = state.way;
   const bool sees = !misses_a_device(state, input, config) && !state.protective_stop;
-  const bool has_way = !way.path.empty() && !way.arrived && way.turn_free;
+  const bool has_way = !way.path.empty() && !way.arrived && way.turn_free && !way.held;
   const bool room = way.stop_along_m - way.along_m > kWorthGoingM;
   const bool lasting = !way.blocked_since || room;
   const bool settled = !way.free_since || to_seconds(input.now - *way.free_since) >= config.clear_for_s;
@@ -37,7 +37,7 @@ bool is_clear(const CycleState& state, const CycleInput& input, const CycleConfi
 
 bool is_blocked(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Navigation& way = state.way;
-  return way.path.empty() || way.arrived || !way.turn_free || state.protective_stop ||
+  return way.path.empty() || way.arrived || !way.turn_free || way.held || state.protective_stop ||
          misses_a_device(state, input, config) || way.stop_along_m - way.along_m < kStandsBeforeM;
 }
 

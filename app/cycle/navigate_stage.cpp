@@ -105,6 +105,8 @@ void take_path(Navigation& way, Path path, const CycleConfig& config) {
   way.rejoin_m.reset();
   way.detour_pending = false;
   way.turn_free = true;
+  way.held = false;
+  way.held_since.reset();
   way.no_way = {};
 }
 

@@ -48,6 +48,7 @@ enum class Cause : std::uint8_t {
   WallInTheWay,
   SomethingInTheWay,
   UnseenInTheWay,
+  HeldBack,
 };
 
 /// What a person can do about it.
@@ -101,6 +102,8 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"wall-in-the-way", "the way leads too close to a drawn wall"},
     CatalogueEntry{"something-in-the-way", "something stands in the way"},
     CatalogueEntry{"unseen-in-the-way", "something low stands in the way, too near for the lidar to see"},
+    CatalogueEntry{"held-back",
+                   "something that the lidar does not see holds the vehicle: it drives and does not get on"},
 };
 
 inline constexpr std::array kRemedies{

@@ -25,18 +25,23 @@ double speed_for_now(const CycleState& state, const CycleConfig& config) {
 
 }  // namespace
 
+control::PursuitOutput follow(const CycleState& state, const CycleConfig& config) {
+  const Navigation& way = state.way;
+  return control::pursue(way.path, way.pursuit,
+                         {.map_from_base = state.pose.map_from_base,
+                          .position_sigma_m = position_sigma(state.pose),
+                          .free_distance_m = way.stop_along_m - way.along_m,
+                          .turn_free = way.turn_free,
+                          .max_speed_mps = speed_for_now(state, config)},
+                         config.pursuit);
+}
+
 VelocityCommand wanted_command(CycleState& state, const CycleInput& input, const CycleConfig& config) {
   if (state.mode == Mode::Manual)
     return to_seconds(input.now - state.jog_heard) <= config.jog_timeout_s ? state.jog : VelocityCommand{};
   if (!drives(state.mode)) return {};
   Navigation& way = state.way;
-  const auto out = control::pursue(way.path, way.pursuit,
-                                   {.map_from_base = state.pose.map_from_base,
-                                    .position_sigma_m = position_sigma(state.pose),
-                                    .free_distance_m = way.stop_along_m - way.along_m,
-                                    .turn_free = way.turn_free,
-                                    .max_speed_mps = speed_for_now(state, config)},
-                                   config.pursuit);
+  const auto out = follow(state, config);
   way.pursuit = out.state;
   way.status = out.status;
   way.along_m = out.along_m;

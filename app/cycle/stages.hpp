@@ -9,6 +9,8 @@ namespace madori::app {
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// The order's next stop becomes a route and a path; an answered detour replaces it.
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// Notices that the vehicle does not get on although it drives; what holds it is remembered as a body.
+void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// The path ahead against what the scan and the drawing show; asks for a way around.
 void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// Events of all kinds move the mode.
@@ -16,10 +18,17 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
 /// What the vehicle would do, were there no limits.
 [[nodiscard]] VelocityCommand wanted_command(CycleState& state, const CycleInput& input,
                                              const CycleConfig& config);
+/// The command as far as nothing is met on it; a path is not followed to the centimetre.
+[[nodiscard]] VelocityCommand guarded(const CycleState& state, const VelocityCommand& wanted,
+                                      const CycleConfig& config);
+/// What following the path from here asks for, and where that is on the path. Changes nothing.
+[[nodiscard]] control::PursuitOutput follow(const CycleState& state, const CycleConfig& config);
 /// Cause and remedy of a standstill; empty while the vehicle may move.
 [[nodiscard]] Standstill standstill_of(const CycleState& state, const CycleInput& input,
                                        const CycleConfig& config);
 
+/// Confirmed columns around the vehicle, Map frame: their corners.
+[[nodiscard]] std::vector<Point2<Map>> obstacle_points(const CycleState& state);
 /// Whether nobody has heard of a device for too long.
 [[nodiscard]] bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s);
 [[nodiscard]] bool may_drive(LocalizationState state);

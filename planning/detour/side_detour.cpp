@@ -67,6 +67,22 @@ Detour shifted(const Path& path, std::size_t from, const std::vector<double>& al
   return result;
 }
 
+/// Whether the vehicle can follow: inside a bend an offset beyond its radius folds the path back on itself.
+bool is_drivable(const Path& path, std::size_t last, double min_radius_m) {
+  const auto& points = path.points;
+  for (std::size_t i = 1; i + 1 < points.size() && i <= last; ++i) {
+    const double in_m = distance_m(points[i - 1].position, points[i].position);
+    const double out_m = distance_m(points[i].position, points[i + 1].position);
+    if (in_m < kSamePointM || out_m < kSamePointM) continue;  // a turn on the spot of the route
+    const double turn_rad = wrap_angle(std::atan2(points[i + 1].position.y_m - points[i].position.y_m,
+                                                  points[i + 1].position.x_m - points[i].position.x_m) -
+                                       std::atan2(points[i].position.y_m - points[i - 1].position.y_m,
+                                                  points[i].position.x_m - points[i - 1].position.x_m));
+    if (std::abs(turn_rad) > 0.5 * (in_m + out_m) / min_radius_m) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void renew_headings(Path& path, std::size_t first, std::size_t last) {
@@ -96,6 +112,7 @@ Result<Detour> side_detour(const Path& path, std::size_t from, const PathCheck& 
     if (!around) break;
     for (const double side : {1.0, -1.0}) {
       Detour candidate = shifted(path, from, along_m, *around, side * offset_m, detour.speed_mps);
+      if (!is_drivable(candidate.path, candidate.rejoin, detour.min_radius_m)) continue;
       const double ahead_m = 2.0 * around->back_end_m;  // the way around is longer than the route
       const PathCheck free = check_path(candidate.path, 0, ahead_m, obstacles, walls, options);
       if (!free.blocked() || free.first_blocked > candidate.rejoin) return candidate;

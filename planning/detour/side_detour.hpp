@@ -15,6 +15,7 @@ struct SideDetourOptions {
   double furthest_m = 2.0;       ///< the route is left by at most this much
   double min_run_m = 1.2;        ///< shortest way over which the full offset is gained or given back
   double run_per_offset = 2.2;   ///< metres of way for a metre of offset; smaller turns sharper
+  double min_radius_m = 0.3;     ///< sharper bends are not followed
   double speed_mps = 0.5;        ///< on the detour
   double before_rejoin_m = 0.6;  ///< after the last blocked waypoint, beyond the vehicle's length
 };
@@ -28,9 +29,9 @@ struct Detour {
 };
 
 /// Tries candidates left and right of the route at growing offset (layout-map paper, section 3.4), each
-/// checked as the route itself is, and takes the first that is free. Fails where both sides are blocked at
-/// every offset, or where the route turns on the spot within the blocked stretch. `obstacles` and `walls` as
-/// in check_path().
+/// checked as the route itself is, and takes the first that is free and can be followed. Fails where both
+/// sides are blocked at every offset, or where the route turns on the spot within the blocked stretch.
+/// `obstacles` and `walls` as in check_path().
 [[nodiscard]] Result<Detour> side_detour(const Path& path, std::size_t from, const PathCheck& check,
                                          const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
                                          const CheckOptions& options, const SideDetourOptions& detour = {});

@@ -123,4 +123,29 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
   columns_ = std::move(merged);
 }
 
+void ObstacleField::add_felt(const std::vector<Point2<Odom>>& places, Stamp now) {
+  constexpr double kHighM = 0.3;
+  const auto cell = [&](double at_m) {
+    return static_cast<std::int32_t>(std::floor(at_m / options_.cell_m));
+  };
+  for (const auto& place : places) {
+    Column felt;
+    felt.cell_x = cell(place.x_m);
+    felt.cell_y = cell(place.y_m);
+    felt.min_x_m = felt.max_x_m = static_cast<float>(place.x_m);
+    felt.min_y_m = felt.max_y_m = static_cast<float>(place.y_m);
+    felt.low_m = static_cast<float>(options_.ground_clearance_m);
+    felt.high_m = static_cast<float>(kHighM);
+    felt.confirmed = true;
+    felt.since = now;
+    auto at = std::lower_bound(columns_.begin(), columns_.end(), felt, by_cell);
+    if (at == columns_.end() || by_cell(felt, *at)) at = columns_.insert(at, felt);
+    at->min_x_m = std::min(at->min_x_m, felt.min_x_m);
+    at->max_x_m = std::max(at->max_x_m, felt.max_x_m);
+    at->min_y_m = std::min(at->min_y_m, felt.min_y_m);
+    at->max_y_m = std::max(at->max_y_m, felt.max_y_m);
+    at->confirmed = true;
+  }
+}
+
 }  // namespace madori::planning

@@ -41,6 +41,9 @@ class ObstacleField {
   void update(const PointCloud<Base>& scan, const SensorView& view,
               const Transform2<Odom, Base>& odom_from_base);
   void clear() { columns_.clear(); }
+  /// What the vehicle has run against without having seen it: low bodies that are remembered like those that
+  /// have come too near to be seen.
+  void add_felt(const std::vector<Point2<Odom>>& places, Stamp now);
   /// Goes on with what was remembered at another time.
   void restore(std::vector<Column> columns, std::deque<SightHistory::Sight> sights) {
     columns_ = std::move(columns);

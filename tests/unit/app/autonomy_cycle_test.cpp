@@ -165,6 +165,25 @@ TEST(AutonomyCycle, WhatCameTooNearForTheLidarStaysUntilTheOperatorHasLooked) {
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
 }
 
+TEST(AutonomyCycle, AVehicleThatDrivesAndDoesNotGetOnStopsAndSaysSo) {
+  using Held = test::RollingVehicle::Held;
+  for (const Held how : {Held::Slipping, Held::Blocked}) {
+    auto v = vehicle();
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+    v->rolling.held = how;
+    ASSERT_TRUE(v->run_until([&] { return v->state().mode == Mode::Waiting; }, 4.0));
+    EXPECT_EQ(v->state().standstill.cause, notice(Cause::HeldBack));
+    EXPECT_EQ(v->state().standstill.remedy, notice(Remedy::LookAndResume));
+    v->run_until([&] { return false; }, 1.0);
+    EXPECT_FALSE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.05; }, 8.0)) << "it pushes on";
+    v->rolling.held = Held::No;
+    v->say(OperatorWord::Resume);
+    EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+  }
+}
+
 TEST(AutonomyCycle, ADriveWhoseLinkOpensLateIsArmed) {
   auto v = vehicle();
   v->drive_silent = true;  // the port opens late: neither statuses nor commands pass

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "core/angle.hpp"
@@ -49,6 +50,35 @@ TEST(SideDetour, TakesTheOpenSide) {
   EXPECT_GT(side_detour(path, 0, check, obstacles, walls, kCheck).value().offset_m, 0.0);
   const WallGrid left(std::vector<Segment2<Map>>{{{0.0, 0.6}, {14.0, 0.6}}});
   EXPECT_FALSE(side_detour(path, 0, check, obstacles, left, kCheck)) << "a drawn wall on the open side";
+}
+
+/// Inside a bend an offset beyond its radius would fold back on itself: whatever is offered can be followed.
+TEST(SideDetour, OffersNothingInABendThatCannotBeFollowed) {
+  const Path path = make_waypoints({{{0, 0}}, {{6, 0}}, {{6, 12}}}).value();
+  const WallGrid walls;
+  const SideDetourOptions options;
+  int offered = 0;
+  for (double x = 4.6; x < 7.0; x += 0.1) {
+    for (double y = -0.6; y < 2.4; y += 0.2) {
+      const std::vector<Point2<Map>> obstacles{{x, y}, {x + 0.1, y}, {x, y + 0.1}};
+      const auto check = check_path(path, 0, 12.0, obstacles, walls, kCheck);
+      if (!check.blocked()) continue;
+      const auto detour = side_detour(path, 0, check, obstacles, walls, kCheck, options);
+      if (!detour) continue;
+      ++offered;
+      const auto& points = detour.value().path.points;
+      for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        const Point2<Map>& a = points[i - 1].position;
+        const Point2<Map>& b = points[i].position;
+        const Point2<Map>& c = points[i + 1].position;
+        const double turn =
+            wrap_angle(std::atan2(c.y_m - b.y_m, c.x_m - b.x_m) - std::atan2(b.y_m - a.y_m, b.x_m - a.x_m));
+        ASSERT_LE(std::abs(turn) * options.min_radius_m, 0.5 * (distance_m(a, b) + distance_m(b, c)) + 1e-9)
+            << "body at " << x << ", " << y << ", point " << i;
+      }
+    }
+  }
+  EXPECT_GT(offered, 100);
 }
 
 TEST(SideDetour, NeedsRoomToComeBack) {

@@ -341,6 +341,7 @@ export const en = {
   "cause.wall-in-the-way": "The way leads too close to a drawn wall",
   "cause.something-in-the-way": "Something stands in the way",
   "cause.unseen-in-the-way": "Something low stands in the way, too near for the lidar to see",
+  "cause.held-back": "Something that the lidar does not see holds the vehicle: it drives and does not get on",
 
   "remedy.give-order": "Give an order",
   "remedy.resume": "Press Resume",

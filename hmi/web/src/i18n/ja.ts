@@ -342,6 +342,7 @@ export const ja: Record<TextKey, string> = {
   "cause.wall-in-the-way": "経路が図面の壁に近すぎます",
   "cause.something-in-the-way": "前方に障害物があります",
   "cause.unseen-in-the-way": "近すぎてライダーに見えない低い障害物があります",
+  "cause.held-back": "ライダーに見えない何かに引っかかり、走行しても進めません",
 
   "remedy.give-order": "指示を出してください",
   "remedy.resume": "「再開」を押してください",

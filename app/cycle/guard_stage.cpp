@@ -1,0 +1,85 @@
+#include <array>
+#include <cmath>
+
+#include "app/cycle/stages.hpp"
+#include "core/angle.hpp"
+
+namespace madori::app {
+namespace {
+
+constexpr double kFeltBeforeM = 0.05;  ///< from the outline: within every margin
+constexpr double kFeltStepM = 0.1;
+
+/// A turn as the way of the outline's ends.
+double lever_m(const CycleConfig& config) {
+  return config.check.vehicle.reach_m();
+}
+
+/// Where what holds the vehicle may be, Base frame: all along the bumper, or where it would turn to.
+std::vector<Point2<Base>> felt_places(const planning::VehicleOutline& v, const VelocityCommand& command,
+                                      double lever) {
+  std::vector<Point2<Base>> places;
+  if (std::abs(command.linear_mps) >= std::abs(command.angular_radps) * lever) {
+    const double x = command.linear_mps > 0.0 ? v.front_m + kFeltBeforeM : -v.rear_m - kFeltBeforeM;
+    for (double y = -v.half_width_m; y <= v.half_width_m + 1e-9; y += kFeltStepM) places.push_back({x, y});
+    return places;
+  }
+  const double side = std::copysign(v.half_width_m + kFeltBeforeM, command.angular_radps);
+  places.push_back({v.front_m, side});
+  places.push_back({-v.rear_m, -side});
+  return places;
+}
+
+void feel(CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  const auto& odom_from_base = state.odometry.reading().odom_from_base;
+  std::vector<Point2<Odom>> places;
+  for (const auto& place : felt_places(config.check.vehicle, state.limits.previous, lever_m(config)))
+    places.push_back(odom_from_base * place);
+  state.obstacles.add_felt(places, input.now);
+  Navigation& way = state.way;
+  way.felt = true;
+  way.stop_along_m = way.along_m;  // the next revolution looks at it again
+}
+
+}  // namespace
+
+void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                  CycleOutput& output) {
+  constexpr double kShortestS = 2.0;
+  constexpr double kLeastAskedM = 0.06;
+  constexpr double kLeastShare = 0.25;
+  constexpr double kGotOnM = 0.1;
+  const VelocityCommand& driven = state.limits.previous;
+  const bool tries = drives(state.mode) && state.drive.state == control::wire::DriveState::Running &&
+                     !(driven == VelocityCommand{}) && may_drive(state.pose.health.state);
+  if (!tries) return state.effort.reset();
+  const Transform2<Map, Base>& here = state.pose.map_from_base;
+  if (!state.effort) state.effort = Effort{here, input.now, 0.0};
+  Effort& effort = *state.effort;
+  const double step_s = state.previous_step_s;
+  effort.asked_m += (std::abs(driven.linear_mps) + std::abs(driven.angular_radps) * lever_m(config)) * step_s;
+  const double moved_m = distance_m(here.translation(), effort.from.translation()) +
+                         std::abs(wrap_angle(here.yaw_rad() - effort.from.yaw_rad())) * lever_m(config);
+  if (moved_m > kGotOnM) {
+    effort = {here, input.now, 0.0};
+    state.way.felt = false;
+    return;
+  }
+  const bool held = to_seconds(input.now - effort.since) > kShortestS && effort.asked_m > kLeastAskedM &&
+                    moved_m < kLeastShare * effort.asked_m;
+  if (!held) return;
+  output.events.emplace_back(
+      "the vehicle drives and does not get on: something that it does not see holds it");
+  feel(state, input, config);
+  state.effort.reset();
+}
+
+VelocityCommand guarded(const CycleState& state, const VelocityCommand& wanted, const CycleConfig& config) {
+  if (!drives(state.mode) || wanted == VelocityCommand{}) return wanted;
+  const double share =
+      planning::guarded_share(state.pose.map_from_base, wanted, obstacle_points(state), *config.walls,
+                              config.check.vehicle, config.braking, config.guard);
+  return {wanted.linear_mps * share, wanted.angular_radps * share};
+}
+
+}  // namespace madori::app
