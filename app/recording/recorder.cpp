@@ -122,29 +122,13 @@ void Recorder::end_segment() {
     if (number_ > 0) keep(bag_name(number_ - 1));
   }
   ++number_;
-  make_room();
+  make_room(folder_, options_.room);
 }
 
 void Recorder::keep(const fs::path& bag) const {
   const fs::path kept = folder_ / "stops" / bag.filename();
   fs::create_directories(kept.parent_path());
   if (fs::exists(bag) && !fs::exists(kept)) fs::create_hard_link(bag, kept);
-}
-
-/// Removes the oldest bags beyond the limit; what hangs below stops/ stays.
-void Recorder::make_room() const {
-  std::vector<fs::path> bags;
-  std::uintmax_t bytes = 0;
-  for (const auto& entry : fs::directory_iterator(folder_)) {
-    if (entry.path().extension() != ".bag") continue;
-    bags.push_back(entry.path());
-    bytes += entry.file_size();
-  }
-  std::sort(bags.begin(), bags.end());
-  for (std::size_t i = 0; i + 2 < bags.size() && bytes > options_.max_bytes; ++i) {
-    bytes -= fs::file_size(bags[i]);
-    fs::remove(bags[i]);
-  }
 }
 
 void Recorder::write(const Record& record) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/cycle/cycle.hpp"
+#include "app/recording/bag_room.hpp"
 
 namespace madori::sensors {
 class BagWriter;
@@ -32,16 +33,16 @@ inline constexpr const char* kStateTopic = "/madori/state";  ///< at the beginni
 inline constexpr const char* kEventTopic = "/madori/event";
 
 struct RecorderOptions {
-  double segment_s = 30.0;                    ///< a new bag so often
-  std::uintmax_t max_bytes = 20'000'000'000;  ///< of all bags of the run together; the oldest go first
-  std::size_t max_waiting = 500;              ///< steps (10 s); a slower disk loses steps, which is counted
+  double segment_s = 30.0;        ///< a new bag so often
+  RoomLimits room;                ///< the oldest bags go first
+  std::size_t max_waiting = 500;  ///< steps (10 s); a slower disk loses steps, which is counted
 };
 
 /// A bag can be replayed alone: it begins with what the cycle remembered, and each step holds its pose.
 /// Writes every step as ROS 1 bags `folder`/000.bag, 001.bag ... from a thread of its own: lidar packets,
 /// odometry, pose, path, input, command, events. At each stop that is not part of an order, hard links in
-/// `folder`/stops keep the bag at hand and the one before, and so at least the 30 s before the stop, beyond
-/// the size limit.
+/// `folder`/stops keep the bag at hand and the one before, and so at least the 30 s before the stop, with a
+/// size limit of their own.
 class Recorder {
  public:
   Recorder(std::filesystem::path folder, const RecorderOptions& options = {});
@@ -75,7 +76,6 @@ class Recorder {
   void begin_segment();
   void end_segment();
   void keep(const std::filesystem::path& bag) const;
-  void make_room() const;
   [[nodiscard]] std::filesystem::path bag_name(int number) const;
 
   std::filesystem::path folder_;

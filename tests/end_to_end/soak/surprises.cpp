@@ -101,7 +101,14 @@ bool Surprises::send_person(const app::Navigation& way, Random& random) {
   return true;
 }
 
-Transform2<Map, Base> Surprises::carry_away(Random& random) {
+bool Surprises::has_room(const Transform2<Map, Base>& pose) const {
+  constexpr int kHeadings = 12;
+  for (int i = 0; i < kHeadings; ++i)
+    if (!factory_.is_free(pose * Transform2<Base, Base>(0.0, 0.0, 2.0 * kPi * i / kHeadings))) return false;
+  return true;
+}
+
+Transform2<Map, Base> Surprises::carry_away(Random& random, bool to_help) {
   const auto& nodes = config_.routes.nodes();
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const auto& node = nodes[random.below(nodes.size())];
@@ -112,7 +119,7 @@ Transform2<Map, Base> Surprises::carry_away(Random& random) {
     const bool free = factory_.is_free(moved(0.3, 0.0)) && factory_.is_free(moved(-0.3, 0.0)) &&
                       factory_.is_free(moved(0.0, 0.3)) && factory_.is_free(moved(0.0, -0.3));
     const bool far = distance_m(pose.translation(), factory_.truth().map_from_base.translation()) > 5.0;
-    if (!free || !far) continue;
+    if (!free || !far || (to_help && !has_room(pose))) continue;
     factory_.set_pose(pose);
     return pose;
   }

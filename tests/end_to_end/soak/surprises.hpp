@@ -23,8 +23,9 @@ class Surprises {
   /// A person who walks across the way ahead and back until the delivery is made. False as above, or where
   /// walls stand beside the way.
   bool send_person(const app::Navigation& way, simulation::Random& random);
-  /// The vehicle is lifted and put down near another node. Where it stands now.
-  Transform2<Map, Base> carry_away(simulation::Random& random);
+  /// The vehicle is lifted and put down near another node; who means to help puts it where it can turn. Where
+  /// it stands now.
+  Transform2<Map, Base> carry_away(simulation::Random& random, bool to_help = false);
   /// Everything that was put in the way for one delivery.
   void clear();
   /// Takes away what blocks the way there; false where nothing was put near.
@@ -33,6 +34,7 @@ class Surprises {
   [[nodiscard]] bool another_way(std::size_t goal) const;
 
  private:
+  [[nodiscard]] bool has_room(const Transform2<Map, Base>& pose) const;
   struct Thing {
     std::string name;
     Point2<Map> place;

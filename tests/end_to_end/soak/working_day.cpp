@@ -148,10 +148,12 @@ void WorkingDay::look_after(const Delivery& delivery) {
     run_->say({app::OperatorWord::Resume, {}, {}});
     stands_since_ = factory_->now();
   } else if (asks && stood_s > kConfirmsAfterS) {
-    if (pressed_) surprises_->carry_away(chance_);  // "free the vehicle, then confirm"
+    if (pressed_) surprises_->carry_away(chance_, true);  // "free the vehicle, then confirm"
     run_->say({app::OperatorWord::Confirm, {}, {}});
     help(delivery, because, false);
-  } else if (state.mode == app::Mode::Waiting && state.way.unseen && stood_s > kLooksAfterS) {
+  } else if (state.mode == app::Mode::Waiting && (state.way.unseen || state.way.felt) &&
+             stood_s > kLooksAfterS) {
+    if (state.way.felt) surprises_->take_away_near(factory_->truth().map_from_base.translation());
     run_->say({app::OperatorWord::Resume, {}, {}});
     help(delivery, because, false);
   } else if (state.mode == app::Mode::Waiting && stood_s > kTakesAwayAfterS) {
@@ -160,7 +162,7 @@ void WorkingDay::look_after(const Delivery& delivery) {
     if (surprises_->take_away_near(state.way.check.where)) help(delivery, because, blocked);
     stands_since_ = factory_->now();
   } else if (state.mode == app::Mode::Localizing && stood_s > kCarriesAfterS) {
-    surprises_->carry_away(chance_);
+    surprises_->carry_away(chance_, true);
     help(delivery, because, false);
   }
 }

@@ -1,6 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "app/recording/input_text.hpp"
 #include "app/recording/recorder.hpp"
@@ -98,7 +103,7 @@ TEST(Recording, TheSizeLimitHoldsAndStopsAreKept) {
   RecorderOptions options;
   options.max_waiting = 1'000'000;
   options.segment_s = 3.0;
-  options.max_bytes = 1;
+  options.room.max_bytes = 1;
   record_run(folder.path() / "run", options);
   EXPECT_FALSE(fs::exists(folder.path() / "run/000.bag")) << "the oldest has made room";
   std::size_t bags = 0;
@@ -106,6 +111,50 @@ TEST(Recording, TheSizeLimitHoldsAndStopsAreKept) {
     bags += entry.path().extension() == ".bag";
   EXPECT_EQ(bags, 2U);
   EXPECT_TRUE(fs::exists(folder.path() / "run/stops")) << "the vehicle stopped while the lidar was silent";
+}
+
+std::vector<std::string> files_below(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    names.push_back(fs::relative(entry.path(), folder).string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Three runs with bags of 10 bytes, older by an hour each, the last at hand.
+void lay_out_runs(const test::TemporaryFolder& folder) {
+  const auto now = fs::file_time_type::clock::now();
+  int hours = 10;
+  for (const char* name : {"runs/a/000.bag", "runs/a/stops/000.bag", "runs/b/000.bag", "runs/b/stops/000.bag",
+                           "runs/c/000.bag", "runs/c/001.bag", "runs/c/002.bag", "runs/notes.txt"}) {
+    fs::create_directories((folder.path() / name).parent_path());
+    folder.write(name, "0123456789");
+    fs::last_write_time(folder.path() / name, now - std::chrono::hours(hours--));
+  }
+}
+
+TEST(Recording, AllRunsShareTheLimitAndTheOldestGo) {
+  using Names = std::vector<std::string>;
+  const test::TemporaryFolder folder;
+  lay_out_runs(folder);
+  const fs::path runs = folder.path() / "runs";
+  make_room(runs / "c", {50, 20, 0});
+  EXPECT_EQ(files_below(runs).size(), 13U) << "nothing goes within the limits";
+  make_room(runs / "c", {30, 10, 0});
+  EXPECT_EQ(files_below(runs), (Names{"b", "b/stops", "b/stops/000.bag", "c", "c/000.bag", "c/001.bag",
+                                      "c/002.bag", "notes.txt"}));
+  make_room(runs / "c", {1000, 1000, std::numeric_limits<std::uintmax_t>::max()});
+  EXPECT_EQ(files_below(runs), (Names{"c", "c/001.bag", "c/002.bag", "notes.txt"})) << "the disk is full";
+}
+
+TEST(Recording, OutsideOfAFolderOfRunsNothingElseIsTouched) {
+  const test::TemporaryFolder folder;
+  folder.write("other.bag", "x");
+  fs::create_directories(folder.path() / "run");
+  folder.write("run/000.bag", "x");
+  make_room(folder.path() / "run", {0, 0, std::numeric_limits<std::uintmax_t>::max()});
+  EXPECT_TRUE(fs::exists(folder.path() / "other.bag"));
+  EXPECT_TRUE(fs::exists(folder.path() / "run/000.bag"));
 }
 
 TEST(Recording, ACutOutReplaysBitForBit) {
