@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(Drawings, DrawingWalls,
                          ::testing::Values(Case{"factory", kFactory + "factory_scan.png",
                                                 kFactory + "true_walls_scan_px.csv", 0.025, 0.98},
                                            shared("office", 0.00846, 0.97), shared("clinic", 0.02692, 0.78),
-                                           shared("hotel_L1", 0.05568, 0.59),
+                                           shared("hotel_L1", 0.05568, 0.62),
                                            shared("mlstruct_7db30954", 0.00474825, 0.99),
                                            shared("mlstruct_8888a588", 0.00272847, 0.99)),
                          [](const auto& test) { return test.param.name; });

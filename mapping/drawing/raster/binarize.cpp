@@ -9,15 +9,18 @@
 
 #include "mapping/drawing/raster/cv_view.hpp"
 #include "mapping/drawing/raster/paper.hpp"
+#include "mapping/drawing/raster/skip_paper.hpp"
 
 namespace madori::mapping {
 namespace {
 
-constexpr int kReach = 2;       // pixels between the two sides of an edge: spans the blur of a scan
-constexpr int kRowStep = 5;     // every fifth row is sample enough
-constexpr int kNoiseStep = 16;  // ... and far fewer for the noise
+constexpr int kReach = 2;          // pixels between the two sides of an edge: spans the blur of a scan
+constexpr int kEnlargedReach = 3;  // ... and of enlarging
+constexpr int kRowStep = 5;        // every fifth row is sample enough
+constexpr int kNoiseStep = 16;     // ... and far fewer for the noise
 constexpr int kSharedRows = 4;
 constexpr double kLeastContrast = 16;
+constexpr float kEdge = 0.55F;      // of the way from a stroke's darkest to the paper
 constexpr double kNearBest = 0.96;  // thresholds that cross almost as many edges form the plateau
 using Levels = std::array<double, 257>;
 
@@ -92,18 +95,53 @@ void compare_with_paper(const GrayImage& image, const Paper& paper, double share
   }
 }
 
+/// Ink by a threshold on a paper of 255.
+void compare(const GrayImage& image, const Paper& paper, double threshold, GrayImage& ink) {
+  if (!paper.is_even()) return compare_with_paper(image, paper, threshold / 255, ink);
+  cv::Mat out = cv_view(ink);
+  cv::threshold(cv_view(image), out, std::floor(threshold * paper.level() / 255), 255, cv::THRESH_BINARY_INV);
+}
+
+/// Whether a pixel darker than this lies within reach.
+bool darker_near(const GrayImage& image, int u, int v, int than, int reach) {
+  for (int y = std::max(0, v - reach); y <= std::min(image.height_px - 1, v + reach); ++y)
+    for (int x = std::max(0, u - reach); x <= std::min(image.width_px - 1, u + reach); ++x)
+      if (image.at(x, y) < than) return true;
+  return false;
+}
+
+/// Takes from the ink what is nearer to the paper than to the darkest pixel around: half way lies the edge of
+/// a stroke, whatever its grey, and however blurred.
+void trim_edges(const GrayImage& image, const Paper& paper, int reach, GrayImage& ink) {
+  const auto width = static_cast<std::size_t>(image.width_px);
+  std::vector<float> levels(width, static_cast<float>(paper.level()));
+  for (int v = 0; v < image.height_px; ++v) {
+    if (!paper.is_even() && v % kSharedRows == 0) paper.row(v + kSharedRows / 2, levels);
+    std::uint8_t* row = &ink.pixels[static_cast<std::size_t>(v) * width];
+    for (std::size_t u = skip_paper(row, 0, width); u < width; u = skip_paper(row, u + 1, width)) {
+      const auto column = static_cast<int>(u);
+      const float edge = (image.at(column, v) - kEdge * levels[u]) / (1 - kEdge);
+      if (edge > 0 && darker_near(image, column, v, static_cast<int>(std::ceil(edge)), reach)) row[u] = 0;
+    }
+  }
+}
+
 }  // namespace
 
 Binarized binarize(const GrayImage& image, std::optional<double> threshold) {
   const Paper paper(image);
   Binarized result{blank_like(image), threshold ? *threshold : best_threshold(image, paper)};
-  cv::Mat ink = cv_view(result.ink);
-  if (paper.is_even()) {
-    const double level = threshold ? *threshold : result.threshold * paper.level() / 255;
-    cv::threshold(cv_view(image), ink, std::floor(level), 255, cv::THRESH_BINARY_INV);
-    return result;
-  }
-  compare_with_paper(image, paper, result.threshold / 255, result.ink);
+  const bool absolute = threshold && paper.is_even();
+  compare(image, paper, absolute ? *threshold * 255 / paper.level() : result.threshold, result.ink);
+  if (!threshold) trim_edges(image, paper, kReach, result.ink);
+  return result;
+}
+
+Binarized binarize_enlarged(const GrayImage& image, double threshold) {
+  const Paper paper(image);
+  Binarized result{blank_like(image), threshold};
+  compare(image, paper, threshold, result.ink);
+  trim_edges(image, paper, kEnlargedReach, result.ink);
   return result;
 }
 

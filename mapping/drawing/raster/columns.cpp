@@ -16,6 +16,8 @@ constexpr double kMostOblong = 1.35;
 constexpr double kLikeSize = 0.12;
 constexpr double kApart = 4;  // sides, between the nearest two
 constexpr std::size_t kFewest = 4;
+constexpr double kLetterGap = 0.5, kLetterSize = 1.5;  // of a mark's size: the next letter of a word
+constexpr double kBar = 3;                             // times as long as wide
 constexpr int kMargin = 3;
 
 using Masks = std::map<int, cv::Mat>;
@@ -76,6 +78,22 @@ bool recurs(const Square& self, const std::vector<Square>& all) {
   return alike >= kFewest && nearest >= kApart * self.side;
 }
 
+/// A letter of like size close by: an R with its holes filled is a square, but it stands before an M. Bars
+/// are the dashes of an axis, and `taken` marks have their meaning already.
+bool beside_letter(std::size_t self, const std::vector<Component>& all, const std::vector<bool>& taken) {
+  const Component& own = all[self];
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Component& other = all[i];
+    if (i == self || taken[i] || other.long_px > kBar * other.short_px ||
+        other.size() > kLetterSize * own.size() || own.size() > kLetterSize * other.size())
+      continue;
+    const int apart_u = std::max({0, other.left - own.right, own.left - other.right});
+    const int apart_v = std::max({0, other.top - own.bottom, own.top - other.bottom});
+    if (std::max(apart_u, apart_v) <= kLetterGap * own.size()) return true;
+  }
+  return false;
+}
+
 Column column_at(const Square& square, const Component& c) {
   cv::Point2f corners[4];
   square.place.points(corners);
@@ -95,8 +113,8 @@ std::vector<Column> find_columns(const Components& marks, const std::vector<bool
   std::vector<int> owners;
   for (auto& [mark, mask] : draw_candidates(marks, taken, pen_px)) {
     const auto place = square_in(mask);
-    if (!place) continue;
     const Component& c = marks.all()[static_cast<std::size_t>(mark)];
+    if (!place || beside_letter(static_cast<std::size_t>(mark), marks.all(), taken)) continue;
     Square square{*place, 0.5 * (place->size.width + place->size.height)};
     square.place.center += cv::Point2f(static_cast<float>(c.left), static_cast<float>(c.top));
     squares.push_back(square);

@@ -17,6 +17,7 @@ constexpr double kWidestGap = 9;  // in bar thicknesses
 constexpr double kBend = 0.25;    // radians between neighbouring dashes: dashed curves bend
 constexpr double kEvenGap = 0.4;
 constexpr std::size_t kFewestDashes = 4;
+constexpr double kLargestShare = 0.6;  // of the length of all dashes of a line
 
 struct Bar {
   std::size_t mark = 0;
@@ -87,6 +88,13 @@ bool even(std::vector<double> gaps) {
   return static_cast<double>(like) >= 0.7 * static_cast<double>(gaps.size());
 }
 
+/// A bar longer than all others together is a line that happens to end where a few dots lie.
+void drop_line(std::vector<std::size_t>& members, const std::vector<Bar>& bars) {
+  double all = 0;
+  for (const std::size_t i : members) all += bars[i].axis.length_px();
+  std::erase_if(members, [&](std::size_t i) { return bars[i].axis.length_px() > kLargestShare * all; });
+}
+
 }  // namespace
 
 std::vector<std::vector<std::size_t>> find_dashed(const Components& marks, double pen_px) {
@@ -110,6 +118,7 @@ std::vector<std::vector<std::size_t>> find_dashed(const Components& marks, doubl
         seen[link.to] = true;
         members.push_back(link.to);
       }
+    drop_line(members, bars);
     if (members.size() < kFewestDashes || !even(gaps)) continue;
     for (std::size_t& member : members) member = bars[member].mark;
     found.push_back(std::move(members));

@@ -15,7 +15,7 @@ namespace madori::mapping {
 namespace {
 
 constexpr double kShortestInPens = 6, kShortest = 10;
-constexpr double kChainTolerance = 1;  // pixels
+constexpr double kBendInPens = 0.6, kBend = 1;  // how far a chain may miss its pixels
 constexpr std::size_t kFewestPixels = 4;
 constexpr double kGapInPens = 2, kGap = 4;
 
@@ -61,7 +61,7 @@ DrawnLines extract_lines(const GrayImage& ink, const Components& marks, double p
   DrawnLines drawn = refine_lines(lines, seeds, {.shortest_px = shortest});
   clock.end(drawn.size());
   clock.begin("chains", 0.75);
-  append_chains(drawn, trace_chains(lines, kChainTolerance, kFewestPixels), shortest);
+  append_chains(drawn, trace_chains(lines, std::max(kBend, kBendInPens * pen_px), kFewestPixels), shortest);
   clock.end(drawn.size());
   clock.begin("merge", 0.8);
   const double gap = options.close_gap_px.value_or(std::max(kGap, kGapInPens * pen_px));

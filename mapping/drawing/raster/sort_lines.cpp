@@ -24,12 +24,12 @@ constexpr double kHeldFromSingle = 1.5;
 constexpr double kSingleBelow = 0.2;  // share of paired length
 constexpr double kHeldFromClean = 6;
 constexpr double kHeldFromCluttered = 25;
-constexpr double kFinePen = 0.72;  // of the wall's pen
 constexpr double kPenFillFactor = 3;
 constexpr double kHeavyStub = 3;
 constexpr double kFinePenFactor = 2.5;
 constexpr double kEndReach = 1.5;
 constexpr double kLonelySolid = 5, kLonelyPen = 20;  // shorter ones need a wall that they continue
+constexpr double kLonelyBold = 15;                   // strokes
 constexpr double kDoorway = 20;                      // a gap that a wall may have
 constexpr double kGoesOnFrom = 5, kGoesOnOff = 0.5;
 constexpr double kGoesOnTurn = 0.05;                          // radians
@@ -121,14 +121,15 @@ class Sorter {
   }
   /// Two pen lines with something between are furniture more often than the two faces of a solid fill are.
   [[nodiscard]] double filled_from(std::size_t i) const {
-    return lines_[i].solid_face || heavy(i) ? filled_from_ : kPenFillFactor * filled_from_;
+    return lines_[i].solid_face || bold(i) || heavy(i) ? filled_from_ : kPenFillFactor * filled_from_;
+  }
+  /// A wall in itself.
+  [[nodiscard]] bool bold(std::size_t i) const {
+    return !lines_[i].solid_face && lines_[i].stroke_px >= style_.bold_px;
   }
   /// Lines thinner than the pen of the walls must be longer: draughtsmen draw furniture with a finer one.
   [[nodiscard]] double thin_pen(std::size_t i) const {
-    return !lines_[i].solid_face &&
-                   lines_[i].stroke_px < std::min(kFinePen * style_.wall_pen_px, style_.wall_pen_px - 1)
-               ? kFinePenFactor
-               : 1;
+    return !lines_[i].solid_face && lines_[i].stroke_px < style_.finer_than_px ? kFinePenFactor : 1;
   }
   /// Drawn with the pen of the walls, where much else is drawn with a finer one.
   [[nodiscard]] bool heavy(std::size_t i) const { return style_.pens_differ && thin_pen(i) == 1; }
@@ -172,7 +173,9 @@ class Sorter {
     std::vector<bool> lonely(lines_.size(), false);
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (!lines_[i].solid_face && heavy(i)) continue;
-      const double shortest = (lines_[i].solid_face ? kLonelySolid : kLonelyPen) * t_;
+      const double shortest = lines_[i].solid_face ? kLonelySolid * t_
+                              : bold(i)            ? kLonelyBold * lines_[i].stroke_px
+                                                   : kLonelyPen * t_;
       lonely[i] = wall_[i] && units_[i].length < shortest && !goes_on(i);
     }
     for (std::size_t i = 0; i < lines_.size(); ++i) wall_[i] = wall_[i] && !lonely[i];

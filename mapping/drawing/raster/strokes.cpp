@@ -11,9 +11,12 @@ namespace {
 
 constexpr int kLongestRun = 64;
 constexpr double kLeastSolid = 4, kMostSolid = 8;  // pixels
-constexpr double kLeastPens = 2, kMostPens = 4;
-constexpr int kColumnStep = 19;  // a sample of the columns is enough
-constexpr int kBand = 128;       // rows that the cache holds at a time
+constexpr double kLeastPens = 1.5, kMostPens = 4;
+constexpr double kPeak = 2.5;            // times the emptiest thickness below it
+constexpr double kPeakShare = 0.2;       // of the pen's peak
+constexpr double kFinerPenShare = 0.25;  // of the commonest run length
+constexpr int kColumnStep = 19;          // a sample of the columns is enough
+constexpr int kBand = 128;               // rows that the cache holds at a time
 
 /// Ink down a column: its length and the row after it.
 struct Stretch {
@@ -64,19 +67,29 @@ RunLengths run_lengths(const GrayImage& ink, const Components& marks) {
 }
 
 double pen_width_px(const RunLengths& runs) {
-  const auto peak = std::max_element(runs.begin() + 1, runs.end() - 1);
-  const double around = peak[-1] + peak[0] + peak[1];
-  if (around <= 0) return 1;
-  const auto at = static_cast<double>(peak - runs.begin());
-  return at + (peak[1] - peak[-1]) / around;
+  const auto around = [&](std::size_t i) { return runs[i - 1] + runs[i] + runs[i + 1]; };
+  std::size_t commonest = 1;
+  for (std::size_t i = 1; i + 1 < runs.size(); ++i)
+    if (runs[i] > runs[commonest]) commonest = i;
+  std::size_t pen = commonest;  // or a finer one: solid walls may outweigh all that is drawn with the pen
+  for (std::size_t i = commonest; i-- > 1;)
+    if (runs[i] > runs[i - 1] && runs[i] > runs[i + 1] && runs[i] >= kFinerPenShare * runs[commonest])
+      pen = i;
+  if (around(pen) <= 0) return 1;
+  return static_cast<double>(pen) + (runs[pen + 1] - runs[pen - 1]) / around(pen);
 }
 
 double solid_from_px(const RunLengths& runs, double pen_px) {
+  const auto around = [&](std::size_t i) { return runs[i - 1] + runs[i]; };
   const auto first = static_cast<std::size_t>(std::ceil(std::max(kLeastSolid, kLeastPens * pen_px)));
   const auto last = static_cast<std::size_t>(std::max(kMostSolid, kMostPens * pen_px));
+  double pen = 0;
+  for (std::size_t i = 1; i < first; ++i) pen = std::max(pen, around(i));
   std::size_t best = first;
-  for (std::size_t i = first; i <= std::min(last, runs.size() - 2); ++i)
-    if (runs[i - 1] + runs[i] < 0.9 * (runs[best - 1] + runs[best])) best = i;
+  for (std::size_t i = first; i <= std::min(last, runs.size() - 2); ++i) {
+    if (around(i) > kPeak * around(best) && around(i) > kPeakShare * pen) break;  // thin walls begin here
+    if (around(i) < 0.9 * around(best)) best = i;
+  }
   return static_cast<double>(best);
 }
 

@@ -12,7 +12,7 @@ namespace madori::mapping {
 using RunLengths = std::vector<double>;
 [[nodiscard]] RunLengths run_lengths(const GrayImage& ink, const Components& marks);
 
-/// The width of the thin pen: the commonest run length, pixels.
+/// The width of the thin pen, pixels: the finest run length that stands out among the common ones.
 [[nodiscard]] double pen_width_px(const RunLengths& runs);
 
 /// The thickness from which a stroke counts as solid: the emptiest place of the run lengths between the pen

@@ -13,6 +13,8 @@ constexpr double kSidePeak =
 constexpr double kFilledOnly = 0.9;  // a drawing that fills its walls draws furniture with empty lines
 constexpr double kWidest = 2.5;      // common wall thicknesses
 constexpr double kPensDiffer = 0.12;
+constexpr double kFinerPen = 0.72;  // pens of a drawing differ by the factor 2 (ISO 128-20); the rest is for
+constexpr double kGrid = 0.5;       // what the pixel grid adds, pixels
 constexpr double kNarrowest = 2.5;
 constexpr double kOwnWall = 0.5;      // of a line's length
 using Lengths = std::vector<double>;  // of strips, by rounded width
@@ -92,7 +94,7 @@ double fine_share(const DrawnLines& lines, const WallStyle& style, double pen_px
   for (const DrawnLine& line : lines) {
     if (line.solid_face || line.length_px() < 10 * pen_px) continue;
     all += line.length_px();
-    if (line.stroke_px <= style.finer_than_px()) fine += line.length_px();
+    if (line.stroke_px <= style.finer_than_px) fine += line.length_px();
   }
   return all > 0 ? fine / all : 0;
 }
@@ -130,6 +132,7 @@ WallStyle measure_style(const DrawnLines& lines, const std::vector<Strip>& strip
   const double fill = total(raw_filled, 4 * style.thickness_px) + bold;
   style.filled_share = fill / std::max(1.0, fill + total(raw_empty, 2 * style.thickness_px));
   style.wall_pen_px = wall_pen(lines, strips, style, pen_px);
+  style.finer_than_px = std::min(kFinerPen * style.wall_pen_px, style.wall_pen_px - kGrid);
   style.pens_differ = fine_share(lines, style, pen_px) > kPensDiffer;
   const double last_filled = std::min(last_above(filled, kSidePeak * most), kWidest * style.thickness_px),
                last_empty = std::min(last_above(empty, kSidePeak * most), kWidest * style.thickness_px);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "mapping/drawing/raster/drawn_line.hpp"
@@ -17,11 +16,8 @@ struct WallStyle {
   double bold_px = 0;           ///< a pen stroke at least this thick is a wall in itself
   double wall_pen_px = 0;       ///< stroke that the faces of its walls are drawn with
   bool pens_differ = false;     ///< much is drawn with a clearly finer pen than the walls
+  double finer_than_px = 0;     ///< a stroke up to this width is drawn with another, finer pen than the walls
   double filled_share = 0;      ///< of the length of all wall-like strips: how much is filled or bold
-
-  /// A stroke up to this width is drawn with another, finer pen than the walls. Pens of a drawing differ by
-  /// the factor 2 (ISO 128-20); the rest is for what the pixel grid adds.
-  [[nodiscard]] double finer_than_px() const { return std::min(0.62 * wall_pen_px, wall_pen_px - 1); }
 };
 
 /// The peaks of the strip widths weighted by length. With no strips, 4 pens.

@@ -17,8 +17,9 @@ constexpr std::size_t kSampleStep = 31;  // every so many pixels tell the ground
 constexpr std::size_t kInkShare = 100;   // one pixel in so many is a line at least
 constexpr std::size_t kGroundShare = 3;  // lines and fills cover less than a third
 constexpr int kLeastContrast = 40;       // grey levels between the ground and the lines
-constexpr double kCoarsePen = 4.5;
+constexpr double kCoarsePen = 4.5, kFinePen = 1.42;
 constexpr double kGoodPen = 2.5;
+constexpr double kMostToEnlarge = 6e6;                     // pixels
 constexpr double kWidestPen = 6, kWidestPenShare = 0.002;  // thicker strokes are fills, whatever is commonest
 
 /// Dark lines on bright paper; nothing where they are that already.
@@ -46,7 +47,8 @@ double widest_pen_px(const GrayImage& image) {
 /// By how much to resize a drawing with this pen; 1 = leave it, also where it has fills instead of a pen.
 double working_factor(const GrayImage& image, double pen_px) {
   if (pen_px > kCoarsePen && pen_px < widest_pen_px(image)) return 1 / std::round(pen_px / kGoodPen);
-  return 1;
+  const bool small = static_cast<double>(image.width_px) * image.height_px <= kMostToEnlarge;
+  return pen_px < kFinePen && small ? 2 : 1;
 }
 
 GrayImage resized(const GrayImage& image, double factor) {
@@ -56,12 +58,11 @@ GrayImage resized(const GrayImage& image, double factor) {
   GrayImage out{scaled(image.width_px), scaled(image.height_px), {}, image.dpi * factor};
   out.pixels.resize(static_cast<std::size_t>(out.width_px) * static_cast<std::size_t>(out.height_px));
   cv::Mat picture = cv_view(out);
-  cv::resize(cv_view(image), picture, picture.size(), 0, 0, cv::INTER_AREA);
+  cv::resize(cv_view(image), picture, picture.size(), 0, 0, factor < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
   return out;
 }
 
-WorkingInk inked(const GrayImage& image, std::optional<double> threshold, double factor) {
-  Binarized binary = binarize(image, threshold);
+WorkingInk inked(const GrayImage& image, Binarized binary, double factor) {
   Components marks(binary.ink);
   const double pen_px = std::min(pen_width_px(run_lengths(binary.ink, marks)), widest_pen_px(image));
   return {std::move(binary.ink), std::move(marks), pen_px, factor, binary.threshold};
@@ -72,9 +73,13 @@ WorkingInk inked(const GrayImage& image, std::optional<double> threshold, double
 WorkingInk working_ink(const GrayImage& drawing, std::optional<double> threshold) {
   const auto turned = dark_on_bright(drawing);
   const GrayImage& picture = turned ? *turned : drawing;
-  WorkingInk working = inked(picture, threshold, 1);
+  WorkingInk working = inked(picture, binarize(picture, threshold), 1);
   const double factor = working_factor(picture, working.pen_px);
-  return factor == 1 ? working : inked(resized(picture, factor), threshold, factor);
+  if (factor == 1) return working;
+  const GrayImage other = resized(picture, factor);
+  const bool enlarged = factor > 1 && !threshold;
+  return inked(other, enlarged ? binarize_enlarged(other, working.threshold) : binarize(other, threshold),
+               factor);
 }
 
 DetectionOptions resized(DetectionOptions options, double factor) {
