@@ -18,16 +18,19 @@ struct CalibrationKeyframe {
 
 struct CalibrationOptions {
   double piece_sigma_m = 0.02;  ///< of a piece's distance from its wall
-  double first_scale_m = 0.5;   ///< of the robust loss on a piece, narrowed round by round to
+  double first_scale_m = 0.5;   ///< of the robust loss on a piece, while each scan is fitted alone,
+  double joint_scale_m = 0.15;  ///< when all are fitted together, narrowed round by round to
   double last_scale_m = 0.06;   ///< this
-  double wall_prior_m = 0.15;   ///< first guess of how far walls are misdrawn, each by itself
+  double wall_first_m = 0.03;   ///< first guess of how far walls are misdrawn, each by itself
+  double wall_most_m = 0.15;    ///< that this may grow to
   double wall_least_m = 0.005;  ///< no drawing is taken to be better
   double beside_m = 1.3;        ///< a wall farther beside than this is not the one drawn
-  double parallel_cosine = 0.97;
   int rounds = 30;
-  /// Strains, the same along x and y, from which it is tried: from one alone it may end where walls a little
-  /// beside each other are taken for one another.
-  std::vector<double> starts{0.0, -0.02, -0.01, 0.01, 0.02};
+  double most_strain = 0.025;  ///< of x and of y, among those tried
+  double strain_step = 0.005;
+  int most_starts = 3;          ///< strains that suit best, from which it is refined
+  double other_strain = 0.003;  ///< results farther apart speak of different sizes of the building
+  double rival_share = 0.95;    ///< of the surface explained, with which another size is as good
 };
 
 /// How the drawing is stretched against the building: drawn = (I + strain) * true, after a rigid motion, with
@@ -40,7 +43,7 @@ struct SelfCalibration {
   int displaced = 0;          ///< of these, walls that were left out as drawn elsewhere
   int keyframes = 0;
   int pieces = 0;
-  bool converged = false;
+  bool converged = false;  ///< and no other strain suits about as well
 
   /// The same scale along x and y and no shear, as well as these figures know it.
   [[nodiscard]] double uniform() const;
@@ -52,11 +55,11 @@ struct SelfCalibration {
 
 /// Strain of the drawing, jointly with the pose of every keyframe and with how far each wall is misdrawn, by
 /// robust least squares (Gauss-Newton, graduated Geman-McClure; a wall's own error is a random effect whose
-/// spread is estimated too), from several starts: the one whose
-/// drawing explains the greatest length of surfaces counts. The lidar's metre is the truth: without `motions`
-/// only what one scan saw at once tells lengths. `motions` between keyframes (measured by scan matching) tie
-/// them together, so that lengths that no single scan sees are told as well. An unknown direction keeps the
-/// prior of 5 %.
+/// spread is estimated too). Strains are searched first, since from a wrong one walls a little beside each
+/// other are taken for one another; of those that suit, the one whose drawing explains the greatest length of
+/// surfaces counts. The lidar's metre is the truth: without `motions` only what one scan saw at once tells
+/// lengths. `motions` between keyframes (measured by scan matching) tie them together, so that lengths that
+/// no single scan sees are told as well. An unknown direction keeps the prior of 5 %.
 [[nodiscard]] SelfCalibration self_calibrate(const WallIndex& drawing,
                                              const std::vector<CalibrationKeyframe>& keyframes,
                                              const std::vector<RelativeFactor>& motions = {},

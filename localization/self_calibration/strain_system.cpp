@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/self_calibration/strain_search.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -34,11 +36,6 @@ MotionRow motion_row(const RelativeFactor& f, const Transform2<Map, Base>& from,
   row.by_from << -c, -s, -s * dx + c * dy, s, -c, -c * dx - s * dy, 0.0, 0.0, -1.0;
   row.by_to << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
   return row;
-}
-
-double geman_mcclure(double residual, double scale) {
-  const double ratio = scale * scale / (scale * scale + residual * residual);
-  return ratio * ratio;
 }
 
 void add_block(Triplets& triplets, int row, int column, const Eigen::Matrix3d& block) {
@@ -126,21 +123,16 @@ Step step_of(const Equations& eq) {
 
 StrainSystem::StrainSystem(const WallIndex& drawing, const std::vector<CalibrationKeyframe>& keyframes,
                            const std::vector<RelativeFactor>& motions, const CalibrationOptions& options,
-                           double too_large)
+                           const Eigen::Vector3d& start)
     : drawing_(drawing),
       keyframes_(keyframes),
       motions_(motions),
       options_(options),
+      strained_{middle_of(keyframes), start},
       position_(drawing.walls().size(), -1) {
-  for (const CalibrationKeyframe& k : keyframes) {
-    poses_.push_back(k.map_from_base);
-    middle_.x_m += k.map_from_base.x_m() / static_cast<double>(keyframes.size());
-    middle_.y_m += k.map_from_base.y_m() / static_cast<double>(keyframes.size());
-  }
-  strain_ = {too_large, too_large, 0.0};
-  for (Transform2<Map, Base>& pose : poses_)
-    pose = {middle_.x_m + (pose.x_m() - middle_.x_m) / (1.0 + too_large),
-            middle_.y_m + (pose.y_m() - middle_.y_m) / (1.0 + too_large), pose.yaw_rad()};
+  for (const CalibrationKeyframe& k : keyframes)
+    poses_.push_back(
+        fit_keyframe(drawing, strained_, unstrained(k.map_from_base, strained_), k.pieces, options));
   first_poses_ = poses_;
 }
 
@@ -152,12 +144,6 @@ double StrainSystem::explained_m(double scale_m) {
         explained += piece.length_m *
                      geman_mcclure(row->residual_m + offsets_[static_cast<std::size_t>(row->wall)], scale_m);
   return explained;
-}
-
-Point2<Map> StrainSystem::drawn(const Point2<Map>& p) const {
-  const double x = p.x_m - middle_.x_m;
-  const double y = p.y_m - middle_.y_m;
-  return {p.x_m + strain_[0] * x + 0.5 * strain_[2] * y, p.y_m + strain_[1] * y + 0.5 * strain_[2] * x};
 }
 
 int StrainSystem::seen_wall(int wall) {
@@ -183,24 +169,10 @@ std::vector<StrainRow> StrainSystem::associate(double scale_m) {
 }
 
 std::optional<StrainRow> StrainSystem::row_of(const Transform2<Map, Base>& pose, const SurfacePiece& piece) {
-  constexpr double kBeyondM = 0.3;
-  const Point2<Map> p = pose * piece.centre;
-  const double nx = pose.cos_yaw() * piece.normal_x - pose.sin_yaw() * piece.normal_y;
-  const double ny = pose.sin_yaw() * piece.normal_x + pose.cos_yaw() * piece.normal_y;
-  const Point2<Map> q = drawn(p);
-  const auto hit = drawing_.nearest(q.x_m, q.y_m, WallIndex::direction_of(nx, ny));
-  if (hit.wall < 0 || hit.beyond_m > kBeyondM || std::abs(hit.distance_m) > options_.beside_m ||
-      std::abs(nx * hit.normal_x + ny * hit.normal_y) < options_.parallel_cosine)
-    return std::nullopt;
-  StrainRow row;
-  row.wall = seen_wall(hit.wall);
-  row.residual_m = hit.distance_m - offsets_[static_cast<std::size_t>(row.wall)];
-  const double mx = (1.0 + strain_[0]) * hit.normal_x + 0.5 * strain_[2] * hit.normal_y;
-  const double my = (1.0 + strain_[1]) * hit.normal_y + 0.5 * strain_[2] * hit.normal_x;
-  row.by_pose = {mx, my, -mx * (p.y_m - pose.y_m()) + my * (p.x_m - pose.x_m())};
-  const double x = p.x_m - middle_.x_m;
-  const double y = p.y_m - middle_.y_m;
-  row.by_strain = {hit.normal_x * x, hit.normal_y * y, 0.5 * (hit.normal_x * y + hit.normal_y * x)};
+  auto row = strain_row(drawing_, strained_, pose, piece, options_.beside_m);
+  if (!row) return row;
+  row->wall = seen_wall(row->wall);
+  row->residual_m -= offsets_[static_cast<std::size_t>(row->wall)];
   return row;
 }
 
@@ -210,7 +182,7 @@ void StrainSystem::take(const Eigen::VectorXd& pose_step, const Eigen::VectorXd&
     poses_[k] = {poses_[k].x_m() + pose_step[at], poses_[k].y_m() + pose_step[at + 1],
                  poses_[k].yaw_rad() + pose_step[at + 2]};
   }
-  strain_ += rest_step.head<3>();
+  strained_.strain += rest_step.head<3>();
   for (std::size_t w = 0; w < offsets_.size(); ++w)
     offsets_[w] += rest_step[static_cast<Eigen::Index>(3 + w)];
 }
@@ -235,7 +207,7 @@ StrainSolution StrainSystem::solve(double scale_m, double wall_sigma_m) {
                                             wrap_angle(poses_[k].yaw_rad() - first.yaw_rad())});
   }
   eq.rest.topLeftCorner<3, 3>().diagonal().array() += 1.0 / (kStrainPrior * kStrainPrior);
-  eq.rest_side.head<3>() -= strain_ / (kStrainPrior * kStrainPrior);
+  eq.rest_side.head<3>() -= strained_.strain / (kStrainPrior * kStrainPrior);
   for (std::size_t w = 0; w < offsets_.size(); ++w) {
     const auto at = static_cast<Eigen::Index>(3 + w);
     const double weight =

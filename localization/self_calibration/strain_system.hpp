@@ -5,21 +5,12 @@
 #include <vector>
 
 #include "localization/self_calibration/self_calibration.hpp"
+#include "localization/self_calibration/strain_row.hpp"
 
 namespace madori::localization {
 
 /// Sigmas of misdrawing beyond which a wall counts less and less (Geman-McClure).
 inline constexpr double kWallLossSigmas = 2.5;
-
-/// A piece on a wall: residual, and its slopes in the keyframe's pose and the strain.
-struct StrainRow {
-  int keyframe = 0;
-  int wall = 0;  ///< position among the walls seen
-  double residual_m = 0.0;
-  double weight = 0.0;  ///< robust, 1 / m^2
-  Eigen::Vector3d by_pose = Eigen::Vector3d::Zero();
-  Eigen::Vector3d by_strain = Eigen::Vector3d::Zero();
-};
 
 /// What one Gauss-Newton step found.
 struct StrainSolution {
@@ -36,20 +27,19 @@ struct StrainSolution {
 /// eliminated (Schur complement), sparse.
 class StrainSystem {
  public:
-  /// Begins with the drawing taken to be `too_large` times the building, less one.
+  /// Begins with the drawing strained by `start`, each scan where it fits best then.
   StrainSystem(const WallIndex& drawing, const std::vector<CalibrationKeyframe>& keyframes,
                const std::vector<RelativeFactor>& motions, const CalibrationOptions& options,
-               double too_large = 0.0);
+               const Eigen::Vector3d& start);
 
   /// Associates pieces with walls, takes one step. `scale_m` is of the robust loss, `wall_sigma_m` the spread
   /// of the walls' own errors.
   StrainSolution solve(double scale_m, double wall_sigma_m);
-  [[nodiscard]] const Eigen::Vector3d& strain() const { return strain_; }
+  [[nodiscard]] const Eigen::Vector3d& strain() const { return strained_.strain; }
   /// Metres of surface that lie on the stretched drawing itself, no wall moved.
   [[nodiscard]] double explained_m(double scale_m);
 
  private:
-  [[nodiscard]] Point2<Map> drawn(const Point2<Map>& true_place) const;
   std::vector<StrainRow> associate(double scale_m);
   std::optional<StrainRow> row_of(const Transform2<Map, Base>& pose, const SurfacePiece& piece);
   int seen_wall(int wall);
@@ -59,10 +49,9 @@ class StrainSystem {
   const std::vector<CalibrationKeyframe>& keyframes_;
   const std::vector<RelativeFactor>& motions_;
   CalibrationOptions options_;
-  Point2<Map> middle_;
+  StrainAbout strained_;
   std::vector<Transform2<Map, Base>> poses_;
   std::vector<Transform2<Map, Base>> first_poses_;
-  Eigen::Vector3d strain_ = Eigen::Vector3d::Zero();
   std::vector<int> position_;    ///< of a wall among those seen, -1
   std::vector<double> offsets_;  ///< of the walls seen, metres
 };

@@ -88,8 +88,9 @@ PoseEstimate WallTracker::on_odometry(const OdometryReading& reading) {
   return estimate(reading.stamp);
 }
 
-PoseEstimate WallTracker::on_scan(Stamp stamp, const ScanPoints& points) {
+PoseEstimate WallTracker::on_scan(Stamp stamp, const ScanPoints& seen) {
   if (stamp < anchor_stamp_ && !given_) return estimate(stamp);
+  const ScanPoints points = scale_.applied(seen);
   const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
   const Eigen::Matrix3d grown = carried(covariance_, anchor_, step);
   if (stamp - anchor_stamp_ > RecentView::kRecent) {
@@ -106,6 +107,7 @@ PoseEstimate WallTracker::on_scan(Stamp stamp, const ScanPoints& points) {
     track(points, step);
   else
     search(points, step.motion);
+  if (tracking_) learn_scale(seen, step);
   anchor_stamp_ = stamp;
   since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
   return {stamp, anchor_, covariance_, health_};
@@ -128,6 +130,7 @@ void WallTracker::search_anew() {
 
 void WallTracker::lose(const std::string& reason, std::optional<GlobalAnswer> answer) {
   tracking_ = false;
+  scale_.lose();
   given_.reset();
   answer_ = std::move(answer);
   agreeing_ = misses_ = rivals_ = calm_ = settled_ = 0;
@@ -162,6 +165,7 @@ void WallTracker::start_at(const RegistrationResult& fit) {
   anchor_ = fit.map_from_base;
   covariance_ = fit.covariance + Eigen::Matrix3d(Eigen::Vector3d(1e-3, 1e-3, 1e-4).asDiagonal());
   tracking_ = true;
+  scale_.start_at(anchor_);
   misses_ = agreeing_ = rivals_ = calm_ = settled_ = 0;
   unbroken_ = true;
   usual_explained_ = fit.inlier_fraction;
@@ -245,6 +249,17 @@ bool WallTracker::is_contradicted(const ScanPoints& points, const RegistrationRe
   lose(reason::kMovedByHand.english, std::move(all));
   anchor_ = fit.map_from_base;
   return true;
+}
+
+/// Where the building proves to be of another size than drawn, the vehicle is where the tracker of that size
+/// has it.
+void WallTracker::learn_scale(const ScanPoints& seen, const OdometryStep& step) {
+  constexpr double kSigmaM = 0.05;
+  constexpr double kSigmaRad = 0.01;
+  if (!scale_.observe(seen, global_.grid(), step.motion)) return;
+  anchor_ = scale_.best_pose();
+  covariance_ = Eigen::Vector3d(kSigmaM * kSigmaM, kSigmaM * kSigmaM, kSigmaRad * kSigmaRad).asDiagonal();
+  last_fit_.reset();
 }
 
 void WallTracker::correct(const RegistrationResult& fit, const OdometryStep& step) {

@@ -11,6 +11,7 @@
 #include "localization/global/global_localizer.hpp"
 #include "localization/motion_model/odometry_track.hpp"
 #include "localization/wall_tracker/recent_view.hpp"
+#include "localization/wall_tracker/scale_bank.hpp"
 #include "mapping/wall_map/wall.hpp"
 
 namespace madori::localization {
@@ -81,7 +82,7 @@ class WallTracker {
   /// The pose at the reading; a reading older than its forerunner is answered but not used.
   PoseEstimate on_odometry(const OdometryReading& reading);
   /// The pose at the scan: points on walls, Base frame at `stamp`.
-  PoseEstimate on_scan(Stamp stamp, const ScanPoints& points);
+  PoseEstimate on_scan(Stamp stamp, const ScanPoints& seen);
   /// A person says that the vehicle stands about there at the newest reading of the wheels; checked by the
   /// next scan.
   void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma);
@@ -92,6 +93,7 @@ class WallTracker {
   [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const;
   [[nodiscard]] const TrackerEvidence& evidence() const { return evidence_; }
   [[nodiscard]] const OdometryModel& odometry_model() const { return model_; }
+  [[nodiscard]] const ScaleBank& scale() const { return scale_; }
 
  private:
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
@@ -105,6 +107,7 @@ class WallTracker {
   [[nodiscard]] bool is_contradicted(const ScanPoints& points, const RegistrationResult& fit,
                                      bool has_changed);
   void correct(const RegistrationResult& fit, const OdometryStep& step);
+  void learn_scale(const ScanPoints& seen, const OdometryStep& step);
   void miss(const std::string& reason, bool loses);
   [[nodiscard]] bool wheels_still_do() const;
   void lose(const std::string& reason, std::optional<GlobalAnswer> answer);
@@ -112,6 +115,7 @@ class WallTracker {
   WallTrackerOptions options_;
   GlobalLocalizer global_;
   OdometryModel model_;
+  ScaleBank scale_;
   OdometryTrack track_;
   std::optional<GlobalAnswer> answer_;  ///< of the search under way
   std::optional<PoseSigma> given_;      ///< anchor_ is what a person said, not yet checked

@@ -20,6 +20,7 @@ using Pose = Transform2<Map, Base>;
 struct Arguments {
   std::string data = MADORI_DATA_DIR;
   int runs = 20;
+  int first = 0;
   double metres = 500.0;
   double hidden_percent = 30.0;
   double clutter_m = 1.8;
@@ -83,7 +84,7 @@ bool drive(test::LocalizationTrial& trial, double metres) {
 int accuracy(const Arguments& a) {
   test::TrialFigures all;
   const auto begin = Clock::now();
-  for (int run = 0; run < a.runs; ++run) {
+  for (int run = a.first; run < a.first + a.runs; ++run) {
     const auto setup = setup_of(a, run);
     const auto began = Clock::now();
     test::LocalizationTrial trial(setup, a.seed + static_cast<unsigned>(run));
@@ -123,7 +124,7 @@ int calibrated(const Arguments& a) {
   test::TrialFigures before, after;
   int uncalibrated = 0;
   const auto begin = Clock::now();
-  for (int run = 0; run < a.runs; ++run) {
+  for (int run = a.first; run < a.first + a.runs; ++run) {
     auto setup = setup_of(a, run);
     const auto began = Clock::now();
     test::LocalizationTrial learning(setup, a.seed + static_cast<unsigned>(run));
@@ -200,6 +201,7 @@ int main(int argc, char** argv) {
   CLI::App* calibrated =
       app.add_subcommand("calibrate", "errors before and after the drawing's scale was measured by driving");
   calibrated->add_option("--runs", arguments.runs, "each on another day");
+  calibrated->add_option("--first", arguments.first, "day to begin with");
   calibrated->add_option("--learn-metres", arguments.learn_metres, "on the drawing as it is");
   calibrated->add_option("--metres", arguments.metres, "on the calibrated one");
   CLI::App* kidnap = app.add_subcommand("kidnap", "time until a carried-off vehicle is LOST");
