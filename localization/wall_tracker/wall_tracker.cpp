@@ -96,6 +96,7 @@ PoseEstimate WallTracker::on_scan(Stamp stamp, const ScanPoints& seen) {
   if (stamp - anchor_stamp_ > RecentView::kRecent) {
     unbroken_ = false;
     settled_ = 0;
+    settled_m_ = 0.0;
   }
   evidence_ = {};
   view_.take(stamp, points);
@@ -134,6 +135,7 @@ void WallTracker::lose(const std::string& reason, std::optional<GlobalAnswer> an
   given_.reset();
   answer_ = std::move(answer);
   agreeing_ = misses_ = rivals_ = calm_ = settled_ = 0;
+  settled_m_ = 0.0;
   covariance_ = Eigen::Matrix3d::Identity() * 1e4;
   health_ = {LocalizationState::Lost, reason};
 }
@@ -167,6 +169,7 @@ void WallTracker::start_at(const RegistrationResult& fit) {
   tracking_ = true;
   scale_.start_at(anchor_);
   misses_ = agreeing_ = rivals_ = calm_ = settled_ = 0;
+  settled_m_ = 0.0;
   unbroken_ = true;
   usual_explained_ = fit.inlier_fraction;
   usual_through_ = 0.0;
@@ -194,7 +197,9 @@ void WallTracker::track(const ScanPoints& points, const OdometryStep& step) {
   if (fall > options_.carried_fall) return lose(reason::kOtherSurroundings.english, std::nullopt);
   const bool has_changed = fall > std::max(options_.changed_fall, options_.changed_spreads * view_.spread());
   calm_ = std::max(0, calm_ - 1);
-  if (has_changed || ((is_doubtful() || far_off) && calm_ == 0)) {
+  since_rival_m_ += std::hypot(step.motion.x_m(), step.motion.y_m());
+  const bool looks = calm_ == 0 && (!is_settled() || since_rival_m_ >= options_.settled_every_m);
+  if (has_changed || ((is_doubtful() || far_off) && looks)) {
     if (is_contradicted(points, fit, has_changed)) return;
   }
   if (fit.inlier_fraction < options_.sure_inliers)
@@ -224,6 +229,10 @@ bool WallTracker::is_doubtful() const {
          evidence_.nearby_nats > options_.doubt_nats;
 }
 
+bool WallTracker::is_settled() const {
+  return settled_ >= options_.scans_to_settle && settled_m_ >= options_.metres_to_settle;
+}
+
 /// Looks at all places. True where the vehicle is lost by it: another place suits the scan clearly better
 /// than the tracked one, for the second time; or it suits it about as well, and what is seen has just changed
 /// as it would if the vehicle had been carried there.
@@ -232,8 +241,9 @@ bool WallTracker::is_contradicted(const ScanPoints& points, const RegistrationRe
   GlobalAnswer here;
   here.hypotheses.push_back({fit, 0.0, 0.0, 1.0});
   GlobalAnswer all = global_.locate(points, here, {});
+  since_rival_m_ = 0.0;
   if (has_changed) settled_ = 0;
-  const bool settled = settled_ >= options_.scans_to_settle;
+  const bool settled = is_settled();
   const double enough = settled ? options_.settled_nats : options_.rival_nats;
   const double lead = lead_of_elsewhere(all, fit.map_from_base, enough);
   if (has_changed && lead > -options_.twin_nats) {
@@ -286,7 +296,8 @@ void WallTracker::correct(const RegistrationResult& fit, const OdometryStep& ste
   misses_ = 0;
   unbroken_ = true;
   ++settled_;
-  if (!evidence_.looked_elsewhere) rivals_ = 0;
+  settled_m_ += std::hypot(step.motion.x_m(), step.motion.y_m());
+  if (!is_doubtful()) rivals_ = 0;
   health_ = {LocalizationState::Localized, ""};
 }
 

@@ -45,11 +45,14 @@ struct WallTrackerOptions {
   double doubt_nats = 4.0;      ///< by which a pose within 2 m may fit better before: likewise
   double rival_nats = 5.0;      ///< by which another place must fit better to contradict the pose
   int rivals_to_lose = 2;       ///< contradictions in a row
-  /// After so many scans that fitted, with no sign that the vehicle was carried, more is needed: among racks
-  /// another place may fit by chance as long as the vehicle stands there.
+  /// After so many scans and metres that fitted, with no sign that the vehicle was carried, it is where it is
+  /// said to be: among racks another place may fit by chance, as long as the vehicle stands there. More is
+  /// needed then, from that many places so far apart.
   int scans_to_settle = 50;
+  double metres_to_settle = 2.0;
   double settled_nats = 15.0;
   int settled_rivals = 10;
+  double settled_every_m = 0.3;
   int calm_scans = 2;  ///< after the other places were looked at in vain
   /// What two scans in a row both see falls by so much below the usual where the later one was taken
   /// elsewhere: neither driving nor what moves about changes a quarter of the walls in a tenth of a second.
@@ -104,6 +107,7 @@ class WallTracker {
   [[nodiscard]] double fall_of_view(const Transform2<Base, Base>& by_wheels,
                                     const Transform2<Base, Base>& by_walls);
   [[nodiscard]] bool is_doubtful() const;
+  [[nodiscard]] bool is_settled() const;
   [[nodiscard]] bool is_contradicted(const ScanPoints& points, const RegistrationResult& fit,
                                      bool has_changed);
   void correct(const RegistrationResult& fit, const OdometryStep& step);
@@ -124,7 +128,9 @@ class WallTracker {
   int misses_ = 0;
   bool unbroken_ = false;  ///< scan followed upon scan since the last that fitted
   int rivals_ = 0;
-  int settled_ = 0;  ///< scans that fitted since the vehicle may last have been carried
+  int settled_ = 0;             ///< scans that fitted since the vehicle may last have been carried,
+  double settled_m_ = 0.0;      ///< and metres driven with them
+  double since_rival_m_ = 0.0;  ///< metres driven since other places were last looked at
   int calm_ = 0;
   double usual_explained_ = 0.0;
   double usual_through_ = 0.0;
