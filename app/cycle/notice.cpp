@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/fill_in.hpp"
+
 namespace madori::app {
 namespace {
 
@@ -10,12 +12,7 @@ static_assert(kCauses.size() == static_cast<std::size_t>(Cause::HeldBack) + 1);
 static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::LookAndResume) + 1);
 
 Notice filled(const CatalogueEntry& entry, std::map<std::string, std::string> values) {
-  std::string text = entry.english;
-  for (const auto& [name, value] : values) {
-    const std::string placeholder = "{" + name + "}";
-    if (const auto at = text.find(placeholder); at != std::string::npos)
-      text.replace(at, placeholder.size(), value);
-  }
+  std::string text = fill_in(entry.english, values);
   return {entry.code, std::move(values), std::move(text)};
 }
 

@@ -3,6 +3,8 @@
 #include <exception>
 #include <utility>
 
+#include "hmi/server/thread_priority.hpp"
+
 namespace madori::app {
 
 BackgroundJobs::BackgroundJobs() : thread_([this] { run(); }) {}
@@ -35,6 +37,7 @@ std::string BackgroundJobs::problem() const {
 }
 
 void BackgroundJobs::run() {
+  (void)hmi::run_behind_the_cycle();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stop_ || !waiting_.empty(); });

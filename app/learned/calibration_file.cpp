@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/covariance_yaml.hpp"
 #include "core/angle.hpp"
 #include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -20,6 +21,8 @@ constexpr double kWorthKeeping = 0.01;
 constexpr double kCertainEnough = 0.003;
 constexpr double kSignificantStretch = 9.2;  // chi-squared of 2 degrees of freedom at 1 %
 
+constexpr CovarianceKeys kCovariance{"xx", "xy", "xs", "yy", "ys", "ss"};
+
 double sigma(const SelfCalibration& c, int i) {
   return std::sqrt(c.covariance(i, i));
 }
@@ -33,13 +36,7 @@ SelfCalibration read(const std::filesystem::path& file, const mapping::Walls& wa
   SelfCalibration c;
   constexpr std::array kStrain{"strain_x", "strain_y", "shear_rad"};
   for (int i = 0; i < 3; ++i) c.strain[i] = yaml.number(kStrain[static_cast<std::size_t>(i)], -0.5, 0.5);
-  constexpr std::array kCovariance{"xx", "xy", "xs", "yy", "ys", "ss"};
-  auto covariance = yaml.section("covariance");
-  std::size_t at = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j)
-      c.covariance(i, j) = c.covariance(j, i) = covariance.number(kCovariance[at++], -1.0, 1.0);
-  covariance.refuse_unknown_keys();
+  c.covariance = read_covariance(yaml, kCovariance, 1.0);
   c.wall_sigma_m = yaml.number("wall_sigma_m", 0.0, 10.0);
   c.walls = yaml.integer("walls", 0, 1'000'000);
   c.displaced = yaml.integer("displaced", 0, 1'000'000);
@@ -57,10 +54,7 @@ std::string calibration_yaml(const SelfCalibration& c, const mapping::Walls& wal
       "# How the drawing is stretched, as measured while driving: drawn = (1 + strain) * true.\n";
   text += fmt::format("strain_x: {:.9f}\nstrain_y: {:.9f}\nshear_rad: {:.9f}\n", c.strain[0], c.strain[1],
                       c.strain[2]);
-  text +=
-      fmt::format("covariance: {{xx: {:.9e}, xy: {:.9e}, xs: {:.9e}, yy: {:.9e}, ys: {:.9e}, ss: {:.9e}}}\n",
-                  c.covariance(0, 0), c.covariance(0, 1), c.covariance(0, 2), c.covariance(1, 1),
-                  c.covariance(1, 2), c.covariance(2, 2));
+  text += covariance_yaml(c.covariance, kCovariance);
   return text + fmt::format(
                     "wall_sigma_m: {:.4f}\nwalls: {}\ndisplaced: {}\nkeyframes: {}\npieces: {}\n"
                     "walls_fingerprint: \"{}\"\n",

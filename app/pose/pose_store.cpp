@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "app/covariance_yaml.hpp"
 #include "core/result.hpp"
 #include "mapping/site/strict_yaml.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr int kToleratedCounts = control::wire::kCountsPerTurn / 720;
 constexpr double kFarM = 1e6;
-constexpr std::array kCovariance{"xx", "xy", "xt", "yy", "yt", "tt"};
+constexpr CovarianceKeys kCovariance{"xx", "xy", "xt", "yy", "yt", "tt"};
 
 long long counts(std::int16_t turns, std::uint16_t angle) {
   return static_cast<long long>(turns) * control::wire::kCountsPerTurn + angle;
@@ -25,12 +26,7 @@ StoredPose read(const std::filesystem::path& file) {
   const double x = yaml.number("x_m", -kFarM, kFarM);
   const double y = yaml.number("y_m", -kFarM, kFarM);
   pose.map_from_base = {x, y, yaml.number("yaw_rad", -2.0 * kPi, 2.0 * kPi)};
-  auto covariance = yaml.section("covariance");
-  std::size_t at = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j)
-      pose.covariance(i, j) = pose.covariance(j, i) = covariance.number(kCovariance[at++], -1e6, 1e6);
-  covariance.refuse_unknown_keys();
+  pose.covariance = read_covariance(yaml, kCovariance, kFarM);
   auto wheels = yaml.section("wheels");
   pose.wheels = {static_cast<std::uint16_t>(wheels.integer("left_angle", 0, 65535)),
                  static_cast<std::uint16_t>(wheels.integer("right_angle", 0, 65535)),
@@ -59,10 +55,7 @@ std::string stored_pose_yaml(const StoredPose& p) {
   std::string text = "# Where the vehicle stood last. Used at the start only where nothing moved since.\n";
   text += fmt::format("stamp_s: {:.3f}\nx_m: {:.6f}\ny_m: {:.6f}\nyaw_rad: {:.8f}\n", to_seconds(p.stamp),
                       p.map_from_base.x_m(), p.map_from_base.y_m(), p.map_from_base.yaw_rad());
-  const auto& c = p.covariance;
-  text +=
-      fmt::format("covariance: {{xx: {:.6e}, xy: {:.6e}, xt: {:.6e}, yy: {:.6e}, yt: {:.6e}, tt: {:.6e}}}\n",
-                  c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2));
+  text += covariance_yaml(p.covariance, kCovariance);
   text += fmt::format("wheels: {{left_angle: {}, right_angle: {}, left_turns: {}, right_turns: {}}}\n",
                       p.wheels.left_angle, p.wheels.right_angle, p.wheels.left_turns, p.wheels.right_turns);
   return text + fmt::format("walls_fingerprint: \"{}\"\n", p.walls);

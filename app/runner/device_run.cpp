@@ -79,7 +79,8 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
                        [&](const CycleInput& input) {
                          if (looking_on != nullptr) looking_on->idle(input);
                        }});
-  const auto panel = open_panel(vehicle, {options.site, options.hmi, options.panel_folder, options.devices, options.camera});
+  const auto panel =
+      open_panel(vehicle, {options.site, options.hmi, options.panel_folder, options.devices, options.camera});
   looking_on = panel.get();
   if (panel)
     spdlog::info("panel at {}", panel->address());

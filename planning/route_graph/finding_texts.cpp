@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/fill_in.hpp"
+
 namespace madori::planning {
 
 static_assert(kFindingTexts.size() == static_cast<std::size_t>(Fault::OneWay) + 1);
@@ -10,13 +12,7 @@ static_assert(kFindingTexts.size() == static_cast<std::size_t>(Fault::OneWay) + 
 RouteFinding finding(Fault fault, Severity severity, std::string file, int line,
                      std::map<std::string, std::string> values) {
   const auto& [code, english] = kFindingTexts.at(static_cast<std::size_t>(fault));
-  std::string message = english;
-  for (const auto& [name, value] : values) {
-    const std::string placeholder = "{" + name + "}";
-    for (auto at = message.find(placeholder); at != std::string::npos;
-         at = message.find(placeholder, at + value.size()))
-      message.replace(at, placeholder.size(), value);
-  }
+  std::string message = fill_in(english, values);
   return {severity, std::move(file), line, std::move(message), code, std::move(values)};
 }
 

@@ -1,0 +1,16 @@
+#include "core/fill_in.hpp"
+
+#include <gtest/gtest.h>
+
+namespace madori {
+namespace {
+
+TEST(FillIn, EveryPlaceholderIsReplacedAndValuesAreNotSearchedAgain) {
+  EXPECT_EQ(fill_in("{a} and {b}, {a}", {{"a", "1"}, {"b", "two"}}), "1 and two, 1");
+  EXPECT_EQ(fill_in("{a}", {{"a", "{a}"}}), "{a}");
+  EXPECT_EQ(fill_in("{left} stays", {{"right", "x"}}), "{left} stays");
+  EXPECT_EQ(fill_in("{a}{a}", {{"a", ""}}), "");
+}
+
+}  // namespace
+}  // namespace madori
