@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "planning/route_graph/route_csv.hpp"
 #include "tests/support/toy_vehicle.hpp"
@@ -64,6 +65,53 @@ TEST(WheelTimes, ABacklogIsNoLossOfPowerButAClockThatBeginsAnewIs) {
     EXPECT_NE(state.mode, Mode::EmergencyStop) << up_ms;
     state = step(std::move(state), status_at(500, now_ms += 1'000), config).state;
     EXPECT_EQ(state.mode, Mode::EmergencyStop) << up_ms;
+  }
+}
+
+/// The wheels at 1 m/s, read at `device_ms`.
+control::wire::Status rolled(std::int64_t device_ms, double wheel_radius_m) {
+  const double turns = 1e-3 * static_cast<double>(device_ms) / wheel_radius_m / (2.0 * kPi);
+  control::wire::Status status;
+  status.sequence = static_cast<std::uint16_t>(device_ms / 10 + 1);
+  status.time_us = static_cast<std::uint32_t>(1000 * device_ms);
+  status.left_turns = status.right_turns = static_cast<std::int16_t>(std::floor(turns));
+  status.left_angle = status.right_angle =
+      static_cast<std::uint16_t>((turns - std::floor(turns)) * control::wire::kCountsPerTurn);
+  return status;
+}
+
+/// On a computer that stood still for a moment a revolution comes late, after wheels that have gone on: what
+/// it saw stands where it was seen, or is left out where nobody knows any more where that was.
+TEST(WheelTimes, WhatALateRevolutionSawStandsWhereItWasSeen) {
+  const CycleConfig config =
+      test::toy_config(planning::parse_routes("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,0,0\n1,9,0\n").graph);
+  constexpr std::int64_t kTaken_ms = 4'000;
+  constexpr std::int64_t kEpoch_ms = 1'000'000;
+  constexpr double kBodyM = 7.0;  // ahead of where the vehicle began, which is at 4 m when it looks
+  for (const std::int64_t late_ms : {0, 400, 1'500, 2'600, 6'000}) {
+    const test::RollingVehicle rolling(Transform2<Map, Base>(0.0, 0.0, 0.0));
+    CycleState state(config, std::make_unique<test::TruePose>(rolling));
+    for (std::int64_t ms = 0; ms <= kTaken_ms + late_ms; ms += 10) {
+      CycleInput input;
+      input.now = Stamp(std::chrono::milliseconds(kEpoch_ms + ms));
+      input.drive.push_back(rolled(ms, config.odometry.wheels.left_radius_m));
+      if (ms == kTaken_ms + late_ms) {
+        PointCloud<Lidar> cloud{Stamp(std::chrono::milliseconds(kEpoch_ms + kTaken_ms)), {}};
+        for (int i = 0; i < 20; ++i)
+          cloud.points.push_back({.x_m = static_cast<float>(kBodyM - 4.0),
+                                  .y_m = 0.02F * static_cast<float>(i % 5),
+                                  .z_m = -0.4F - 0.02F * static_cast<float>(i / 5)});
+        input.clouds.push_back(cloud);
+      }
+      state = step(std::move(state), input, config).state;
+    }
+    const auto& columns = state.obstacles.columns();
+    if (late_ms == 6'000) {
+      EXPECT_TRUE(columns.empty());
+      continue;
+    }
+    ASSERT_FALSE(columns.empty()) << late_ms;
+    for (const auto& column : columns) EXPECT_NEAR(column.centre().x_m, kBodyM, 0.02) << late_ms;
   }
 }
 
