@@ -3,7 +3,6 @@
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
-#include <ompl/geometric/PathSimplifier.h>
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
@@ -13,6 +12,8 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <string>
+#include <vector>
 
 #include "planning/detour/dubins.hpp"
 
@@ -96,14 +97,67 @@ ob::RealVectorBounds bounds_around(const Transform2<Map, Base>& a, const Transfo
   return bounds;
 }
 
-Path to_path(og::PathGeometric& found, const FreeSpaceOptions& options) {
-  const double length_m = found.length();
-  found.interpolate(std::max(2U, static_cast<unsigned>(std::lround(length_m / options.spacing_m)) + 1));
-  Path path;
-  for (const ob::State* state : found.getStates()) {
-    const auto pose = pose_of(state);
-    path.points.push_back({pose.translation(), pose.yaw_rad(), 0.0, options.speed_mps});
+using Pose = Transform2<Map, Base>;
+
+/// Poses along the curves from pose to pose, about `step_m` apart, the first and the last included.
+std::vector<Pose> sampled(const std::vector<Pose>& corners, double radius_m, double step_m) {
+  std::vector<Pose> poses{corners.front()};
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const DubinsCurve way = shortest_dubins(corners[i - 1], corners[i], radius_m);
+    const int steps = std::max(1, static_cast<int>(std::lround(way.length_m() / step_m)));
+    for (int k = 1; k < steps; ++k) poses.push_back(way.pose_at(way.length_m() * k / steps));
+    poses.push_back(corners[i]);
   }
+  return poses;
+}
+
+double length_of(const std::vector<Pose>& corners, double radius_m) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    length_m += shortest_dubins(corners[i - 1], corners[i], radius_m).length_m();
+  return length_m;
+}
+
+/// What random trees find wanders: from each pose the furthest one is taken that a shorter free curve
+/// reaches. (OMPL's own simplification trusts the triangle inequality, which these curves do not keep.)
+template <class IsFree>
+std::vector<Pose> shortened(const std::vector<Pose>& corners, const FreeSpaceOptions& options,
+                            IsFree&& is_free_at) {
+  constexpr double kStepM = 0.3;
+  constexpr double kCheckM = 0.05;
+  constexpr double kGainM = 0.05;
+  constexpr int kMostChecks = 60'000;
+  const auto poses = sampled(corners, options.turning_radius_m, kStepM);
+  std::vector<double> along_m{0.0};
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    along_m.push_back(along_m.back() +
+                      shortest_dubins(poses[i - 1], poses[i], options.turning_radius_m).length_m());
+  int checks = 0;
+  const auto is_free_way = [&](const DubinsCurve& way) {
+    const int steps = std::max(1, static_cast<int>(std::ceil(way.length_m() / kCheckM)));
+    for (int k = 1; k < steps; ++k)
+      if (++checks > kMostChecks || !is_free_at(way.pose_at(way.length_m() * k / steps))) return false;
+    return true;
+  };
+  std::vector<Pose> shorter{poses.front()};
+  for (std::size_t i = 0; i + 1 < poses.size();) {
+    std::size_t next = i + 1;
+    for (std::size_t k = poses.size() - 1; k > i + 1 && checks <= kMostChecks; --k) {
+      const DubinsCurve direct = shortest_dubins(poses[i], poses[k], options.turning_radius_m);
+      if (direct.length_m() > along_m[k] - along_m[i] - kGainM || !is_free_way(direct)) continue;
+      next = k;
+      break;
+    }
+    shorter.push_back(poses[next]);
+    i = next;
+  }
+  return shorter;
+}
+
+Path to_path(const std::vector<Pose>& corners, const FreeSpaceOptions& options) {
+  Path path;
+  for (const Pose& pose : sampled(corners, options.turning_radius_m, options.spacing_m))
+    path.points.push_back({pose.translation(), pose.yaw_rad(), 0.0, options.speed_mps});
   // Headings are those of the curve already; only the curvature is missing.
   for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
     const PathPoint& a = path.points[i - 1];
@@ -147,9 +201,16 @@ Result<Path> free_space_path(const Transform2<Map, Base>& start, const Transform
   setup.setPlanner(std::make_shared<og::RRTConnect>(setup.getSpaceInformation()));
   if (setup.solve(bounded) != ob::PlannerStatus::EXACT_SOLUTION)
     return Result<Path>::failure("no free way was found within the time allowed");
-  og::PathGeometric& found = setup.getSolutionPath();
-  og::PathSimplifier(setup.getSpaceInformation()).reduceVertices(found);
-  return to_path(found, options);
+  std::vector<Pose> corners;
+  for (const ob::State* state : setup.getSolutionPath().getStates()) corners.push_back(pose_of(state));
+  const auto is_free_at = [&](const Pose& pose) { return is_free(pose, obstacles, walls, check); };
+  for (int round = 0; round < 2; ++round) corners = shortened(corners, options, is_free_at);
+  const double length_m = length_of(corners, options.turning_radius_m);
+  if (length_m >
+      options.longest_m + options.longest_share * distance_m(start.translation(), goal.translation()))
+    return Result<Path>::failure("the way around is too long, " +
+                                 std::to_string(static_cast<int>(std::lround(length_m))) + " m");
+  return to_path(corners, options);
 }
 
 }  // namespace madori::planning

@@ -14,6 +14,8 @@ struct FreeSpaceOptions {
   double room_m = 3.0;  ///< searched around the box of start and goal: as far as the scan shows well
   double spacing_m = 0.1;
   double speed_mps = 0.4;
+  double longest_m = 8.0;  ///< longer ways, with the share below of the direct distance added, are refused
+  double longest_share = 1.5;
   double time_limit_s = 0.4;  ///< ignored where `max_checks` is set
   std::uint64_t max_checks =
       0;                   ///< bounds the search by placements checked, so that it does not depend on time
@@ -21,8 +23,9 @@ struct FreeSpaceOptions {
 };
 
 /// A path from `start` to `goal` through what is free by the scan and the drawing: OMPL's RRT-Connect over
-/// Dubins curves (the vehicle drives forward only). Exact solutions alone count. Fails with a reason where
-/// none is found in time. One call at a time: OMPL's seed is global.
+/// Dubins curves (the vehicle drives forward only). Exact solutions alone count, made shorter where a direct
+/// curve is free. Fails with a reason where none is found in time, or only a long one. One call at a time:
+/// OMPL's seed is global.
 [[nodiscard]] Result<Path> free_space_path(const Transform2<Map, Base>& start,
                                            const Transform2<Map, Base>& goal,
                                            const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,

@@ -103,6 +103,25 @@ TEST(FreeSpace, FindsAWayAroundALongBarrierAndTheSameOneForASeed) {
   EXPECT_EQ(answer.path->points.back().position, path.points.back().position);
 }
 
+/// Random trees wander; what is driven does not. The oracle is the shortest way around the barrier's end.
+TEST(FreeSpace, WaysAreNotMuchLongerThanNeeded) {
+  const auto obstacles = row(4.0, -2.6, 1.0);
+  const WallGrid walls;
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    FreeSpaceOptions options;
+    options.max_checks = 200'000;
+    options.seed = seed;
+    const auto path = free_space_path({}, {8.0, 0.0, 0.0}, obstacles, walls, kCheck, options);
+    ASSERT_TRUE(path) << path.reason();
+    double length_m = 0.0;
+    const auto& points = path.value().points;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      length_m += distance_m(points[i - 1].position, points[i].position);
+    EXPECT_LT(length_m, 1.35 * 2.0 * std::hypot(4.0, 1.4)) << "seed " << seed;
+    EXPECT_FALSE(check_path(path.value(), 0, 40.0, obstacles, walls, kCheck).blocked()) << "seed " << seed;
+  }
+}
+
 TEST(FreeSpace, AClosedRoomHasNoWayAndTheSearchEnds) {
   const WallGrid walls(std::vector<Segment2<Map>>{
       {{-3, -3}, {5, -3}}, {{5, -3}, {5, 3}}, {{5, 3}, {-3, 3}}, {{-3, 3}, {-3, -3}}});
