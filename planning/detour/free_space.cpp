@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "planning/detour/dubins.hpp"
+#include "planning/detour/shorten.hpp"
 
 namespace madori::planning {
 namespace {
@@ -99,61 +100,6 @@ ob::RealVectorBounds bounds_around(const Transform2<Map, Base>& a, const Transfo
 
 using Pose = Transform2<Map, Base>;
 
-/// Poses along the curves from pose to pose, about `step_m` apart, the first and the last included.
-std::vector<Pose> sampled(const std::vector<Pose>& corners, double radius_m, double step_m) {
-  std::vector<Pose> poses{corners.front()};
-  for (std::size_t i = 1; i < corners.size(); ++i) {
-    const DubinsCurve way = shortest_dubins(corners[i - 1], corners[i], radius_m);
-    const int steps = std::max(1, static_cast<int>(std::lround(way.length_m() / step_m)));
-    for (int k = 1; k < steps; ++k) poses.push_back(way.pose_at(way.length_m() * k / steps));
-    poses.push_back(corners[i]);
-  }
-  return poses;
-}
-
-double length_of(const std::vector<Pose>& corners, double radius_m) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < corners.size(); ++i)
-    length_m += shortest_dubins(corners[i - 1], corners[i], radius_m).length_m();
-  return length_m;
-}
-
-/// What random trees find wanders: from each pose the furthest one is taken that a shorter free curve
-/// reaches. (OMPL's own simplification trusts the triangle inequality, which these curves do not keep.)
-template <class IsFree>
-std::vector<Pose> shortened(const std::vector<Pose>& corners, const FreeSpaceOptions& options,
-                            IsFree&& is_free_at) {
-  constexpr double kStepM = 0.3;
-  constexpr double kCheckM = 0.05;
-  constexpr double kGainM = 0.05;
-  constexpr int kMostChecks = 60'000;
-  const auto poses = sampled(corners, options.turning_radius_m, kStepM);
-  std::vector<double> along_m{0.0};
-  for (std::size_t i = 1; i < poses.size(); ++i)
-    along_m.push_back(along_m.back() +
-                      shortest_dubins(poses[i - 1], poses[i], options.turning_radius_m).length_m());
-  int checks = 0;
-  const auto is_free_way = [&](const DubinsCurve& way) {
-    const int steps = std::max(1, static_cast<int>(std::ceil(way.length_m() / kCheckM)));
-    for (int k = 1; k < steps; ++k)
-      if (++checks > kMostChecks || !is_free_at(way.pose_at(way.length_m() * k / steps))) return false;
-    return true;
-  };
-  std::vector<Pose> shorter{poses.front()};
-  for (std::size_t i = 0; i + 1 < poses.size();) {
-    std::size_t next = i + 1;
-    for (std::size_t k = poses.size() - 1; k > i + 1 && checks <= kMostChecks; --k) {
-      const DubinsCurve direct = shortest_dubins(poses[i], poses[k], options.turning_radius_m);
-      if (direct.length_m() > along_m[k] - along_m[i] - kGainM || !is_free_way(direct)) continue;
-      next = k;
-      break;
-    }
-    shorter.push_back(poses[next]);
-    i = next;
-  }
-  return shorter;
-}
-
 Path to_path(const std::vector<Pose>& corners, const FreeSpaceOptions& options) {
   Path path;
   for (const Pose& pose : sampled(corners, options.turning_radius_m, options.spacing_m))
@@ -204,8 +150,8 @@ Result<Path> free_space_path(const Transform2<Map, Base>& start, const Transform
   std::vector<Pose> corners;
   for (const ob::State* state : setup.getSolutionPath().getStates()) corners.push_back(pose_of(state));
   const auto is_free_at = [&](const Pose& pose) { return is_free(pose, obstacles, walls, check); };
-  for (int round = 0; round < 2; ++round) corners = shortened(corners, options, is_free_at);
-  const double length_m = length_of(corners, options.turning_radius_m);
+  for (int round = 0; round < 2; ++round) corners = shortened(corners, options.turning_radius_m, is_free_at);
+  const double length_m = dubins_length_m(corners, options.turning_radius_m);
   if (length_m >
       options.longest_m + options.longest_share * distance_m(start.translation(), goal.translation()))
     return Result<Path>::failure("the way around is too long, " +
