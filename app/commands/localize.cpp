@@ -130,10 +130,11 @@ void localize(const LocalizeArguments& arguments) {
       [&](const localization::ScanPoints& points, const Point2<Base>& sensor, const PoseEstimate& e) {
         learner.observe(points, sensor, e);
       });
-  const localization::SelfCalibration calibration = calibrate(learner, localizer, walls);
+  std::optional<localization::SelfCalibration> calibration;  // takes a fifth of the time: where asked
+  if (arguments.learn || !arguments.json_file.empty()) calibration = calibrate(learner, localizer, walls);
   if (arguments.learn) {
     localization::save_reliability(folder / kReliabilityFile, learner.reliability());
-    (void)keep_calibration(folder, walls, calibration);
+    (void)keep_calibration(folder, walls, *calibration);
   }
   mapping::write_file_atomically(arguments.out, trajectory);
   if (!arguments.health_file.empty()) {
@@ -155,7 +156,7 @@ void localize(const LocalizeArguments& arguments) {
                                  {"drawing_sigma_m", localizer.evidence().sigma_m},
                                  {"drawing_inliers", localizer.evidence().inliers},
                                  {"health", health.json()},
-                                 {"self_calibration", to_json(calibration)},
+                                 {"self_calibration", calibration ? to_json(*calibration) : nlohmann::json()},
                                  {"walls", to_json(learner.reliability())},
                                  {"scan_ms_median", percentile(played.scan_ms, 0.5)},
                                  {"scan_ms_p99", percentile(played.scan_ms, 0.99)},
@@ -163,7 +164,8 @@ void localize(const LocalizeArguments& arguments) {
   write_json(arguments.json_file, result);
   std::fprintf(arguments.json_file == "-" ? stderr : stdout,
                "%d scans, %d odometry records; %s written\n%s\n%s%s", played.scans, played.odometry_records,
-               arguments.out.c_str(), health.summary().c_str(), describe(calibration).c_str(),
+               arguments.out.c_str(), health.summary().c_str(),
+               calibration ? describe(*calibration).c_str() : "",
                arguments.learn ? "what was learned is kept with the site\n" : "");
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/json_output.hpp"
+#include "app/log_options.hpp"
 #include "app/trajectory_file.hpp"
 #include "core/result.hpp"
 #include "localization/global/global_localizer.hpp"
@@ -55,16 +56,8 @@ loc::PlaceIndex place_index(const std::filesystem::path& site, const mapping::Wa
 std::optional<loc::ScanPoints> points_of(const sensors::LogRecord& record) {
   if (const auto* scan = std::get_if<sensors::ScanRecord>(&record))
     return loc::extract_walls(scan->scan, scan->base_from_lidar);
-  if (const auto* cloud = std::get_if<sensors::CloudRecord>(&record)) {
-    PointCloud<Base> in_base;
-    for (CloudPoint p : cloud->cloud.points) {
-      const Point2<Base> q = cloud->base_from_lidar * Point2<Lidar>{p.x_m, p.y_m};
-      p.x_m = static_cast<float>(q.x_m);
-      p.y_m = static_cast<float>(q.y_m);
-      in_base.points.push_back(p);
-    }
-    return loc::extract_walls(in_base);
-  }
+  if (const auto* cloud = std::get_if<sensors::CloudRecord>(&record))
+    return loc::extract_walls(sensors::cloud_in_base(*cloud));
   return std::nullopt;
 }
 
@@ -98,12 +91,10 @@ void add_scan(Tally& tally, Stamp stamp, const loc::GlobalAnswer& answer, bool b
 
 void relocalize(const RelocalizeArguments& arguments) {
   const std::filesystem::path folder(arguments.site);
-  (void)mapping::load_scaled_site(folder);
+  const mapping::Site site = mapping::load_scaled_site(folder);
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
   const loc::GlobalLocalizer global(walls, {}, place_index(folder, walls));
-  sensors::LogOptions options;
-  options.wheels = arguments.wheels;
-  const auto log = sensors::open_log(arguments.log, options);
+  const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   Tally tally;
   while (const auto record = log->next()) {
     const auto started = std::chrono::steady_clock::now();

@@ -49,7 +49,7 @@ LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits)
   const auto because = [](std::string reason) {
     return LocalizationHealth{LocalizationState::Degraded, std::move(reason)};
   };
-  if (e.fit_nats < limits.verified_nats) {
+  if (e.fit_nats < (e.verified ? limits.doubted_nats : limits.verified_nats)) {
     return because("too little of the drawing seen yet to be sure of the start pose: drive on slowly");
   }
   if (e.fit_nats < limits.good_nats_a_wall * e.walls_seen || e.inliers < limits.good_inliers) {
@@ -58,9 +58,9 @@ LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits)
   if (e.blind_scans > 1 && e.blind_s > 0.5 * limits.blind_s) {
     return because("the last scans do not agree with what was seen before");
   }
-  if (e.off_walls_scans >= limits.off_walls_scans) {
+  if (e.off_walls) {
     return because(
-        "the last scans fit the drawing much less than usual: the drawing is poor here, or the pose is off");
+        "the last metres fit the drawing much less than usual: the drawing is poor here, or the pose is off");
   }
   if (e.position_sigma_m > limits.degraded_sigma_m) {
     return because("the position is uncertain by " + std::to_string(e.position_sigma_m).substr(0, 4) + " m");

@@ -53,6 +53,7 @@ HealthEvidence Localizer::evidence_with_time(Stamp stamp) const {
   if (evidence.blind_scans > 0) {
     evidence.blind_s = to_seconds(stamp - last_agreed_);
   }
+  evidence.off_walls = wall_fit_.is_poor();
   return evidence;
 }
 
@@ -188,8 +189,7 @@ void Localizer::remember(SurfaceScan scan) {
 
 void Localizer::think_if_due(Stamp stamp) {
   const std::size_t size = map_.memory.size();
-  const bool in_doubt = map_.evidence.off_walls_scans > 1;
-  if (!worker_.busy() && keyframes_since_thinking_ >= (size < 20 || in_doubt ? 1 : size < 200 ? 4 : 8)) {
+  if (!worker_.busy() && keyframes_since_thinking_ >= (size < 20 || beside_walls_ ? 1 : size < 200 ? 4 : 8)) {
     keyframes_since_thinking_ = 0;
     worker_.start(stamp, map_, options_);
   }
@@ -202,7 +202,8 @@ void Localizer::take_in_thoughts(Stamp stamp) {
     thought->memory = std::move(map_.memory);
     thought->evidence.blind_scans = map_.evidence.blind_scans;
     thought->evidence.blind_m = map_.evidence.blind_m;
-    thought->evidence.off_walls_scans = map_.evidence.off_walls_scans;
+    thought->evidence.on_walls = map_.evidence.on_walls;
+    thought->evidence.on_memory = map_.evidence.on_memory;
     map_ = *std::move(thought);
     anchor_ = by * anchor_;
     if (late_anchor_) late_anchor_ = by * *late_anchor_;
@@ -217,14 +218,6 @@ bool Localizer::jumps(const MatchResult& match, const OdometryStep& step) const 
   return e.dot(covariance.inverse() * e) > 16.0;
 }
 
-/// Do the scans lie on the drawing as they usually do? A stretch that does not may have drifted. Whoever
-/// stays beside it for long has a poor drawing there: it becomes usual, slowly.
-void Localizer::note_fit(double on_walls) {
-  const bool fits = on_walls > options_.health.off_walls_share * usual_on_walls_;
-  map_.evidence.off_walls_scans = fits ? 0 : map_.evidence.off_walls_scans + 1;
-  usual_on_walls_ += (fits ? 0.05 : 0.01) * (on_walls - usual_on_walls_);
-}
-
 /// Does the scan agree with the memory as scans usually do here? Furniture and people hide walls: that the
 /// drawing does not show what is seen is no reason for doubt while memory and wheels go on. Once in doubt,
 /// the memory alone does not clear it: what was added since the doubt began agrees with itself anywhere.
@@ -232,10 +225,13 @@ void Localizer::note_agreement(const SurfaceScan& scan, const MatchResult& match
   const bool drawing_speaks = map_.drawing && !map_.evidence.searching && map_.drawing_fits(options_.health);
   const double on_walls = drawing_speaks ? map_.drawing->share_on_walls(scan, match.map_from_base) : 0.0;
   const bool exact = drawing_speaks && drawing_is_exact();
-  if (drawing_speaks) note_fit(on_walls);
+  if (drawing_speaks) wall_fit_.add(on_walls, step.path_m, step.turned_rad);
+  beside_walls_ = drawing_speaks && on_walls < 0.5 * wall_fit_.usual();
+  map_.evidence.on_walls = on_walls;
+  map_.evidence.on_memory = match.inlier_share;
   bool agrees = match.inlier_share > std::max(options_.lost_inliers, 0.5 * usual_inliers_);
   if (exact && (map_.evidence.blind_scans > 0 || jumps(match, step))) {
-    agrees = agrees && on_walls > 0.5 * usual_on_walls_;
+    agrees = agrees && on_walls > 0.5 * wall_fit_.usual();
   }
   if (!agrees) {
     ++map_.evidence.blind_scans;
@@ -272,6 +268,7 @@ void Localizer::search_from_here(SurfaceScan scan) {
   map_.evidence = {};
   map_.evidence.searching = true;
   map_.next_survey_walls = 0.0;
+  wall_fit_ = WallFit();
   start(std::move(scan));
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/odometry.hpp"
 #include "core/pose_estimate.hpp"
+#include "localization/health/wall_fit.hpp"
 #include "localization/localizer/map_state.hpp"
 #include "localization/localizer/map_worker.hpp"
 #include "localization/localizer/options.hpp"
@@ -60,7 +61,6 @@ class Localizer {
   [[nodiscard]] bool drawing_is_exact() const;
   void search_from_here(SurfaceScan scan);
   [[nodiscard]] bool jumps(const MatchResult& match, const OdometryStep& step) const;
-  void note_fit(double on_walls);
   void note_agreement(const SurfaceScan& scan, const MatchResult& match, const OdometryStep& step);
   void update_covariance(const MatchResult& match);
 
@@ -79,8 +79,9 @@ class Localizer {
   Eigen::Matrix3d moved_information_ = Eigen::Matrix3d::Zero();  ///< of the last of these matches, Map axes
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
   int keyframes_since_thinking_ = 0;
-  double usual_inliers_ = 0.6;   ///< share of a scan that fits the memory
-  double usual_on_walls_ = 0.4;  ///< share of a scan that lies on drawn walls
+  double usual_inliers_ = 0.6;  ///< share of a scan that fits the memory
+  WallFit wall_fit_;
+  bool beside_walls_ = false;  ///< the last scan: think at once, the newest stretch may have drifted
   Stamp last_agreed_{};
   MapWorker worker_;  ///< last: it ends first
 };

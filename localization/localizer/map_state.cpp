@@ -21,7 +21,7 @@ void MapState::think(const LocalizerOptions& options) {
 }
 
 bool MapState::drawing_fits(const HealthLimits& limits) const {
-  return evidence.fit_nats > limits.verified_nats &&
+  return evidence.fit_nats > (evidence.verified ? limits.doubted_nats : limits.verified_nats) &&
          evidence.fit_nats > limits.good_nats_a_wall * evidence.walls_seen;
 }
 
@@ -48,6 +48,7 @@ void MapState::consult_drawing(const LocalizerOptions& options) {
     cloud = memory_cloud(memory);
   }
   evidence.fit_nats = drawing->likelihood(cloud, {}, std::max(0.1, drawing->model().sigma_m));
+  evidence.verified = evidence.verified || evidence.fit_nats > options.health.verified_nats;
   evidence.inliers = drawing->model().inliers;
   evidence.sigma_m = drawing->model().sigma_m;
   if (correct_recent_drift(options)) {

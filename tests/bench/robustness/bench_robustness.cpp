@@ -93,20 +93,31 @@ struct Outcome {
   int wrongly_sure = 0;
   double worst_sure_m = 0.0;
   double p50_ms = 0.0, p99_ms = 0.0;
-  std::string scans = "time_s,x_m,y_m,error_x_m,error_y_m,error_deg,state,reason\n";
+  std::string scans =
+      "time_s,x_m,y_m,error_x_m,error_y_m,error_deg,on_walls,on_memory,sigma_m,nats_a_wall,drawing_sigma_m,"
+      "elsewhere_nats,state,reason\n";
 };
 
-void judge_scans(const std::vector<PoseEstimate>& at_scans, const Truth& truth, Outcome& out) {
+/// The pose at a scan, and what it was judged by.
+struct AtScan {
+  PoseEstimate estimate;
+  localization::HealthEvidence evidence;
+};
+
+void judge_scans(const std::vector<AtScan>& at_scans, const Truth& truth, Outcome& out) {
   int run = 0;
-  for (const PoseEstimate& e : at_scans) {
+  for (const auto& [e, evidence] : at_scans) {
     const StampedPose& t = nearest(truth, e.stamp);
     if (std::abs(to_seconds(t.stamp - e.stamp)) > 0.05) continue;
     const Transform2<Base, Base> off = t.map_from_base.inverse() * e.map_from_base;
-    out.scans += fmt::format("{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f},{},\"{}\"\n",
-                             to_seconds(t.stamp.time_since_epoch()), t.map_from_base.x_m(),
-                             t.map_from_base.y_m(), e.map_from_base.x_m() - t.map_from_base.x_m(),
-                             e.map_from_base.y_m() - t.map_from_base.y_m(), to_deg(off.yaw_rad()),
-                             to_string(e.health.state), e.health.reason);
+    out.scans += fmt::format(
+        "{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f},{:.3f},{:.3f},{:.3f},{:.2f},{:.3f},{:.0f},{},\"{}\"\n",
+        to_seconds(t.stamp.time_since_epoch()), t.map_from_base.x_m(), t.map_from_base.y_m(),
+        e.map_from_base.x_m() - t.map_from_base.x_m(), e.map_from_base.y_m() - t.map_from_base.y_m(),
+        to_deg(off.yaw_rad()), evidence.on_walls, evidence.on_memory,
+        std::sqrt(e.covariance.topLeftCorner<2, 2>().trace()),
+        evidence.fit_nats / std::max(1.0, evidence.walls_seen), evidence.sigma_m, evidence.elsewhere_nats,
+        to_string(e.health.state), e.health.reason);
     const double d = distance_m(t.map_from_base.translation(), e.map_from_base.translation());
     run = d > 2.0 ? run + 1 : 0;
     out.longest_lost = std::max(out.longest_lost, run);
@@ -129,7 +140,7 @@ Outcome play(const Building& building, const Case& c, localization::Memory& memo
   localization::Localizer localizer(walls, localization::InitialPose{start}, c.options);
   if (!memory.empty()) localizer.recall(std::move(memory));
   Outcome out;
-  std::vector<PoseEstimate> at_scans;
+  std::vector<AtScan> at_scans;
   std::vector<Stamp> scan_stamps;
   for (const auto& r : log) {
     if (std::holds_alternative<sensors::ScanRecord>(r)) scan_stamps.push_back(sensors::stamp_of(r));
@@ -140,7 +151,7 @@ Outcome play(const Building& building, const Case& c, localization::Memory& memo
     out.trajectory.push_back({e.stamp, e.map_from_base});
     out.health.add(e);
     if (scan < scan_stamps.size() && e.stamp == scan_stamps[scan]) {
-      at_scans.push_back(e);
+      at_scans.push_back({e, localizer.evidence()});
       ++scan;
     }
   });
@@ -237,6 +248,9 @@ std::vector<Case> rough_drawings() {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     cases.push_back({.name = "rough " + std::to_string(seed),
                      .lies = {.bend_m = 0.3, .shift_m = 0.12, .missing = 0.15, .shortest_m = 1.2},
+                     .seed = seed});
+    cases.push_back({.name = "poor " + std::to_string(seed),
+                     .lies = {.bend_m = 0.5, .shift_m = 0.2, .missing = 0.3, .shortest_m = 2.0},
                      .seed = seed});
   }
   return cases;

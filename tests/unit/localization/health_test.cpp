@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 
 #include "localization/health/reasons.hpp"
+#include "localization/health/wall_fit.hpp"
 
 namespace madori::localization {
 namespace {
@@ -36,6 +38,18 @@ TEST(Health, AFreshStartIsNotBelievedYet) {
   EXPECT_THAT(judge(e).reason, HasSubstr("start pose"));
 }
 
+TEST(Health, ABelievedStartIsNotDoubtedForALittleLess) {
+  HealthEvidence e = sound();
+  e.walls_seen = 30.0;
+  e.fit_nats = 35.0;
+  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
+  e.verified = true;
+  EXPECT_EQ(judge(e).state, LocalizationState::Localized);
+  e.walls_seen = 18.0;
+  e.fit_nats = 19.0;
+  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
+}
+
 TEST(Health, AMirroredDrawingIsNamed) {
   HealthEvidence e = sound();
   e.mirrored_nats = 30.0;
@@ -57,13 +71,47 @@ TEST(Health, ARivalPlaceIsAmbiguousABetterOneIsLost) {
   EXPECT_EQ(judge(e).state, LocalizationState::Lost);
 }
 
-TEST(Health, ScansBesideTheDrawingAreDegraded) {
+TEST(Health, AStretchBesideTheDrawingIsDegraded) {
   HealthEvidence e = sound();
-  e.off_walls_scans = 2;
-  EXPECT_EQ(judge(e).state, LocalizationState::Localized);
-  e.off_walls_scans = 3;
+  e.off_walls = true;
   EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
   EXPECT_THAT(judge(e).reason, HasSubstr("fit the drawing much less than usual"));
+}
+
+/// `metres` of driving with a scan every `step_m`, each with the same share on drawn walls.
+void drive(WallFit& fit, double metres, double step_m, double on_walls) {
+  const long scans = std::lround(metres / step_m);
+  for (long i = 0; i < scans; ++i) fit.add(on_walls, step_m, 0.0);
+}
+
+TEST(WallFit, TheSameAtAnyScanRate) {
+  for (const double step_m : {0.05, 0.5, 1.0, 2.0}) {
+    WallFit fit;
+    drive(fit, 60.0, step_m, 0.7);
+    EXPECT_NEAR(fit.recent(), 0.7, 1e-3) << step_m;
+    EXPECT_FALSE(fit.is_poor());
+    drive(fit, 2.0, step_m, 0.1);
+    EXPECT_FALSE(fit.is_poor()) << step_m;
+    drive(fit, 4.0, step_m, 0.1);
+    EXPECT_TRUE(fit.is_poor()) << step_m;
+    EXPECT_NEAR(fit.recent(), 0.1 + 0.6 * std::exp(-6.0 / 5.0), 1e-3) << step_m;
+  }
+}
+
+TEST(WallFit, WhoStandsLearnsNothingNew) {
+  WallFit fit;
+  drive(fit, 30.0, 0.5, 0.7);
+  for (int i = 0; i < 10000; ++i) fit.add(0.0, 0.0, 0.0);
+  EXPECT_FALSE(fit.is_poor());
+}
+
+TEST(WallFit, APoorStretchBecomesUsualInTheEnd) {
+  WallFit fit;
+  drive(fit, 30.0, 0.5, 0.7);
+  drive(fit, 10.0, 0.5, 0.1);
+  EXPECT_TRUE(fit.is_poor());
+  drive(fit, 500.0, 0.5, 0.1);
+  EXPECT_FALSE(fit.is_poor());
 }
 
 TEST(Health, OneBadScanIsNoLossManyAre) {
