@@ -20,6 +20,7 @@ constexpr int kLeastContrast = 40;       // grey levels between the ground and t
 constexpr double kCoarsePen = 4.5, kFinePen = 1.42;
 constexpr double kGoodPen = 2.5;
 constexpr double kMostToEnlarge = 6e6;                     // pixels
+constexpr double kSmall = 2.5e6;                           // pixels: to enlarge them costs little
 constexpr double kWidestPen = 6, kWidestPenShare = 0.002;  // thicker strokes are fills, whatever is commonest
 
 /// Dark lines on bright paper; nothing where they are that already.
@@ -47,8 +48,9 @@ double widest_pen_px(const GrayImage& image) {
 /// By how much to resize a drawing with this pen; 1 = leave it, also where it has fills instead of a pen.
 double working_factor(const GrayImage& image, double pen_px) {
   if (pen_px > kCoarsePen && pen_px < widest_pen_px(image)) return 1 / std::round(pen_px / kGoodPen);
-  const bool small = static_cast<double>(image.width_px) * image.height_px <= kMostToEnlarge;
-  return pen_px < kFinePen && small ? 2 : 1;
+  const double pixels = static_cast<double>(image.width_px) * image.height_px;
+  const double fine = pixels <= kSmall ? kGoodPen : kFinePen;
+  return pen_px < fine && pixels <= kMostToEnlarge ? 2 : 1;
 }
 
 GrayImage resized(const GrayImage& image, double factor) {
