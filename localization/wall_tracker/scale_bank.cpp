@@ -24,23 +24,26 @@ double explained(const RegistrationResult& fit, const ScanPoints& points) {
 }  // namespace
 
 ScaleBank::ScaleBank(const ScaleBankOptions& options) : options_(options) {
-  begin_stage(0);
+  begin_stage(0, {});
 }
 
 /// Does it explain surely more, or surely less, than the size believed?
 bool ScaleBank::is_sure(const Member& m) const {
-  const double mean = m.lead / scans_;
-  const double variance = std::max(1e-12, m.lead2 / scans_ - mean * mean);
-  return mean * mean * scans_ > options_.lead_sigmas * options_.lead_sigmas * variance;
+  const double mean = m.lead / stretches_;
+  const double variance = std::max(1e-8, (m.lead2 / stretches_ - mean * mean) / (stretches_ - 1));
+  return mean * mean > options_.lead_sigmas * options_.lead_sigmas * variance;
 }
 
-void ScaleBank::begin_stage(int stage) {
+void ScaleBank::begin_stage(int stage, const Transform2<Map, Base>& pose) {
   stage_ = stage;
-  scans_ = 0;
+  scans_ = stretches_ = 0;
+  best_pose_ = pose;
   members_.clear();
   if (sleeps()) return;
+  const double step = stage_ == 0 ? options_.coarse : options_.fine;
   for (int i = -options_.beside; i <= options_.beside; ++i)
-    members_.push_back({.excess = believed_ + i * step(), .pose = best_pose_});
+    members_.push_back({.excess = believed_ + i * step, .pose = pose});
+  if (believed_ != 0.0) members_.push_back({.excess = 0.0, .pose = pose});
 }
 
 ScanPoints ScaleBank::applied(const ScanPoints& points) const {
@@ -81,44 +84,53 @@ bool ScaleBank::observe(const ScanPoints& seen, const SegmentGrid& grid,
     ask(m, seen, grid, carried);
   }
   since_ = {};
-  const auto believed = static_cast<std::size_t>(options_.beside);
-  if (members_[believed].explained == 0.0) return false;
-  const Member best =
-      *std::max_element(members_.begin(), members_.end(),
-                        [](const Member& a, const Member& b) { return a.explained < b.explained; });
-  ask(members_[static_cast<std::size_t>(scans_) % members_.size()], seen, grid, best.pose);
-  const double middle = members_[believed].explained;
+  if (believed_member().explained == 0.0) return false;
+  const auto best = std::max_element(members_.begin(), members_.end(), [](const Member& a, const Member& b) {
+    return a.explained < b.explained;
+  });
+  ask(members_[static_cast<std::size_t>(scans_ + stretches_) % members_.size()], seen, grid, best->pose);
+  for (Member& m : members_) m.stretch += m.explained - believed_member().explained;
+  if (++scans_ < options_.scans_a_stretch) return false;
+  end_stretch();
+  return stretches_ >= options_.fewest_where_clear && decide();
+}
+
+void ScaleBank::end_stretch() {
   for (Member& m : members_) {
-    const double lead = m.explained - middle;
-    m.lead += lead;
-    m.lead2 += lead * lead;
+    const double mean = m.stretch / scans_;
+    m.lead += mean;
+    m.lead2 += mean * mean;
+    m.stretch = 0.0;
   }
-  ++scans_;
-  return decide();
+  scans_ = 0;
+  ++stretches_;
 }
 
 bool ScaleBank::decide() {
-  if (scans_ < options_.fewest_scans) return false;
-  const auto believed = members_.begin() + options_.beside;
-  const auto best = std::max_element(members_.begin(), members_.end(),
-                                     [](const Member& a, const Member& b) { return a.lead < b.lead; });
-  const double enough = stage_ == 0 ? options_.coarse_lead : options_.fine_lead;
-  if (best != believed && best->lead > enough * scans_ && is_sure(*best)) {
-    believed_ = best->excess;
-    best_pose_ = best->pose;
-    const bool at_the_edge = best == members_.begin() || best == members_.end() - 1;
-    begin_stage(at_the_edge ? stage_ : stage_ + 1);
+  const Member believed = believed_member();
+  const Member best = *std::max_element(members_.begin(), members_.end(),
+                                        [](const Member& a, const Member& b) { return a.lead < b.lead; });
+  const bool drawn = best.excess == 0.0;  // the drawing is right until it is surely not
+  const bool early = stretches_ < options_.fewest_stretches;
+  const double enough = early         ? options_.clear_lead
+                        : drawn       ? 0.0
+                        : stage_ == 0 ? options_.coarse_lead
+                                      : options_.fine_lead;
+  if (best.excess != believed.excess && best.lead > enough * stretches_ && is_sure(best)) {
+    const bool within = std::abs(best.excess - believed_) <
+                        (options_.beside - 0.5) * (stage_ == 0 ? options_.coarse : options_.fine);
+    believed_ = best.excess;
+    begin_stage(within ? 1 : 0, best.pose);
     return true;
   }
+  if (early) return false;
   const bool all_sure = std::all_of(members_.begin(), members_.end(), [&](const Member& m) {
-    return m.excess == believed->excess || is_sure(m);
+    return m.excess == believed.excess || is_sure(m);
   });
-  if (best == believed && all_sure) {
-    best_pose_ = believed->pose;
-    begin_stage(stage_ + 1);
-  } else if (scans_ >= options_.most_scans) {
-    begin_stage(kStages);
-  }
+  if (stage_ == 0 && all_sure)
+    begin_stage(1, believed.pose);
+  else if (all_sure || stretches_ >= options_.most_stretches)
+    begin_stage(believed_ == 0.0 ? kStages : stage_, believed.pose);
   return false;
 }
 

@@ -12,16 +12,19 @@ namespace madori::localization {
 
 struct ScaleBankOptions {
   SegmentIcpOptions icp = {.max_iterations = 10, .first_scale_m = 0.25};
-  int beside = 8;             ///< sizes tried on each side of the one believed
-  double coarse = 0.0025;     ///< between two sizes at first,
-  double fine = 0.0005;       ///< and once the coarse one is settled
-  double every_m = 0.4;       ///< of driving between two scans that are asked
-  double every_rad = 0.3;     ///< or of turning
-  int fewest_scans = 12;      ///< before another size may be believed
-  int most_scans = 250;       ///< after so many that showed no better one, it is left at that
-  double coarse_lead = 0.02;  ///< by which another size must explain more of a scan, on average,
-  double fine_lead = 0.004;
-  double lead_sigmas = 5.0;        ///< and so surely
+  int beside = 8;              ///< sizes tried on each side of the one believed
+  double coarse = 0.0025;      ///< between two sizes at first,
+  double fine = 0.0005;        ///< and once the coarse one is settled
+  double every_m = 0.4;        ///< of driving between two scans that are asked
+  double every_rad = 0.3;      ///< or of turning
+  int scans_a_stretch = 5;     ///< neighbouring scans see the same walls: they have one vote together
+  int fewest_stretches = 8;    ///< before another size may be believed,
+  int fewest_where_clear = 3;  ///< or, if it leads that much:
+  double clear_lead = 0.15;
+  int most_stretches = 50;    ///< after so many without an answer it begins anew, or is left at that
+  double coarse_lead = 0.05;  ///< by which another size must explain more of a scan, on average,
+  double fine_lead = 0.01;
+  double lead_sigmas = 4.0;        ///< and so surely
   double most_correction_m = 0.4;  ///< a scan that asks for more speaks of another place
   double sure_inliers = 0.35;
 };
@@ -50,26 +53,31 @@ class ScaleBank {
 
  private:
   static constexpr int kStages = 2;
+  /// One size. Its leads are over the size believed.
   struct Member {
     double excess = 0.0;  ///< its factor less one
     Transform2<Map, Base> pose;
     double explained = 0.0;  ///< of the newest scan
-    double lead = 0.0;       ///< over the believed one: sum, and sum of squares, over the scans asked
+    double stretch = 0.0;    ///< sum of leads over the scans of this stretch
+    double lead = 0.0;       ///< sums of the stretches' mean leads, and of their squares
     double lead2 = 0.0;
   };
-  [[nodiscard]] double step() const { return stage_ == 0 ? options_.coarse : options_.fine; }
-  void begin_stage(int stage);
-  [[nodiscard]] bool is_sure(const Member& member) const;
+  [[nodiscard]] Member& believed_member() { return members_[static_cast<std::size_t>(options_.beside)]; }
+  void begin_stage(int stage, const Transform2<Map, Base>& pose);
   void ask(Member& member, const ScanPoints& points, const SegmentGrid& grid,
            const Transform2<Map, Base>& start);
+  void end_stretch();
+  [[nodiscard]] bool is_sure(const Member& member) const;
   bool decide();
 
   ScaleBankOptions options_;
   double believed_ = 0.0;
   int stage_ = 0;
   bool placed_ = false;
-  int scans_ = 0;
-  std::vector<Member> members_;  ///< smallest first; the middle one is the size believed
+  int scans_ = 0;      ///< of this stretch
+  int stretches_ = 0;  ///< of this stage
+  /// Smallest first; the middle one is the size believed. At last the size drawn, unless it is believed.
+  std::vector<Member> members_;
   Transform2<Base, Base> since_;
   Transform2<Map, Base> best_pose_;
 };
