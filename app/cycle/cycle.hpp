@@ -137,8 +137,8 @@ struct Stirring {
 /// What was asked of the drive since the vehicle last got on, and from where.
 struct Effort {
   Transform2<Map, Base> from;
-  Stamp since{};
-  double asked_m = 0.0;  ///< of way, turns counted at the outline
+  double driven_s = 0.0;  ///< the drive was asked to move
+  double asked_m = 0.0;   ///< of way, turns counted at the outline
 };
 
 /// The way to the current target.
@@ -185,7 +185,7 @@ struct CycleState {
   Mode mode = Mode::Paused;  ///< nothing drives after a start until the operator lets it
   Standstill standstill;
   control::DiffDriveOdometry odometry;
-  std::deque<OdometryReading> track;  ///< of the last half second, for motion compensation
+  std::deque<OdometryReading> track;  ///< of the last seconds, for motion compensation
   std::unique_ptr<PoseSource> localization;
   PoseEstimate pose;
   planning::ObstacleField obstacles;
@@ -201,7 +201,7 @@ struct CycleState {
   VelocityCommand jog;
   Stamp jog_heard{};
   Navigation way;
-  std::optional<Effort> effort;  ///< while it drives by itself
+  std::optional<Effort> effort;  ///< while it works on an order
   control::LimitState limits;
   int unarmed_steps = 0;  ///< enabled in a row while the drive stayed idle
 };

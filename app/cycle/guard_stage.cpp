@@ -52,21 +52,23 @@ void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig&
   const VelocityCommand& driven = state.limits.previous;
   const bool tries = drives(state.mode) && state.drive.state == control::wire::DriveState::Running &&
                      !(driven == VelocityCommand{}) && may_drive(state.pose.health.state);
-  if (!tries) return state.effort.reset();
+  if (!drives(state.mode) && state.mode != Mode::Waiting) return state.effort.reset();
+  if (!tries) return;  // short stops do not hide it
   const Transform2<Map, Base>& here = state.pose.map_from_base;
-  if (!state.effort) state.effort = Effort{here, input.now, 0.0};
+  if (!state.effort) state.effort = Effort{here, 0.0, 0.0};
   Effort& effort = *state.effort;
   const double step_s = state.previous_step_s;
+  effort.driven_s += step_s;
   effort.asked_m += (std::abs(driven.linear_mps) + std::abs(driven.angular_radps) * lever_m(config)) * step_s;
   const double moved_m = distance_m(here.translation(), effort.from.translation()) +
                          std::abs(wrap_angle(here.yaw_rad() - effort.from.yaw_rad())) * lever_m(config);
   if (moved_m > kGotOnM) {
-    effort = {here, input.now, 0.0};
+    effort = {here, 0.0, 0.0};
     state.way.felt = false;
     return;
   }
-  const bool held = to_seconds(input.now - effort.since) > kShortestS && effort.asked_m > kLeastAskedM &&
-                    moved_m < kLeastShare * effort.asked_m;
+  const bool held =
+      effort.driven_s > kShortestS && effort.asked_m > kLeastAskedM && moved_m < kLeastShare * effort.asked_m;
   if (!held) return;
   output.events.emplace_back(
       "the vehicle drives and does not get on: something that it does not see holds it");

@@ -184,6 +184,19 @@ TEST(AutonomyCycle, AVehicleThatDrivesAndDoesNotGetOnStopsAndSaysSo) {
   }
 }
 
+/// To slipping wheels somebody who stands there seems to move: the vehicle stops and starts, and still
+/// notices.
+TEST(AutonomyCycle, ShortStopsDoNotHideThatItDoesNotGetOn) {
+  auto v = vehicle();
+  v->config.detour_after_s = 1000.0;
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.pose().x_m() > 5.0; }, 15.0));
+  v->rolling.held = test::RollingVehicle::Held::Slipping;
+  v->lidar.posts.push_back({{4.4, 0.0}, 0.1, 1.7});
+  EXPECT_TRUE(v->run_until([&] { return v->state().standstill.cause == notice(Cause::HeldBack); }, 20.0));
+}
+
 TEST(AutonomyCycle, ADriveWhoseLinkOpensLateIsArmed) {
   auto v = vehicle();
   v->drive_silent = true;  // the port opens late: neither statuses nor commands pass
