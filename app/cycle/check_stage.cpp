@@ -112,7 +112,7 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
                    to_seconds(input.now - way.asked_detour) >= config.detour_again_s;
   const bool near = stuck || way.stop_along_m - way.along_m < kDetourWithinM;
   const bool going = drives(state.mode) || state.mode == Mode::Waiting;
-  if (!due || !near || !going || (way.check.blocked() && is_at_door(config, way.check.where))) return;
+  if (!due || !near || !going || waits_for_door(way, config)) return;
   way.asked_detour = input.now;
   way.detour_pending = true;
   ++way.detour_id;

@@ -195,6 +195,10 @@ bool is_at_door(const CycleConfig& config, const Point2<Map>& place) {
   });
 }
 
+bool waits_for_door(const Navigation& way, const CycleConfig& config) {
+  return way.check.blocked() && !way.unseen && is_at_door(config, way.check.where);
+}
+
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   Navigation& way = state.way;
   const bool has_target =
@@ -226,7 +230,7 @@ void navigate(CycleState& state, const CycleInput& input, const CycleConfig& con
     }
   }
   const double patience_s =
-      is_at_door(config, place_of_block(state)) ? config.door_reroute_after_s : config.reroute_after_s;
+      waits_for_door(way, config) ? config.door_reroute_after_s : config.reroute_after_s;
   const bool stuck = state.mode == Mode::Waiting && way.blocked_since && !way.arrived &&
                      to_seconds(input.now - *way.blocked_since) > patience_s;
   if (sure && stuck) try_another_route(state, input, config, output);

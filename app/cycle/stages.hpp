@@ -34,6 +34,9 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
 [[nodiscard]] bool may_drive(LocalizationState state);
 /// Whether the place lies at a door or a lift, where the vehicle waits instead of driving around.
 [[nodiscard]] bool is_at_door(const CycleConfig& config, const Point2<Map>& place);
+/// Whether a door or lift may be what blocks the way. What is remembered only, low and too near to be seen,
+/// is none.
+[[nodiscard]] bool waits_for_door(const Navigation& way, const CycleConfig& config);
 /// The legs that count as blocked now, in the direction in which the vehicle met what blocks them.
 [[nodiscard]] planning::BlockedLegs blocked_now(const Navigation& way, Stamp now, double forget_s);
 

@@ -290,6 +290,23 @@ TEST(AutonomyCycle, ABlockedLegIsLeftOutOfANewRoute) {
   EXPECT_THAT(v->events, Contains(HasSubstr("taking another route")));
 }
 
+TEST(AutonomyCycle, WhatLiesBeforeADoorIsNoDoor) {
+  auto routes = planning::parse_routes("ID,EDA\n0,1\n1,0 2\n2,1\n",
+                                       "ID,x,y,heading_deg,action\n0,0,0,,\n1,7,0,,door\n2,14,0,,\n");
+  test::ToyVehicle v(test::toy_config(std::move(routes.graph)), {0.0, 0.0, 0.0});
+  v.lidar.bodies.push_back({{{6.0, -0.3}, {6.0, 0.3}}, 0.1, 0.2});  // too low to be seen from near
+  v.drive_to({{2}});
+  v.say(OperatorWord::Resume);
+  ASSERT_TRUE(v.run_until([&] { return v.state().mode == Mode::Waiting; }, 15.0));
+  bool asked = false;
+  v.on_step = [&](const CycleInput&, const CycleOutput& out, const CycleState&) {
+    asked = asked || out.detour_wanted.has_value();
+  };
+  v.run_until([&] { return false; }, 3.0);
+  EXPECT_EQ(v.state().standstill.cause, notice(Cause::UnseenInTheWay));
+  EXPECT_TRUE(asked) << "a door is waited for, a thing on the floor is driven around";
+}
+
 TEST(AutonomyCycle, ADoorThatStaysShutIsLeftOutOfANewRouteAfterAWhile) {
   auto graph =
       planning::parse_routes("ID,EDA\n0,1\n1,0 4 3\n4,1 2\n2,4 3\n3,1 2\n",
