@@ -6,8 +6,8 @@
 
 namespace madori::mapping {
 
-StrictYaml::StrictYaml(std::string file, std::string name, YAML::Node node)
-    : file_(std::move(file)), name_(std::move(name)), node_(std::move(node)) {
+StrictYaml::StrictYaml(std::string file, std::string name, const YAML::Node& node)
+    : file_(std::move(file)), name_(std::move(name)), node_(node) {
   if (!node_.IsMap())
     throw Error(file_ + ":" + std::to_string(node_.Mark().line + 1), name_ + " is no list of `key: value`",
                 "");

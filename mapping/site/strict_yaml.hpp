@@ -17,7 +17,7 @@ class StrictYaml {
  public:
   /// The top mapping of a file. Throws Error when it cannot be read or is no mapping.
   static StrictYaml load(const std::filesystem::path& file);
-  StrictYaml(std::string file, std::string name, YAML::Node node);
+  StrictYaml(std::string file, std::string name, const YAML::Node& node);
 
   [[nodiscard]] bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
   [[nodiscard]] const YAML::Node& node() const { return node_; }

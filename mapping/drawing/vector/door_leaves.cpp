@@ -35,20 +35,36 @@ std::vector<DoorSwing> doors_of(std::vector<DoorSwing> swings) {
   return swings;
 }
 
+/// Calls visit(line, door) for every line that is the leaf of a door; the doors by the x of their hinges.
+template <class Visit>
+void for_leaves(const std::vector<DxfLine>& lines, const std::vector<DoorSwing>& doors, Visit visit) {
+  const double reach = kReach * std::ranges::max_element(doors, {}, &DoorSwing::radius)->radius;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (const double x : {lines[i].x1, lines[i].x2}) {
+      auto door =
+          std::ranges::lower_bound(doors, x - reach, {}, [](const DoorSwing& s) { return s.hinge.x; });
+      for (; door != doors.end() && door->hinge.x <= x + reach; ++door)
+        if (is_leaf(lines[i], *door)) visit(i, static_cast<std::size_t>(door - doors.begin()));
+    }
+  }
+}
+
 }  // namespace
 
 void mark_door_leaves(std::vector<DxfLine>& lines, const std::vector<DoorSwing>& swings) {
   if (swings.empty()) return;
-  const auto doors = doors_of(swings);
-  const double reach = kReach * std::ranges::max_element(doors, {}, &DoorSwing::radius)->radius;
-  for (DxfLine& line : lines) {
-    for (const double x : {line.x1, line.x2}) {
-      auto door =
-          std::ranges::lower_bound(doors, x - reach, {}, [](const DoorSwing& s) { return s.hinge.x; });
-      for (; door != doors.end() && door->hinge.x <= x + reach; ++door)
-        line.door_leaf = line.door_leaf || is_leaf(line, *door);
-    }
-  }
+  for_leaves(lines, doors_of(swings), [&](std::size_t line, std::size_t) { lines[line].door_leaf = true; });
+}
+
+void mark_doors_ajar(std::vector<DxfLine>& lines, const std::vector<DoorSwing>& arcs) {
+  if (arcs.empty()) return;
+  const auto doors = doors_of(arcs);
+  for_leaves(lines, doors, [&](std::size_t line, std::size_t door) {
+    const DoorSwing& arc = doors[door];
+    if (line >= arc.first_line && line < arc.end_line) return;
+    lines[line].door_leaf = true;
+    for (std::size_t i = arc.first_line; i < arc.end_line; ++i) lines[i].door_leaf = true;
+  });
 }
 
 }  // namespace madori::mapping

@@ -10,4 +10,8 @@ namespace madori::mapping {
 /// drawn as one line or as a thin rectangle. Arcs much larger or smaller than most are no doors.
 void mark_door_leaves(std::vector<DxfLine>& lines, const std::vector<DoorSwing>& swings);
 
+/// The same for doors drawn ajar, by shorter arcs: an arc without a leaf stays what it is, one with a leaf is
+/// marked with it.
+void mark_doors_ajar(std::vector<DxfLine>& lines, const std::vector<DoorSwing>& arcs);
+
 }  // namespace madori::mapping

@@ -23,6 +23,7 @@ namespace {
 using Dataset = std::unique_ptr<GDALDataset>;
 
 constexpr std::size_t kMostLines = 5'000'000;
+constexpr double kLeastAjar = 0.08, kMostAjar = 1.5;  // radians
 
 Dataset open(const std::filesystem::path& file) {
   static std::once_flag once;
@@ -118,6 +119,22 @@ std::optional<DoorSwing> quarter_arc(const OGRGeometry& geometry) {
   return DoorSwing{hinge, from, to, chord / std::sqrt(2.0)};
 }
 
+/// The arc of less than a quarter circle, by the circle through its ends and its middle.
+std::optional<DoorSwing> short_arc(const OGRGeometry& geometry) {
+  if (wkbFlatten(geometry.getGeometryType()) != wkbLineString) return std::nullopt;
+  const auto& curve = *geometry.toLineString();
+  const int last = curve.getNumPoints() - 1;
+  if (last < 2) return std::nullopt;
+  const DxfPoint from{curve.getX(0), curve.getY(0)}, to{curve.getX(last), curve.getY(last)};
+  const DxfPoint a{curve.getX(last / 2) - from.x, curve.getY(last / 2) - from.y},
+      b{to.x - from.x, to.y - from.y};
+  const double twice = 2 * (a.x * b.y - a.y * b.x), aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y;
+  const double u = (b.y * aa - a.y * bb) / twice, v = (a.x * bb - b.x * aa) / twice;
+  const double radius = std::hypot(u, v), share = curve.get_Length() / radius;  // the angle it turns by
+  if (!std::isfinite(share) || share < kLeastAjar || share > kMostAjar) return std::nullopt;
+  return DoorSwing{{from.x + u, from.y + v}, from, to, radius};
+}
+
 void add_feature(const OGRFeature& feature, std::map<std::string, std::size_t>& layers, DxfContent& content) {
   if (is_imperial(field(feature, "Text"))) content.units.imperial_texts = true;
   const OGRGeometry* geometry = feature.GetGeometryRef();
@@ -139,7 +156,14 @@ void add_feature(const OGRFeature& feature, std::map<std::string, std::size_t>& 
       content.units.door_radii.push_back(swing->radius);
     }
   }
+  const std::size_t first = content.lines.size();
   Collector(content, like).add(*geometry);
+  if (classes.find("AcDbArc") == std::string::npos || like.door_arc) return;
+  if (auto arc = short_arc(*geometry)) {
+    arc->first_line = first;
+    arc->end_line = content.lines.size();
+    content.short_arcs.push_back(*arc);
+  }
 }
 
 /// Refuses what GDAL would read half (no EOF at the end) or never end on (zero bytes), and returns the first
@@ -178,6 +202,7 @@ DxfContent read_dxf_lines(const std::filesystem::path& file) {
   for (auto&& feature : dataset->GetLayer(0)) add_feature(*feature, layers, content);
   CPLPopErrorHandler();
   mark_door_leaves(content.lines, content.swings);
+  mark_doors_ajar(content.lines, content.short_arcs);
   return content;
 }
 

@@ -15,7 +15,7 @@ struct DxfLine {
   bool dashed = false;
   bool hatch = false;
   bool door_arc = false;   ///< of a quarter circle
-  bool door_leaf = false;  ///< from the middle of such an arc to one of its ends
+  bool door_leaf = false;  ///< from the middle of such an arc to one of its ends, or of a door drawn ajar
 
   [[nodiscard]] double length() const;
 };
@@ -24,16 +24,18 @@ struct DxfPoint {
   double x = 0, y = 0;
 };
 
-/// A quarter arc, drawing units.
+/// A quarter arc, or a shorter one that may be the swing of a door drawn ajar, drawing units.
 struct DoorSwing {
   DxfPoint hinge, from, to;
   double radius = 0;
+  std::size_t first_line = 0, end_line = 0;  ///< its pieces among DxfContent::lines, the end not counted
 };
 
 struct DxfContent {
   std::vector<std::string> layers;
   std::vector<DxfLine> lines;
-  std::vector<DoorSwing> swings;
+  std::vector<DoorSwing> swings;      ///< quarter arcs
+  std::vector<DoorSwing> short_arcs;  ///< doors drawn ajar where a leaf hangs in them
   DxfUnitEvidence units;
 };
 

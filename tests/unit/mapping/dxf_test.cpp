@@ -117,6 +117,22 @@ TEST(DoorLeaves, AnArcFarLargerThanTheDoorsIsNone) {
   EXPECT_TRUE(lines[1].door_leaf);
 }
 
+TEST(DoorLeaves, ADoorDrawnAjarIsKnownByTheLeafThatHangsInItsArc) {
+  const auto arc = [](double x, std::size_t first) {  // 0.3 radians of a circle of 0.9 about (x, 0)
+    return DoorSwing{{x, 0}, {x + 0.9, 0}, {x + 0.9 * std::cos(0.3), 0.9 * std::sin(0.3)},
+                     0.9,    first,        first + 1};
+  };
+  const DoorSwing door = arc(0, 0), bend = arc(10, 1);
+  std::vector<DxfLine> lines{drawn(door.from.x, 0, door.to.x, door.to.y),
+                             drawn(bend.from.x, 0, bend.to.x, bend.to.y), drawn(0, 0, door.to.x, door.to.y),
+                             drawn(10, 0, 10, 5)};
+  mark_doors_ajar(lines, {door, bend});
+  EXPECT_TRUE(lines[0].door_leaf) << "the arc of the door";
+  EXPECT_TRUE(lines[2].door_leaf) << "its leaf";
+  EXPECT_FALSE(lines[1].door_leaf) << "a bent wall has no leaf";
+  EXPECT_FALSE(lines[3].door_leaf);
+}
+
 /// On a layer without a telling name the leaf is no wall; one that its layer calls a wall stays.
 TEST(LoadDxf, ADoorOnLayerZeroLosesItsLeaf) {
   const test::TemporaryFolder folder;
