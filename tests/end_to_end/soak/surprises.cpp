@@ -140,6 +140,17 @@ bool Surprises::take_away_near(const Point2<Map>& place) {
   return std::erase_if(things_, near) > 0;
 }
 
+bool Surprises::stands_at(const Point2<Map>& place) const {
+  constexpr double kStepM = 0.5;
+  const auto truth = factory_.truth();
+  const auto at = truth.building_from_base * (truth.map_from_base.inverse() * place);
+  const auto outline = simulation::rectangle(at, 0.0, 2.0 * kStepM, 2.0 * kStepM);
+  if (factory_.world().obstacles().find(outline, factory_.vehicle().body()) != nullptr) return true;
+  return std::any_of(factory_.bodies().begin(), factory_.bodies().end(), [&](const auto& body) {
+    return simulation::overlap(outline, simulation::outline(body));
+  });
+}
+
 bool Surprises::another_way(std::size_t goal) const {
   constexpr double kCoversM = 1.2;  // half the vehicle, half a pallet, margins
   const auto& nodes = config_.routes.nodes();

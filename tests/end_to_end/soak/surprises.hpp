@@ -33,6 +33,9 @@ class Surprises {
   /// Whether a route that avoids everything put down leads from the vehicle to the node.
   [[nodiscard]] bool another_way(std::size_t goal) const;
 
+  /// Whether anything as high as the vehicle's body stands within a step of a place.
+  [[nodiscard]] bool stands_at(const Point2<Map>& place) const;
+
  private:
   [[nodiscard]] bool has_room(const Transform2<Map, Base>& pose) const;
   struct Thing {

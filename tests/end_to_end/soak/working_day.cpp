@@ -153,7 +153,10 @@ void WorkingDay::look_after(const Delivery& delivery) {
     help(delivery, because, false);
   } else if (state.mode == app::Mode::Waiting && (state.way.unseen || state.way.felt) &&
              stood_s > kLooksAfterS) {
-    if (state.way.felt) surprises_->take_away_near(factory_->truth().map_from_base.translation());
+    // "look, clear the way, then press Resume": who cannot clear it does not press.
+    const auto where = state.way.felt ? factory_->truth().map_from_base.translation() : state.way.check.where;
+    surprises_->take_away_near(where);
+    if (surprises_->stands_at(state.way.check.where)) return;
     run_->say({app::OperatorWord::Resume, {}, {}});
     help(delivery, because, false);
   } else if (state.mode == app::Mode::Waiting && stood_s > kTakesAwayAfterS) {
