@@ -144,6 +144,7 @@ std::optional<Transform2<Map, Base>> Localizer::place_in_memory(const SurfaceSca
 void Localizer::start(SurfaceScan scan) {
   anchor_stamp_ = scan.stamp;
   last_agreed_ = scan.stamp;
+  doubt_path_m_ = 0.0;
   double way_m = 0.0;
   if (!map_.memory.empty()) {
     const std::optional<Transform2<Map, Base>> place = place_in_memory(scan);
@@ -218,6 +219,17 @@ bool Localizer::jumps(const MatchResult& match, const OdometryStep& step) const 
   return e.dot(covariance.inverse() * e) > 16.0;
 }
 
+/// Does the scan lie, where it was matched, on what was remembered before the doubt began? Then the vehicle
+/// has not been carried off, drawn walls or not.
+bool Localizer::is_known_from_before(const SurfaceScan& scan, const MatchResult& match) const {
+  const Point2<Map> here = match.map_from_base.translation();
+  const LocalMap before = map_.memory.whole_map(here, doubt_path_m_);
+  if (before.empty()) return false;
+  const MatchResult again = before.refine(scan, match.map_from_base, {});
+  return again.inlier_share > std::max(options_.lost_inliers, options_.known_share * usual_inliers_) &&
+         distance_m(again.map_from_base.translation(), here) < options_.same_place_m;
+}
+
 /// Does the scan agree with the memory as scans usually do here? Furniture and people hide walls: that the
 /// drawing does not show what is seen is no reason for doubt while memory and wheels go on. Once in doubt,
 /// the memory alone does not clear it: what was added since the doubt began agrees with itself anywhere.
@@ -231,7 +243,7 @@ void Localizer::note_agreement(const SurfaceScan& scan, const MatchResult& match
   map_.evidence.on_memory = match.inlier_share;
   bool agrees = match.inlier_share > std::max(options_.lost_inliers, 0.5 * usual_inliers_);
   if (exact && (map_.evidence.blind_scans > 0 || jumps(match, step))) {
-    agrees = agrees && on_walls > 0.5 * wall_fit_.usual();
+    agrees = agrees && (on_walls > 0.5 * wall_fit_.usual() || is_known_from_before(scan, match));
   }
   if (!agrees) {
     ++map_.evidence.blind_scans;
@@ -240,6 +252,7 @@ void Localizer::note_agreement(const SurfaceScan& scan, const MatchResult& match
   }
   usual_inliers_ += 0.05 * (match.inlier_share - usual_inliers_);
   last_agreed_ = scan.stamp;
+  doubt_path_m_ = map_.memory.keyframes().back().path_m;
   map_.evidence.blind_scans = 0;
   map_.evidence.blind_m = 0.0;
 }

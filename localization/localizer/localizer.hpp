@@ -61,6 +61,7 @@ class Localizer {
   [[nodiscard]] bool drawing_is_exact() const;
   void search_from_here(SurfaceScan scan);
   [[nodiscard]] bool jumps(const MatchResult& match, const OdometryStep& step) const;
+  [[nodiscard]] bool is_known_from_before(const SurfaceScan& scan, const MatchResult& match) const;
   void note_agreement(const SurfaceScan& scan, const MatchResult& match, const OdometryStep& step);
   void update_covariance(const MatchResult& match);
 
@@ -83,7 +84,8 @@ class Localizer {
   WallFit wall_fit_;
   bool beside_walls_ = false;  ///< the last scan: think at once, the newest stretch may have drifted
   Stamp last_agreed_{};
-  MapWorker worker_;  ///< last: it ends first
+  double doubt_path_m_ = 0.0;  ///< driven when the last scan agreed; newer keyframes agree with themselves
+  MapWorker worker_;           ///< last: it ends first
 };
 
 }  // namespace madori::localization

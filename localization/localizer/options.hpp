@@ -35,6 +35,8 @@ struct LocalizerOptions {
   double drift_half_rad = 0.3;
   double drift_least_m = 0.5;  ///< less may be the drawing's own error, and so may a smaller turn:
   double drift_least_rad = 0.1;
+  double known_share = 0.8;   ///< of the usual agreement with what was remembered before: clears a doubt,
+  double same_place_m = 0.3;  ///< where that puts the scan in the same place
   int restart_scans = 8;  ///< of no agreement, after which the memory is given up and the place sought anew
   HealthLimits health;
   double lost_inliers = 0.25;  ///< a scan that fits the memory less than this leaves the pose to the wheels

@@ -51,12 +51,12 @@ LocalMap Memory::recent_map(const Point2<Map>& centre) const {
   return {pieces, centre, options_.map_radius_m};
 }
 
-LocalMap Memory::whole_map(const Point2<Map>& centre) const {
+LocalMap Memory::whole_map(const Point2<Map>& centre, double until_path_m) const {
   std::vector<std::pair<double, std::size_t>> near;
   const std::size_t recent = window_begin();
   for (std::size_t i = 0; i < recent; ++i) {
     const double d = distance_m(poses_[i].translation(), centre);
-    if (d < options_.nearby_m) {
+    if (d < options_.nearby_m && keyframes_[i].path_m <= until_path_m) {
       near.emplace_back(d, i);
     }
   }
@@ -66,7 +66,7 @@ LocalMap Memory::whole_map(const Point2<Map>& centre) const {
   for (const auto& [d, i] : near) {
     pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }
-  for (std::size_t i = recent; i < keyframes_.size(); ++i) {
+  for (std::size_t i = recent; i < keyframes_.size() && keyframes_[i].path_m <= until_path_m; ++i) {
     pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }
   return {pieces, centre, options_.map_radius_m};

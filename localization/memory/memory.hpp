@@ -65,8 +65,8 @@ class Memory {
   [[nodiscard]] std::size_t window_begin() const { return empty() ? 0 : window_begin(size() - 1); }
   /// The recent surfaces around a place.
   [[nodiscard]] LocalMap recent_map(const Point2<Map>& centre) const;
-  /// These, and what older keyframes near the place saw.
-  [[nodiscard]] LocalMap whole_map(const Point2<Map>& centre) const;
+  /// These, and what older keyframes near the place saw; none that was added after so much driving.
+  [[nodiscard]] LocalMap whole_map(const Point2<Map>& centre, double until_path_m = 1e12) const;
   /// The chain of motions may be broken here: loops are sought in a wide window until one is closed.
   void note_break() { broken_ = true; }
   /// Adds a keyframe after `path_m` more of driving, tied to the newest one by the measured motion between

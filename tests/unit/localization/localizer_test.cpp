@@ -180,6 +180,54 @@ TEST(Localizer, AKidnappingIsNoticedWithinTwoSecondsAndMended) {
   EXPECT_LT(distance_m(last.map_from_base.translation(), after.back().truth.translation()), 0.2);
 }
 
+/// A hall of the drawing, and behind a door a workshop that is not drawn.
+mapping::Walls with_an_undrawn_workshop(std::size_t& drawn) {
+  mapping::Walls walls;
+  test::add_wall(walls, 0.0, 0.0, 12.0, 0.0);
+  test::add_wall(walls, 12.0, 0.0, 12.0, 3.0);
+  test::add_wall(walls, 12.0, 4.2, 12.0, 8.0);
+  test::add_wall(walls, 12.0, 8.0, 0.0, 8.0);
+  test::add_wall(walls, 0.0, 8.0, 0.0, 0.0);
+  test::add_box(walls, 3.0, 2.2, 5.4, 3.6);
+  test::add_box(walls, 7.5, 5.0, 8.7, 6.9);
+  drawn = walls.size();
+  test::add_wall(walls, 12.0, -3.0, 22.0, -3.0);
+  test::add_wall(walls, 22.0, -3.0, 22.0, 10.0);
+  test::add_wall(walls, 22.0, 10.0, 12.0, 10.0);
+  test::add_wall(walls, 12.0, 10.0, 12.0, 8.0);
+  test::add_wall(walls, 12.0, 0.0, 12.0, -3.0);
+  test::add_box(walls, 15.0, 5.5, 16.4, 8.0);
+  test::add_box(walls, 18.0, -1.5, 20.5, 0.5);
+  return walls;
+}
+
+TEST(Localizer, WheelsThatSlipInAnUndrawnRoomAreNoKidnapping) {
+  std::mt19937 engine(21);
+  std::size_t drawn = 0;
+  const mapping::Walls walls = with_an_undrawn_workshop(drawn);
+  const mapping::Walls drawing(walls.begin(), walls.begin() + static_cast<long>(drawn));
+  const std::vector<Point2<Map>> round{{2.0, 1.2},  {10.5, 1.2}, {10.5, 3.6}, {14.0, 3.6}, {14.0, -1.5},
+                                       {14.0, 3.6}, {20.0, 3.6}, {20.0, 8.5}, {20.0, 3.6}, {10.5, 3.6},
+                                       {10.5, 7.4}, {2.0, 7.4},  {1.5, 1.2},  {10.5, 1.2}, {10.5, 3.6},
+                                       {20.0, 3.6}, {20.0, 8.5}, {20.0, 3.6}, {14.0, 3.6}, {14.0, -1.5}};
+  auto moments = test::drive(walls, round, bad_wheels(), engine);
+  const std::size_t slip = moments.size() - 120;
+  ASSERT_GT(moments[slip].truth.x_m(), 15.0);
+  Localizer localizer(drawing, InitialPose{moments.front().truth});
+  const Transform2<Odom, Base> held = moments[slip].odometry.odom_from_base;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    if (i > slip) {  // half a metre and 20 degrees that were none
+      moments[i].odometry.odom_from_base = held * Transform2<Base, Base>(0.5, 0.1, to_rad(20.0)) *
+                                           (held.inverse() * moments[i].odometry.odom_from_base);
+    }
+    const PoseEstimate e = feed(localizer, moments[i]);
+    EXPECT_NE(e.health.state, LocalizationState::Lost) << i << " of " << slip << ": " << e.health.reason;
+    if (i > slip + 10) {
+      EXPECT_LT(distance_m(e.map_from_base.translation(), moments[i].truth.translation()), 0.25);
+    }
+  }
+}
+
 TEST(Localizer, TheMemoryGrowsWithTheBuildingAndNotWithTheWay) {
   std::mt19937 engine(19);
   const mapping::Walls walls = test::laboratory_hall();
