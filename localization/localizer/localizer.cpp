@@ -159,6 +159,7 @@ void Localizer::start(SurfaceScan scan) {
   }
   map_.memory.add(std::move(scan), way_m, anchor_, MeasuredMotion{});
   moved_ = {};
+  moved_agreement_ = 1.0;
   since_scan_ = {};
   since_keyframe_ = {};
   keyframes_since_thinking_ = 1;
@@ -167,6 +168,7 @@ void Localizer::start(SurfaceScan scan) {
 
 /// The motion of a scan, as far as the recent keyframes tell it; else the wheels', which may have slipped.
 void Localizer::go_on(const MatchResult& recent, const OdometryStep& step) {
+  moved_agreement_ = std::min(moved_agreement_, recent.inlier_share);
   if (recent.inlier_share > options_.lost_inliers) {
     moved_ = moved_ * (anchor_.inverse() * recent.map_from_base);
     moved_information_ = recent.information;
@@ -182,9 +184,11 @@ void Localizer::remember(SurfaceScan scan) {
   const Transform2<Map, Base> last = map_.memory.poses().back();
   const Eigen::Matrix3d wheels = with_floor(since_keyframe_.covariance).inverse();
   const Eigen::Matrix3d seen = in_map_axes(moved_information_, -last.yaw_rad());
-  map_.memory.add(std::move(scan), since_keyframe_.path_m, anchor_, MeasuredMotion{moved_, seen + wheels});
+  map_.memory.add(std::move(scan), since_keyframe_.path_m, anchor_,
+                  MeasuredMotion{moved_, seen + wheels, moved_agreement_});
   since_keyframe_ = {};
   moved_ = {};
+  moved_agreement_ = 1.0;
   ++keyframes_since_thinking_;
 }
 

@@ -77,6 +77,7 @@ class Localizer {
   OdometryStep since_scan_;
   OdometryStep since_keyframe_;   ///< by the wheels
   Transform2<Base, Base> moved_;  ///< since the newest keyframe, by the recent ones
+  double moved_agreement_ = 1.0;  ///< the least of the scans since then with the recent ones
   Eigen::Matrix3d moved_information_ = Eigen::Matrix3d::Zero();  ///< of the last of these matches, Map axes
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
   int keyframes_since_thinking_ = 0;

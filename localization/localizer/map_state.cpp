@@ -96,13 +96,17 @@ void MapState::look_everywhere(const LocalizerOptions& options) {
   consult_drawing(options);
 }
 
-/// How far beside its place the newest stretch is sought. Where it fits the drawing as the rest does, only an
-/// exact drawing knows better by centimetres: on a rough one the building's own shape is the better guide.
-AlignmentWindow MapState::drift_window(const MemoryCloud& recent, const LocalizerOptions& options) const {
+/// How far beside its place the newest stretch is sought. What fits the drawing poorly though every scan
+/// fitted the one before stands in a place that is drawn poorly. Where it fits the drawing as the rest does,
+/// only an exact drawing knows better by centimetres: on a rough one the building's own shape is the better
+/// guide.
+AlignmentWindow MapState::drift_window(const MemoryCloud& recent, std::size_t first,
+                                       const LocalizerOptions& options) const {
   const double walls = DrawingFit::walls_seen(recent);
   const double nats = drawing->likelihood(recent, {}, std::max(0.1, drawing->model().sigma_m));
   const double usual = evidence.fit_nats / std::max(1.0, evidence.walls_seen);
-  if (walls > options.drift_walls && nats < options.drift_share * usual * walls) {
+  if (walls > options.drift_walls && nats < options.drift_share * usual * walls &&
+      memory.weakest_agreement(first) < options.drift_agreement) {
     return {options.drift_half_m, options.drift_half_rad, 250};
   }
   return drawing->model().sigma_m > options.exact_drawing_m ? AlignmentWindow{0.0, 0.0}
@@ -110,14 +114,15 @@ AlignmentWindow MapState::drift_window(const MemoryCloud& recent, const Localize
 }
 
 /// A stretch that lies beside the drawing, where it fits much better another way, has drifted: it is laid on
-/// the walls that it belongs to. The farther off, the more they have to say.
+/// the walls that it belongs to. The farther off, and the more loops tie it to older keyframes where it is,
+/// the more they have to say.
 bool MapState::correct_recent_drift(const LocalizerOptions& options) {
   const std::size_t first = memory.window_begin();
   if (first == 0) {
     return false;
   }
   const MemoryCloud recent = memory_cloud(memory, first);
-  const AlignmentWindow window = drift_window(recent, options);
+  const AlignmentWindow window = drift_window(recent, first, options);
   if (window.half_m <= 0.0) {
     return false;
   }
@@ -130,7 +135,8 @@ bool MapState::correct_recent_drift(const LocalizerOptions& options) {
       drawing->model().sigma_m < options.exact_drawing_m && window.half_m < options.drift_half_m;
   const bool clear = exact ? metres > 3.0 * drawing->model().sigma_m
                            : metres > options.drift_least_m || turns > options.drift_least_rad;
-  if (found.gain < 2.0 * options.move_gain + far || !clear) {
+  const double against = std::max(0.0, memory.loops_against(found.correction, first));
+  if (!clear || found.gain < 2.0 * options.move_gain + far + against) {
     return false;
   }
   memory.move(found.correction, first);

@@ -23,7 +23,7 @@ struct MapState {
  private:
   void consult_drawing(const LocalizerOptions& options);
   bool correct_recent_drift(const LocalizerOptions& options);
-  [[nodiscard]] AlignmentWindow drift_window(const MemoryCloud& recent,
+  [[nodiscard]] AlignmentWindow drift_window(const MemoryCloud& recent, std::size_t first,
                                              const LocalizerOptions& options) const;
   void survey_drawing(const MemoryCloud& cloud, const LocalizerOptions& options);
   void look_everywhere(const LocalizerOptions& options);

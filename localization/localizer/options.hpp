@@ -30,8 +30,9 @@ struct LocalizerOptions {
   double search_walls = 8.0;  ///< that must have been seen before the first look at all places
   double move_gain = 3.0;     ///< nats by which another place must explain the memory better
   double drift_walls = 6.0;   ///< that the newest stretch must have seen to be judged by itself
-  double drift_share = 0.5;   ///< of the usual fit; a stretch that fits less may have drifted,
-  double drift_half_m = 2.4;  ///< and is sought this far around
+  double drift_agreement = 0.5;  ///< share of its scans that agree; a stretch where all do has not drifted
+  double drift_share = 0.5;      ///< of the usual fit; a stretch that fits less may have drifted,
+  double drift_half_m = 2.4;     ///< and is sought this far around
   double drift_half_rad = 0.3;
   double drift_least_m = 0.5;  ///< less may be the drawing's own error, and so may a smaller turn:
   double drift_least_rad = 0.1;

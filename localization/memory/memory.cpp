@@ -43,6 +43,12 @@ std::size_t Memory::window_begin(std::size_t newest) const {
   return begin;
 }
 
+double Memory::weakest_agreement(std::size_t first) const {
+  double weakest = 1.0;
+  for (std::size_t k = first; k < size(); ++k) weakest = std::min(weakest, keyframes_[k].agreement);
+  return weakest;
+}
+
 LocalMap Memory::recent_map(const Point2<Map>& centre) const {
   std::vector<LocalMap::Piece> pieces;
   for (std::size_t i = window_begin(); i < keyframes_.size(); ++i) {
@@ -91,7 +97,8 @@ void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& m
                                 options_.chain_rad * options_.chain_rad * metres);
     factors_.push_back({id - 1, id, motion.motion, limited(motion.information, grown), false});
   }
-  keyframes_.push_back({std::make_shared<const SurfaceScan>(std::move(scan)), path, broken_});
+  keyframes_.push_back(
+      {std::make_shared<const SurfaceScan>(std::move(scan)), path, broken_, motion.agreement});
   poses_.push_back(map_from_base);
   broken_ = false;
 }
@@ -253,6 +260,24 @@ Transform2<Map, Map> Memory::take_in(Memory other, std::size_t known) {
 
 bool Memory::optimise(const std::vector<UnaryFactor>& unary) {
   return optimise_graph(poses_, factors_, unary);
+}
+
+double Memory::loops_against(const Transform2<Map, Map>& by, std::size_t first) const {
+  constexpr double kLossSq = 9.0;  // GraphOptions::loop_loss
+  const auto nats = [](const RelativeFactor& f, const auto& from, const auto& to) {
+    const Eigen::Vector3d e = relative_error(f, from, to);
+    return 0.5 * kLossSq * std::log1p(e.dot(f.information * e) / kLossSq);
+  };
+  double sum = 0.0;
+  for (const RelativeFactor& f : factors_) {
+    const auto from = static_cast<std::size_t>(f.from);
+    const auto to = static_cast<std::size_t>(f.to);
+    if (!f.loop || (from < first) == (to < first)) continue;
+    sum +=
+        nats(f, from < first ? poses_[from] : by * poses_[from], to < first ? poses_[to] : by * poses_[to]) -
+        nats(f, poses_[from], poses_[to]);
+  }
+  return sum;
 }
 
 void Memory::move(const Transform2<Map, Map>& by, std::size_t first) {

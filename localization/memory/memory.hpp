@@ -37,12 +37,14 @@ struct Keyframe {
   std::shared_ptr<const SurfaceScan> scan;
   double path_m = 0.0;       ///< driven since the start
   bool after_break = false;  ///< the motion from its forerunner may be wrong
+  double agreement = 1.0;    ///< MeasuredMotion::agreement from its forerunner
 };
 
 /// A motion with its information, in the axes of the pose it starts from.
 struct MeasuredMotion {
   Transform2<Base, Base> motion;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  double agreement = 1.0;  ///< share of a scan that lay on what was seen before it, the least on the way
 };
 
 /// What the vehicle has seen itself: keyframes in a pose graph. Poses are Map frame, and are only as right as
@@ -63,6 +65,8 @@ class Memory {
 
   /// The first of the keyframes that count as recent.
   [[nodiscard]] std::size_t window_begin() const { return empty() ? 0 : window_begin(size() - 1); }
+  /// The weakest agreement between the keyframes from `first` on: where all are strong, nothing has drifted.
+  [[nodiscard]] double weakest_agreement(std::size_t first) const;
   /// The recent surfaces around a place.
   [[nodiscard]] LocalMap recent_map(const Point2<Map>& centre) const;
   /// These, and what older keyframes near the place saw; none that was added after so much driving.
@@ -86,6 +90,8 @@ class Memory {
   [[nodiscard]] std::size_t bytes() const;
   /// Solves the graph with the drawing's pulls.
   bool optimise(const std::vector<UnaryFactor>& unary);
+  /// Nats by which the loops closed across `first` speak against such a move (Cauchy, as in the graph).
+  [[nodiscard]] double loops_against(const Transform2<Map, Map>& by, std::size_t first) const;
   /// Moves the keyframes from `first` on rigidly.
   void move(const Transform2<Map, Map>& by, std::size_t first = 0);
   /// Becomes `other`, a copy made when this memory had `known` keyframes and changed since, and what this one

@@ -135,6 +135,22 @@ TEST(Memory, AnOldPlaceFoundAgainBendsTheWayBetween) {
     off_m = std::max(off_m, distance_m(memory.poses()[i].translation(), truth[i].translation()));
   }
   EXPECT_LT(off_m, 0.3 * worst_m);
+  const Transform2<Map, Map> away(0.0, 1.5, 0.1);
+  const std::size_t newest = memory.window_begin();
+  EXPECT_DOUBLE_EQ(memory.loops_against({}, newest), 0.0);
+  EXPECT_GT(memory.loops_against(away, newest), 20.0);
+  EXPECT_DOUBLE_EQ(memory.loops_against(away, 0), 0.0);  // all of it together tears no loop
+}
+
+TEST(Memory, TellsTheWeakestLinkOfAStretch) {
+  std::mt19937 engine(5);
+  Memory memory;
+  for (const double agreement : {1.0, 0.3, 0.9, 0.7, 0.8}) {
+    memory.add(look({10.0, 8.0, 0.0}, engine), 0.5, {10.0, 8.0, 0.0},
+               MeasuredMotion{{}, Eigen::Matrix3d::Identity(), agreement});
+  }
+  EXPECT_DOUBLE_EQ(memory.weakest_agreement(0), 0.3);
+  EXPECT_DOUBLE_EQ(memory.weakest_agreement(2), 0.7);
 }
 
 TEST(PoseGraph, AUnaryFactorPullsOnlyWhereItSees) {
