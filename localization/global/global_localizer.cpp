@@ -249,6 +249,7 @@ GlobalAnswer GlobalLocalizer::answer(std::vector<Hypothesis> hypotheses) const {
   for (Hypothesis& h : all) h.probability = std::exp(h.log_likelihood - all.front().log_likelihood) / sum;
   const Hypothesis& best = all.front();
   const double lead = all.size() > 1 ? best.log_likelihood - all[1].log_likelihood : options_.clear_nats;
+  const bool is_clear = best.fit.inlier_fraction >= options_.well_explained && lead >= options_.clear_nats;
   if (best.fit.inlier_fraction < options_.least_explained) {
     answer.reason = reason::kNoPlace.english;
   } else if (best.through_walls > options_.most_through) {
@@ -259,7 +260,7 @@ GlobalAnswer GlobalLocalizer::answer(std::vector<Hypothesis> hypotheses) const {
   } else if (best.fit.inlier_fraction < options_.well_explained && lead < options_.clear_nats) {
     answer.state = GlobalState::Ambiguous;
     answer.reason = reason::kMuchUndrawn.english;
-  } else if (best.through_walls > options_.doubtful_through) {
+  } else if (best.through_walls > options_.doubtful_through && !is_clear) {
     answer.state = GlobalState::Ambiguous;
     answer.reason = reason::kThroughSomeWalls.english;
   } else {
