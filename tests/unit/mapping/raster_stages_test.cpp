@@ -6,6 +6,7 @@
 #include <random>
 
 #include "mapping/drawing/raster/binarize.hpp"
+#include "mapping/drawing/raster/columns.hpp"
 #include "mapping/drawing/raster/components.hpp"
 #include "mapping/drawing/raster/dashed_marks.hpp"
 #include "mapping/drawing/raster/hough_seeds.hpp"
@@ -100,6 +101,24 @@ TEST(Thinning, KeepsOnePixelAndTheConnection) {
   EXPECT_LT(count_ink(ink), 180U);
   cv::Mat labels;
   EXPECT_EQ(cv::connectedComponents(canvas(ink), labels, 8), 2);
+}
+
+TEST(Strokes, ThinSolidWallsAreNotThePen) {
+  RunLengths runs(66, 0);
+  for (const auto& [width, count] : {std::pair{2U, 900.0},
+                                     {3U, 2400.0},
+                                     {4U, 1600.0},
+                                     {5U, 380.0},
+                                     {6U, 310.0},
+                                     {7U, 840.0},
+                                     {8U, 1850.0},
+                                     {9U, 210.0},
+                                     {10U, 60.0},
+                                     {11U, 20.0}})
+    runs[width] = count;
+  EXPECT_LE(solid_from_px(runs, pen_width_px(runs)), 7) << "walls of 8 pixels are solid";
+  runs[7] = runs[8] = runs[9] = 0;
+  EXPECT_GE(solid_from_px(runs, pen_width_px(runs)), 7) << "without them the emptiest thickness counts";
 }
 
 TEST(Strokes, SolidAndThinAreToldApart) {
@@ -201,6 +220,28 @@ TEST(Dashed, EvenBarsAreALineAndAWallWithDoorsIsNot) {
   const auto dashed = find_dashed(marks, 3);
   ASSERT_EQ(dashed.size(), 1U);
   EXPECT_EQ(dashed[0].size(), 17U);
+}
+
+TEST(Dashed, ALongLineThatEndsInDotsIsNone) {
+  GrayImage ink = blank(800, 100, 0);
+  cv::rectangle(canvas(ink), {20, 50}, {600, 52}, 255, cv::FILLED);
+  for (int u = 606; u < 624; u += 6) cv::rectangle(canvas(ink), {u, 50}, {u + 2, 52}, 255, cv::FILLED);
+  EXPECT_TRUE(find_dashed(Components(ink), 3).empty());
+}
+
+TEST(Columns, StandOnDashedAxesAndNotInWords) {
+  GrayImage ink = blank(900, 300, 0);
+  for (const int u : {50, 250, 450, 650, 850}) {
+    cv::rectangle(canvas(ink), {u, 50}, {u + 19, 69}, 255, cv::FILLED);  // pillars ...
+    cv::rectangle(canvas(ink), {u - 24, 59}, {u - 6, 60}, 255,
+                  cv::FILLED);                                             // ... each with a dash of its axis
+    cv::rectangle(canvas(ink), {u, 200}, {u + 19, 219}, 255, cv::FILLED);  // an R with its holes filled ...
+    cv::putText(canvas(ink), "M", {u + 23, 219}, cv::FONT_HERSHEY_SIMPLEX, 0.9, 255, 2);  // ... before an M
+  }
+  const Components marks(ink);
+  const auto columns = find_columns(marks, std::vector<bool>(marks.all().size(), false), 3);
+  ASSERT_EQ(columns.size(), 5U);
+  for (const Column& column : columns) EXPECT_LT(column.faces[0].v1, 100);
 }
 
 }  // namespace
