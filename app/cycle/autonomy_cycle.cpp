@@ -33,7 +33,8 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   state.previous = input.now;
   state.previous_step_s = step_s;
   state.protective_stop = input.protective_stop;
-  localize(state, input, config, output);      // wheel angles and revolutions -> map_from_base
+  localize(state, input, config, output);  // wheel angles and revolutions -> map_from_base
+  remember_trail(state, input.now);
   watch_effort(state, input, config, output);  // driven, but not moved: something holds the vehicle
   navigate(state, input, config, output);      // order -> route -> path
   check_way(state, input, config, output);     // path against scan and drawing: free, slow, blocked

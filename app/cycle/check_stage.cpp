@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/cycle/stages.hpp"
 
@@ -106,7 +108,7 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
                     std::vector<Point2<Map>> obstacles, CycleOutput& output) {
   Navigation& way = state.way;
   const bool stuck = !way.turn_free || way.held;
-  const bool due = (way.check.blocked() || stuck) && !way.by_mover && way.blocked_since &&
+  const bool due = (way.check.blocked() || stuck) && !way.backing && !way.by_mover && way.blocked_since &&
                    !way.detour_pending &&
                    to_seconds(input.now - *way.blocked_since) >= config.detour_after_s &&
                    to_seconds(input.now - way.asked_detour) >= config.detour_again_s;
@@ -123,6 +125,47 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
       way.margin_share, !stuck};
 }
 
+void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
+                 const CycleConfig& config) {
+  Navigation& way = state.way;
+  const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
+  way.margin_share = margin_share(state, obstacles, now, config);
+  const auto margins = planning::with_margins(config.check, way.margin_share);
+  way.check = planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *config.walls, margins);
+  const auto movers = true_movers(state, now, config);
+  const auto crossing =
+      planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps, movers,
+                             config.check, config.movers);
+  way.by_mover = crossing.free_m < way.check.free_m;
+  if (way.by_mover) way.check = crossing;
+  way.unseen =
+      way.check.blocked() && !way.check.by_wall && !way.by_mover && is_unseen(state, way.check.where, now);
+  const double from_m = way.path.along_m(from);
+  way.stop_along_m = from_m + way.check.free_m;
+  way.care_along_m = from_m + way.check.care_m;
+  const bool may_turn = !way.pursuit.begun || way.pursuit.turning;
+  way.turn_free =
+      !may_turn || (turn_is_free(state, obstacles, margins) &&
+                    !planning::turn_meets(state.pose.map_from_base, movers, config.check, config.movers));
+}
+
+/// Back the way it came: the guard looks at what stands there, here at who comes there.
+void check_behind(CycleState& state, Stamp now, const CycleConfig& config) {
+  Navigation& way = state.way;
+  planning::CheckOptions facing_back = config.check;
+  std::swap(facing_back.vehicle.front_m, facing_back.vehicle.rear_m);
+  const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
+  way.check =
+      planning::check_movers(way.plain, from, config.look_ahead_m, std::abs(state.limits.previous.linear_mps),
+                             true_movers(state, now, config), facing_back, config.movers);
+  way.by_mover = way.check.blocked();
+  way.unseen = false;
+  way.turn_free = true;
+  way.margin_share = 1.0;
+  way.stop_along_m = way.path.along_m(from) + way.check.free_m;
+  way.care_along_m = planning::PathCheck::kFree;
+}
+
 /// Whether what the vehicle would do next is not to be done: it leads into something beside the path. A
 /// moment's shape of the noise does not count.
 void note_held(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
@@ -132,8 +175,7 @@ void note_held(CycleState& state, const std::vector<Point2<Map>>& obstacles, Sta
   Navigation& way = state.way;
   const bool going = drives(state.mode) || state.mode == Mode::Waiting;
   const VelocityCommand next = going ? follow(state, config).command : VelocityCommand{};
-  const double share = planning::guarded_share(state.pose.map_from_base, next, obstacles, *config.walls,
-                                               config.check.vehicle, config.braking, config.guard);
+  const double share = share_to_go(state, next, obstacles, config);
   if (share > kNothingLeft)
     way.held_since.reset();
   else if (!way.held_since)
@@ -166,26 +208,12 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
     }
   if (way.path.empty() || way.arrived || !output.computed_lidar) return;
   const auto obstacles = obstacle_points(state);
-  const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
-  way.margin_share = margin_share(state, obstacles, input.now, config);
-  const auto margins = planning::with_margins(config.check, way.margin_share);
-  way.check = planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *config.walls, margins);
-  const auto movers = true_movers(state, input.now, config);
-  const auto crossing =
-      planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps, movers,
-                             config.check, config.movers);
-  way.by_mover = crossing.free_m < way.check.free_m;
-  if (way.by_mover) way.check = crossing;
-  way.unseen = way.check.blocked() && !way.check.by_wall && !way.by_mover &&
-               is_unseen(state, way.check.where, input.now);
-  const double from_m = way.path.along_m(from);
-  way.stop_along_m = from_m + way.check.free_m;
-  way.care_along_m = from_m + way.check.care_m;
-  const bool may_turn = !way.pursuit.begun || way.pursuit.turning;
-  way.turn_free =
-      !may_turn || (turn_is_free(state, obstacles, margins) &&
-                    !planning::turn_meets(state.pose.map_from_base, movers, config.check, config.movers));
+  if (way.backing)
+    check_behind(state, input.now, config);
+  else
+    check_ahead(state, obstacles, input.now, config);
   note_held(state, obstacles, input.now, config);
+  if (way.backing && way.held) return end_back_out(state);
   note_blocked(way, input.now);
   ask_for_detour(state, input, config, obstacles, output);
 }

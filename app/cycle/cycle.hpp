@@ -53,6 +53,10 @@ struct CycleConfig {
   double door_reroute_after_s = 60.0;  ///< likewise before a door or lift, which may be about to open
   double mover_stays_after_s = 5.0;    ///< what stirs in one place for so long is no mover
   double squeeze_after_s = 10.0;       ///< a vehicle within its own margins of a body may leave with less
+  double back_out_after_s = 12.0;      ///< a wedged vehicle goes back the way it came
+  double back_out_m = 0.8;             ///< ... so far
+  double back_out_mps = 0.15;          ///< ... so fast
+  double trail_fresh_s = 60.0;         ///< something may have been put behind a vehicle that stood for longer
   double forget_block_s = 180.0;       ///< a leg that was found blocked counts as free again
   double clear_for_s = 0.6;            ///< the way must have been free so long before the vehicle goes on
   double door_zone_m = 3.0;    ///< around a door or lift node nothing is driven around, only waited for
@@ -164,6 +168,8 @@ struct Navigation {
   bool turn_free = true;
   bool held = false;  ///< driving on leads into something beside the path
   std::optional<Stamp> held_since;
+  bool backing = false;       ///< the path is the way that the vehicle came, driven backward
+  int back_outs = 0;          ///< to this target
   bool felt = false;          ///< something that was not seen has held the vehicle
   double margin_share = 1.0;  ///< of the ordinary margins, until it is out of where it stands too near
   bool by_mover = false;      ///< what blocks is on its way across
@@ -201,7 +207,9 @@ struct CycleState {
   VelocityCommand jog;
   Stamp jog_heard{};
   Navigation way;
-  std::optional<Effort> effort;  ///< while it works on an order
+  std::deque<Transform2<Map, Base>> trail;  ///< where it has just driven
+  Stamp trail_at{};                         ///< of its last pose
+  std::optional<Effort> effort;             ///< while it works on an order
   control::LimitState limits;
   int unarmed_steps = 0;  ///< enabled in a row while the drive stayed idle
 };

@@ -76,11 +76,18 @@ void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig&
   state.effort.reset();
 }
 
+double share_to_go(const CycleState& state, const VelocityCommand& wanted,
+                   const std::vector<Point2<Map>>& obstacles, const CycleConfig& config) {
+  constexpr double kStandsAgainstM = 0.15;
+  planning::VehicleOutline outline = config.check.vehicle;
+  if (state.way.backing) outline.front_m -= kStandsAgainstM;  // it leaves what it stands against
+  return planning::guarded_share(state.pose.map_from_base, wanted, obstacles, *config.walls, outline,
+                                 config.braking, config.guard);
+}
+
 VelocityCommand guarded(const CycleState& state, const VelocityCommand& wanted, const CycleConfig& config) {
   if (!drives(state.mode) || wanted == VelocityCommand{}) return wanted;
-  const double share =
-      planning::guarded_share(state.pose.map_from_base, wanted, obstacle_points(state), *config.walls,
-                              config.check.vehicle, config.braking, config.guard);
+  const double share = share_to_go(state, wanted, obstacle_points(state), config);
   return {wanted.linear_mps * share, wanted.angular_radps * share};
 }
 

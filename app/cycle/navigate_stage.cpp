@@ -93,23 +93,6 @@ Path path_over(const CycleConfig& config, const planning::Route& route, const Tr
   return {{{here, goal.heading_rad.value_or(pose.yaw_rad()), 0.0}}};
 }
 
-void take_path(Navigation& way, Path path, const CycleConfig& config) {
-  way.plain = path;
-  way.path = control::TrackedPath(std::move(path), config.pursuit.speed);
-  way.pursuit = {};
-  way.status = control::PursuitStatus::Following;
-  way.along_m = 0.0;
-  way.stop_along_m = planning::PathCheck::kFree;
-  way.care_along_m = planning::PathCheck::kFree;
-  way.check = {};
-  way.rejoin_m.reset();
-  way.detour_pending = false;
-  way.turn_free = true;
-  way.held = false;
-  way.held_since.reset();
-  way.no_way = {};
-}
-
 void plan(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   Navigation& way = state.way;
   way.arrived = way.reported = false;
@@ -181,6 +164,24 @@ void try_another_route(CycleState& state, const CycleInput& input, const CycleCo
 
 }  // namespace
 
+void take_path(Navigation& way, Path path, const CycleConfig& config) {
+  way.plain = path;
+  way.path = control::TrackedPath(std::move(path), config.pursuit.speed);
+  way.pursuit = {};
+  way.status = control::PursuitStatus::Following;
+  way.along_m = 0.0;
+  way.stop_along_m = planning::PathCheck::kFree;
+  way.care_along_m = planning::PathCheck::kFree;
+  way.check = {};
+  way.rejoin_m.reset();
+  way.detour_pending = false;
+  way.turn_free = true;
+  way.held = false;
+  way.backing = false;
+  way.held_since.reset();
+  way.no_way = {};
+}
+
 planning::BlockedLegs blocked_now(const Navigation& way, Stamp now, double forget_s) {
   planning::BlockedLegs blocked;
   for (const auto& [leg, since] : way.blocked_legs)
@@ -229,6 +230,7 @@ void navigate(CycleState& state, const CycleInput& input, const CycleConfig& con
       way.rejoin_m = way.path.along_m(rejoin);
     }
   }
+  if (sure) back_out(state, input, config, output);
   const double patience_s =
       waits_for_door(way, config) ? config.door_reroute_after_s : config.reroute_after_s;
   const bool stuck = state.mode == Mode::Waiting && way.blocked_since && !way.arrived &&

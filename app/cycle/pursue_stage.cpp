@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "app/cycle/stages.hpp"
+#include "core/angle.hpp"
 
 namespace madori::app {
 namespace {
@@ -27,13 +28,17 @@ double speed_for_now(const CycleState& state, const CycleConfig& config) {
 
 control::PursuitOutput follow(const CycleState& state, const CycleConfig& config) {
   const Navigation& way = state.way;
-  return control::pursue(way.path, way.pursuit,
-                         {.map_from_base = state.pose.map_from_base,
-                          .position_sigma_m = position_sigma(state.pose),
-                          .free_distance_m = way.stop_along_m - way.along_m,
-                          .turn_free = way.turn_free,
-                          .max_speed_mps = speed_for_now(state, config)},
-                         config.pursuit);
+  // Backward: a vehicle that looks the other way drives forward.
+  const Transform2<Base, Base> facing(0.0, 0.0, way.backing ? kPi : 0.0);
+  auto out = control::pursue(way.path, way.pursuit,
+                             {.map_from_base = state.pose.map_from_base * facing,
+                              .position_sigma_m = position_sigma(state.pose),
+                              .free_distance_m = way.stop_along_m - way.along_m,
+                              .turn_free = way.turn_free,
+                              .max_speed_mps = speed_for_now(state, config)},
+                             config.pursuit);
+  if (way.backing) out.command.linear_mps = -out.command.linear_mps;
+  return out;
 }
 
 VelocityCommand wanted_command(CycleState& state, const CycleInput& input, const CycleConfig& config) {
@@ -46,7 +51,9 @@ VelocityCommand wanted_command(CycleState& state, const CycleInput& input, const
   way.status = out.status;
   way.along_m = out.along_m;
   way.cross_track_m = out.cross_track_m;
-  if (out.status == control::PursuitStatus::Arrived) {
+  if (out.status == control::PursuitStatus::Arrived && way.backing) {
+    end_back_out(state);
+  } else if (out.status == control::PursuitStatus::Arrived) {
     way.arrived = true;
     way.dwell_until = input.now + duration_from_seconds(way.stop.wait_s);
   }

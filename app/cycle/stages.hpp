@@ -11,6 +11,14 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// Notices that the vehicle does not get on although it drives; what holds it is remembered as a body.
 void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// Keeps where the vehicle has just driven.
+void remember_trail(CycleState& state, Stamp now);
+/// A wedged vehicle gets a path back the way it came, where it has just driven and nothing is seen behind it.
+void back_out(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// From here the way is planned anew.
+void end_back_out(CycleState& state);
+/// A new path takes the place of the old one.
+void take_path(Navigation& way, Path path, const CycleConfig& config);
 /// The path ahead against what the scan and the drawing show; asks for a way around.
 void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// Events of all kinds move the mode.
@@ -21,6 +29,9 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
 /// The command as far as nothing is met on it; a path is not followed to the centimetre.
 [[nodiscard]] VelocityCommand guarded(const CycleState& state, const VelocityCommand& wanted,
                                       const CycleConfig& config);
+/// The share of a command, 0 to 1, that the guard leaves.
+[[nodiscard]] double share_to_go(const CycleState& state, const VelocityCommand& wanted,
+                                 const std::vector<Point2<Map>>& obstacles, const CycleConfig& config);
 /// What following the path from here asks for, and where that is on the path. Changes nothing.
 [[nodiscard]] control::PursuitOutput follow(const CycleState& state, const CycleConfig& config);
 /// Cause and remedy of a standstill; empty while the vehicle may move.

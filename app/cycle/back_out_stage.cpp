@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/cycle/stages.hpp"
+#include "core/angle.hpp"
+
+namespace madori::app {
+namespace {
+
+constexpr std::size_t kLongestTrail = 40;
+constexpr int kMostBackOuts = 2;  ///< to one target
+
+/// Where the vehicle came from, up to a turn on the spot or the end of what is remembered. Headings are those
+/// of the way, not of the vehicle.
+std::optional<Path> way_back(const CycleState& state, const CycleConfig& config) {
+  constexpr double kStepM = 0.1;
+  constexpr double kWorthM = 0.25;
+  constexpr double kStraightRad = 0.4;  ///< between the vehicle's axis and the way that it went
+  Path path;
+  double length_m = 0.0;
+  Transform2<Map, Base> last = state.pose.map_from_base;
+  const auto add = [&] {
+    path.points.push_back({last.translation(), wrap_angle(last.yaw_rad() + kPi), 0.0, config.back_out_mps});
+  };
+  add();
+  for (auto pose = state.trail.rbegin(); pose != state.trail.rend() && length_m < config.back_out_m; ++pose) {
+    const double step_m = distance_m(pose->translation(), last.translation());
+    if (step_m < kStepM) continue;
+    const double direction = std::atan2(pose->y_m() - last.y_m(), pose->x_m() - last.x_m());
+    if (std::abs(wrap_angle(direction - pose->yaw_rad() - kPi)) > kStraightRad) break;
+    length_m += step_m;
+    last = *pose;
+    add();
+  }
+  if (length_m < kWorthM) return std::nullopt;
+  return path;
+}
+
+/// Nothing seen or drawn behind the vehicle all along; what it stands against before it does not count.
+bool is_free_behind(const CycleState& state, const Path& path, const CycleConfig& config) {
+  constexpr double kBehindM = 0.15;
+  constexpr double kBeforeM = 0.15;
+  planning::CheckOptions check = config.check;
+  check.vehicle.front_m -= kBeforeM + kBehindM;  // the margin is added at both ends
+  check.ends_margin_m = kBehindM;
+  check.sides_margin_m = check.wall_margin_m = 0.0;
+  const auto obstacles = obstacle_points(state);
+  return std::all_of(path.points.begin(), path.points.end(), [&](const PathPoint& point) {
+    const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m,
+                                     wrap_angle(point.heading_rad + kPi));
+    return planning::is_free(pose, obstacles, *config.walls, check);
+  });
+}
+
+/// Whether going back may help: it stands too near to something to go around it.
+bool is_wedged(const CycleState& state, const CycleConfig& config) {
+  constexpr double kNearM = 0.6;
+  const Navigation& way = state.way;
+  const bool waits = state.mode == Mode::Waiting && way.blocked_since && !way.arrived && !way.by_mover &&
+                     !way.detour_pending && !way.path.empty();
+  const bool near = way.stop_along_m - way.along_m < kNearM && !way.detour_failed.empty();
+  const bool at_door = way.check.blocked() && is_at_door(config, way.check.where);
+  return waits && !at_door && (way.felt || way.held || !way.turn_free || way.margin_share < 1.0 || near);
+}
+
+}  // namespace
+
+void remember_trail(CycleState& state, Stamp now) {
+  constexpr double kStepM = 0.05;
+  constexpr double kStepRad = 0.1;
+  constexpr double kJumpM = 0.3;  ///< no motion: another pose was found
+  if (state.mode == Mode::Waiting || state.way.backing) return;
+  if (!drives(state.mode)) return state.trail.clear();
+  const Transform2<Map, Base>& here = state.pose.map_from_base;
+  if (!state.trail.empty()) {
+    const double moved_m = distance_m(here.translation(), state.trail.back().translation());
+    const double turned_rad = std::abs(wrap_angle(here.yaw_rad() - state.trail.back().yaw_rad()));
+    if (moved_m < kStepM && turned_rad < kStepRad) return;
+    if (moved_m > kJumpM) state.trail.clear();
+  }
+  state.trail.push_back(here);
+  state.trail_at = now;
+  if (state.trail.size() > kLongestTrail) state.trail.pop_front();
+}
+
+void back_out(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
+  Navigation& way = state.way;
+  const double stood_s = to_seconds(input.now - state.trail_at);
+  const bool due = stood_s > config.back_out_after_s && stood_s < config.trail_fresh_s;
+  if (!due || way.back_outs >= kMostBackOuts || !is_wedged(state, config)) return;
+  const auto path = way_back(state, config);
+  if (!path || !is_free_behind(state, *path, config)) return;
+  output.events.emplace_back("no way from here: going back the way it came, to have room");
+  take_path(way, *path, config);
+  way.backing = true;
+  ++way.back_outs;
+  way.rejoin_m = planning::PathCheck::kFree;  // until it is planned anew
+}
+
+void end_back_out(CycleState& state) {
+  state.way.backing = false;
+  state.way.path = {};
+  state.way.plain = {};
+  state.trail.clear();
+}
+
+}  // namespace madori::app
