@@ -37,6 +37,18 @@ std::optional<Path> way_back(const CycleState& state, const CycleConfig& config)
   return path;
 }
 
+/// Straight back, without a turn that would swing the front into what stands beside it.
+Path straight_back(const CycleState& state, double length_m, const CycleConfig& config) {
+  constexpr double kStepM = 0.1;
+  const Transform2<Map, Base>& here = state.pose.map_from_base;
+  Path path;
+  const int steps = static_cast<int>(std::lround(length_m / kStepM));
+  for (int i = 0; i <= steps; ++i)
+    path.points.push_back(
+        {here * Point2<Base>{-kStepM * i, 0.0}, wrap_angle(here.yaw_rad() + kPi), 0.0, config.back_out_mps});
+  return path;
+}
+
 /// Nothing seen or drawn behind the vehicle all along; what it stands against before it does not count.
 bool is_free_behind(const CycleState& state, const Path& path, const CycleConfig& config) {
   constexpr double kBehindM = 0.15;
@@ -51,6 +63,20 @@ bool is_free_behind(const CycleState& state, const Path& path, const CycleConfig
                                      wrap_angle(point.heading_rad + kPi));
     return planning::is_free(pose, obstacles, *config.walls, check);
   });
+}
+
+/// The way that it came; straight back as far as that is free, where that way was held.
+std::optional<Path> free_way_back(const CycleState& state, const CycleConfig& config) {
+  constexpr double kShortestM = 0.3;
+  constexpr double kShorterM = 0.1;
+  if (!state.way.backing_held) {
+    auto path = way_back(state, config);
+    if (path && !is_free_behind(state, *path, config)) path.reset();
+    return path;
+  }
+  for (double length_m = config.back_out_m; length_m > kShortestM - 1e-6; length_m -= kShorterM)
+    if (Path path = straight_back(state, length_m, config); is_free_behind(state, path, config)) return path;
+  return std::nullopt;
 }
 
 /// Whether going back may help: it stands too near to something to go around it.
@@ -89,11 +115,12 @@ void back_out(CycleState& state, const CycleInput& input, const CycleConfig& con
   const double stood_s = to_seconds(input.now - state.trail_at);
   const bool due = stood_s > config.back_out_after_s && stood_s < config.trail_fresh_s;
   if (!due || way.back_outs >= kMostBackOuts || !is_wedged(state, config)) return;
-  const auto path = way_back(state, config);
-  if (!path || !is_free_behind(state, *path, config)) return;
+  const auto path = free_way_back(state, config);
+  if (!path) return;
   output.events.emplace_back("no way from here: going back the way it came, to have room");
   take_path(way, *path, config);
   way.backing = true;
+  way.backing_held = false;
   ++way.back_outs;
   way.rejoin_m = planning::PathCheck::kFree;  // until it is planned anew
 }

@@ -213,7 +213,10 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   else
     check_ahead(state, obstacles, input.now, config);
   note_held(state, obstacles, input.now, config);
-  if (way.backing && way.held) return end_back_out(state);
+  if (way.backing && way.held) {
+    way.backing_held = true;
+    return end_back_out(state);
+  }
   note_blocked(way, input.now);
   ask_for_detour(state, input, config, obstacles, output);
 }

@@ -169,6 +169,7 @@ struct Navigation {
   bool held = false;  ///< driving on leads into something beside the path
   std::optional<Stamp> held_since;
   bool backing = false;       ///< the path is the way that the vehicle came, driven backward
+  bool backing_held = false;  ///< the way that it came led into something: it curves
   int back_outs = 0;          ///< to this target
   bool felt = false;          ///< something that was not seen has held the vehicle
   double margin_share = 1.0;  ///< of the ordinary margins, until it is out of where it stands too near
