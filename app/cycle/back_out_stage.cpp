@@ -86,8 +86,8 @@ bool is_wedged(const CycleState& state, const CycleConfig& config) {
   const bool waits = state.mode == Mode::Waiting && way.blocked_since && !way.arrived && !way.by_mover &&
                      !way.detour_pending && !way.path.empty();
   const bool near = way.stop_along_m - way.along_m < kNearM && !way.detour_failed.empty();
-  const bool at_door = way.check.blocked() && is_at_door(config, way.check.where);
-  return waits && !at_door && (way.felt || way.held || !way.turn_free || way.margin_share < 1.0 || near);
+  return waits && !waits_for_door(way, config) &&
+         (way.felt || way.held || !way.turn_free || way.margin_share < 1.0 || near);
 }
 
 }  // namespace

@@ -197,7 +197,8 @@ bool is_at_door(const CycleConfig& config, const Point2<Map>& place) {
 }
 
 bool waits_for_door(const Navigation& way, const CycleConfig& config) {
-  return way.check.blocked() && !way.unseen && is_at_door(config, way.check.where);
+  const bool on_route = !way.rejoin_m;  // beside it, what stands there is the wall beside the door
+  return on_route && way.check.blocked() && !way.unseen && is_at_door(config, way.check.where);
 }
 
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
