@@ -31,7 +31,6 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   CycleOutput output;
   const double step_s = state.previous ? to_seconds(input.now - *state.previous) : 0.0;
   state.previous = input.now;
-  state.previous_step_s = step_s;
   state.protective_stop = input.protective_stop;
   localize(state, input, config, output);  // wheel angles and revolutions -> map_from_base
   remember_trail(state, input.now);

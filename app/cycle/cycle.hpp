@@ -141,6 +141,7 @@ struct Stirring {
 /// What was asked of the drive since the vehicle last got on, and from where.
 struct Effort {
   Transform2<Map, Base> from;
+  Stamp at{};             ///< by the drive's clock: a drive that lags behind has had less time to move
   double driven_s = 0.0;  ///< the drive was asked to move
   double asked_m = 0.0;   ///< of way, turns counted at the outline
 };
@@ -203,7 +204,6 @@ struct CycleState {
   std::int64_t drive_us = 0;  ///< the controller's clock, unwrapped
   std::optional<Stamp> lidar_heard;
   std::optional<Stamp> previous;
-  double previous_step_s = 0.0;  ///< between the last two steps
   bool protective_stop = false;
   VelocityCommand jog;
   Stamp jog_heard{};

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/cycle/stages.hpp"
 #include "core/angle.hpp"
@@ -53,17 +54,18 @@ void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig&
   const bool tries = drives(state.mode) && state.drive.state == control::wire::DriveState::Running &&
                      !(driven == VelocityCommand{}) && may_drive(state.pose.health.state);
   if (!drives(state.mode) && state.mode != Mode::Waiting) return state.effort.reset();
-  if (!tries) return;  // short stops do not hide it
+  const Stamp now = state.odometry.reading().stamp;
   const Transform2<Map, Base>& here = state.pose.map_from_base;
-  if (!state.effort) state.effort = Effort{here, 0.0, 0.0};
+  if (!state.effort) state.effort = Effort{here, now};
   Effort& effort = *state.effort;
-  const double step_s = state.previous_step_s;
+  const double step_s = to_seconds(now - std::exchange(effort.at, now));
+  if (!tries) return;  // short stops do not hide it
   effort.driven_s += step_s;
   effort.asked_m += (std::abs(driven.linear_mps) + std::abs(driven.angular_radps) * lever_m(config)) * step_s;
   const double moved_m = distance_m(here.translation(), effort.from.translation()) +
                          std::abs(wrap_angle(here.yaw_rad() - effort.from.yaw_rad())) * lever_m(config);
   if (moved_m > kGotOnM) {
-    effort = {here, 0.0, 0.0};
+    effort = {here, now};
     state.way.felt = false;
     return;
   }

@@ -100,7 +100,7 @@ void each_of(Bytes& bytes, State& s) {
   bytes(s.mode), bytes(s.odometry), bytes(s.track), bytes(s.drive), bytes(s.drive_heard),
       bytes(s.drive_clock), bytes(s.drive_us), bytes(s.lidar_heard);
   bytes(s.previous), bytes(s.protective_stop), bytes(s.jog), bytes(s.jog_heard), bytes(s.limits);
-  bytes(s.unarmed_steps), bytes(s.previous_step_s), bytes(s.effort), bytes(s.trail), bytes(s.trail_at);
+  bytes(s.unarmed_steps), bytes(s.effort), bytes(s.trail), bytes(s.trail_at);
   each_of_way(bytes, s.way);
 }
 
