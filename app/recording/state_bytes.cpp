@@ -10,7 +10,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 3;
+constexpr std::uint32_t kFormat = 4;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -84,7 +84,7 @@ void each_of_way(Bytes& bytes, Way& w) {
   bytes(w.along_m), bytes(w.cross_track_m), bytes(w.arrived), bytes(w.reported), bytes(w.dwell_until);
   bytes(w.rejoin_m), bytes(w.check), bytes(w.stop_along_m), bytes(w.care_along_m), bytes(w.turn_free);
   bytes(w.held), bytes(w.held_since), bytes(w.felt);
-  bytes(w.backing), bytes(w.back_outs);
+  bytes(w.backing), bytes(w.backing_held), bytes(w.back_outs);
   bytes(w.margin_share), bytes(w.by_mover), bytes(w.unseen), bytes(w.stirring), bytes(w.blocked_since),
       bytes(w.free_since), bytes(w.asked_detour);
   bytes(w.detour_id), bytes(w.detour_pending), bytes(w.detour_failed), bytes(w.blocked_legs);

@@ -26,6 +26,12 @@ struct StrainPeak {
 [[nodiscard]] Transform2<Map, Base> unstrained(const Transform2<Map, Base>& on_drawing,
                                                const StrainAbout& strained);
 
+/// Metres of a keyframe's surface that lie on the strained drawing, those within some `scale_m` of a wall
+/// less.
+[[nodiscard]] double explained_m(const WallIndex& drawing, const StrainAbout& strained,
+                                 const Transform2<Map, Base>& pose, const std::vector<SurfacePiece>& pieces,
+                                 double scale_m, double beside_m);
+
 /// The keyframe moved to where its pieces fit best, from within half a metre.
 [[nodiscard]] Transform2<Map, Base> fit_keyframe(const WallIndex& drawing, const StrainAbout& strained,
                                                  const Transform2<Map, Base>& start,

@@ -136,14 +136,12 @@ StrainSystem::StrainSystem(const WallIndex& drawing, const std::vector<Calibrati
   first_poses_ = poses_;
 }
 
-double StrainSystem::explained_m(double scale_m) {
-  double explained = 0.0;
+double StrainSystem::explained_m(double scale_m) const {
+  double sum = 0.0;
   for (std::size_t k = 0; k < keyframes_.size(); ++k)
-    for (const SurfacePiece& piece : keyframes_[k].pieces)
-      if (const auto row = row_of(poses_[k], piece))
-        explained += piece.length_m *
-                     geman_mcclure(row->residual_m + offsets_[static_cast<std::size_t>(row->wall)], scale_m);
-  return explained;
+    sum += localization::explained_m(drawing_, strained_, poses_[k], keyframes_[k].pieces, scale_m,
+                                     options_.beside_m);
+  return sum;
 }
 
 int StrainSystem::seen_wall(int wall) {

@@ -37,7 +37,7 @@ class StrainSystem {
   StrainSolution solve(double scale_m, double wall_sigma_m);
   [[nodiscard]] const Eigen::Vector3d& strain() const { return strained_.strain; }
   /// Metres of surface that lie on the stretched drawing itself, no wall moved.
-  [[nodiscard]] double explained_m(double scale_m);
+  [[nodiscard]] double explained_m(double scale_m) const;
 
  private:
   std::vector<StrainRow> associate(double scale_m);

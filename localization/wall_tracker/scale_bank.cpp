@@ -40,9 +40,8 @@ void ScaleBank::begin_stage(int stage, const Transform2<Map, Base>& pose) {
   best_pose_ = pose;
   members_.clear();
   if (sleeps()) return;
-  const double step = stage_ == 0 ? options_.coarse : options_.fine;
   for (int i = -options_.beside; i <= options_.beside; ++i)
-    members_.push_back({.excess = believed_ + i * step, .pose = pose});
+    members_.push_back({.excess = believed_ + i * step(), .pose = pose});
   if (believed_ != 0.0) members_.push_back({.excess = 0.0, .pose = pose});
 }
 
@@ -117,8 +116,7 @@ bool ScaleBank::decide() {
                         : stage_ == 0 ? options_.coarse_lead
                                       : options_.fine_lead;
   if (best.excess != believed.excess && best.lead > enough * stretches_ && is_sure(best)) {
-    const bool within = std::abs(best.excess - believed_) <
-                        (options_.beside - 0.5) * (stage_ == 0 ? options_.coarse : options_.fine);
+    const bool within = std::abs(best.excess - believed_) < (options_.beside - 0.5) * step();
     believed_ = best.excess;
     begin_stage(within ? 1 : 0, best.pose);
     return true;

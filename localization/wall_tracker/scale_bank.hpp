@@ -33,7 +33,8 @@ struct ScaleBankOptions {
 /// have, side by side, and the one whose walls lie best on the drawn ones is believed (multiple model
 /// adaptive estimation, Magill 1965). A single tracker cannot find out: on a drawing half a per cent too
 /// small it follows the near walls, takes far ones for the faces behind them, and its residuals say that all
-/// is well. First coarsely, then finely; when nothing better shows any more it sleeps. Deterministic, causal.
+/// is well. First coarsely, then finely. Where the drawing proves right it sleeps then; another size stays in
+/// question, beside the drawn one. Deterministic, causal.
 class ScaleBank {
  public:
   explicit ScaleBank(const ScaleBankOptions& options = {});
@@ -62,6 +63,7 @@ class ScaleBank {
     double lead = 0.0;       ///< sums of the stretches' mean leads, and of their squares
     double lead2 = 0.0;
   };
+  [[nodiscard]] double step() const { return stage_ == 0 ? options_.coarse : options_.fine; }
   [[nodiscard]] Member& believed_member() { return members_[static_cast<std::size_t>(options_.beside)]; }
   void begin_stage(int stage, const Transform2<Map, Base>& pose);
   void ask(Member& member, const ScanPoints& points, const SegmentGrid& grid,

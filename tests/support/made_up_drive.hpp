@@ -31,6 +31,17 @@ struct DriveSettings {
   ScanSettings lidar = full_turn(180, 30.0);
 };
 
+/// Ten scans a second all around, on wheels that err little.
+inline DriveSettings ten_hertz(double range_max_m = 40.0) {
+  DriveSettings settings;
+  settings.steps_per_scan = 1;
+  settings.sigma_rad_per_m = 0.002;
+  settings.sigma_distance = 0.005;
+  settings.lidar = full_turn(360, range_max_m);
+  settings.lidar.range_sigma_m = 0.02;
+  return settings;
+}
+
 /// Drives from point to point: turns on the spot, then straight on.
 template <class Engine>
 std::vector<DriveMoment> drive(const mapping::Walls& walls, const std::vector<Point2<Map>>& stops,

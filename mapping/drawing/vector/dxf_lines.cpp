@@ -100,20 +100,32 @@ class Collector {
   DxfLine like_;
 };
 
+/// What tells an arc from another line.
+struct Curve {
+  DxfPoint from, middle, to;
+  double length = 0;
+};
+
+std::optional<Curve> curve_of(const OGRGeometry& geometry) {
+  if (wkbFlatten(geometry.getGeometryType()) != wkbLineString) return std::nullopt;
+  const auto& line = *geometry.toLineString();
+  const int last = line.getNumPoints() - 1;
+  if (last < 2) return std::nullopt;
+  const auto at = [&](int i) { return DxfPoint{line.getX(i), line.getY(i)}; };
+  return Curve{at(0), at(last / 2), at(last), line.get_Length()};
+}
+
 /// The curve where it is about a quarter of a circle.
 std::optional<DoorSwing> quarter_arc(const OGRGeometry& geometry) {
-  if (wkbFlatten(geometry.getGeometryType()) != wkbLineString) return std::nullopt;
-  const auto& curve = *geometry.toLineString();
-  const int last = curve.getNumPoints() - 1;
-  if (last < 2) return std::nullopt;
-  const DxfPoint from{curve.getX(0), curve.getY(0)}, to{curve.getX(last), curve.getY(last)};
+  const auto curve = curve_of(geometry);
+  if (!curve) return std::nullopt;
+  const auto& [from, middle, to, length] = *curve;
   const double chord = std::hypot(to.x - from.x, to.y - from.y);
-  const double share = curve.get_Length() / chord;  // pi / (2 sqrt 2) = 1.11 for a quarter
+  const double share = length / chord;  // pi / (2 sqrt 2) = 1.11 for a quarter
   if (!(share > 1.07 && share < 1.16)) return std::nullopt;
   // The hinge lies half a chord from the chord's middle, on the side that the arc does not bulge to.
   const DxfPoint between{0.5 * (from.x + to.x), 0.5 * (from.y + to.y)};
-  const double off =
-      (curve.getX(last / 2) - from.x) * (to.y - from.y) - (curve.getY(last / 2) - from.y) * (to.x - from.x);
+  const double off = (middle.x - from.x) * (to.y - from.y) - (middle.y - from.y) * (to.x - from.x);
   const double side = off > 0 ? -0.5 : 0.5;
   const DxfPoint hinge{between.x + side * (to.y - from.y), between.y - side * (to.x - from.x)};
   return DoorSwing{hinge, from, to, chord / std::sqrt(2.0)};
@@ -121,16 +133,13 @@ std::optional<DoorSwing> quarter_arc(const OGRGeometry& geometry) {
 
 /// The arc of less than a quarter circle, by the circle through its ends and its middle.
 std::optional<DoorSwing> short_arc(const OGRGeometry& geometry) {
-  if (wkbFlatten(geometry.getGeometryType()) != wkbLineString) return std::nullopt;
-  const auto& curve = *geometry.toLineString();
-  const int last = curve.getNumPoints() - 1;
-  if (last < 2) return std::nullopt;
-  const DxfPoint from{curve.getX(0), curve.getY(0)}, to{curve.getX(last), curve.getY(last)};
-  const DxfPoint a{curve.getX(last / 2) - from.x, curve.getY(last / 2) - from.y},
-      b{to.x - from.x, to.y - from.y};
+  const auto curve = curve_of(geometry);
+  if (!curve) return std::nullopt;
+  const auto& [from, middle, to, length] = *curve;
+  const DxfPoint a{middle.x - from.x, middle.y - from.y}, b{to.x - from.x, to.y - from.y};
   const double twice = 2 * (a.x * b.y - a.y * b.x), aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y;
   const double u = (b.y * aa - a.y * bb) / twice, v = (a.x * bb - b.x * aa) / twice;
-  const double radius = std::hypot(u, v), share = curve.get_Length() / radius;  // the angle it turns by
+  const double radius = std::hypot(u, v), share = length / radius;  // the angle it turns by
   if (!std::isfinite(share) || share < kLeastAjar || share > kMostAjar) return std::nullopt;
   return DoorSwing{{from.x + u, from.y + v}, from, to, radius};
 }

@@ -20,14 +20,9 @@ mapping::Walls sized(const mapping::Walls& walls, double factor) {
 }
 
 std::vector<test::DriveMoment> drive(const mapping::Walls& building, unsigned seed) {
-  test::DriveSettings settings;
-  settings.steps_per_scan = 1;
-  settings.sigma_rad_per_m = 0.002;
-  settings.sigma_distance = 0.005;
-  settings.lidar = test::full_turn(360, 60.0);
-  settings.lidar.range_sigma_m = 0.02;
   std::mt19937 engine(seed);
-  return test::drive(building, {{18.0, 3.0}, {18.0, 21.0}, {38.0, 21.0}, {38.0, 5.0}}, settings, engine);
+  return test::drive(building, {{18.0, 3.0}, {18.0, 21.0}, {38.0, 21.0}, {38.0, 5.0}}, test::ten_hertz(60.0),
+                     engine);
 }
 
 struct Found {

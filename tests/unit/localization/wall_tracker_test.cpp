@@ -14,15 +14,7 @@ namespace {
 
 using Pose = Transform2<Map, Base>;
 
-test::DriveSettings ten_hertz() {
-  test::DriveSettings settings;
-  settings.steps_per_scan = 1;
-  settings.sigma_rad_per_m = 0.002;
-  settings.sigma_distance = 0.005;
-  settings.lidar = test::full_turn(360, 40.0);
-  settings.lidar.range_sigma_m = 0.02;
-  return settings;
-}
+using test::ten_hertz;
 
 std::vector<test::DriveMoment> drive(const mapping::Walls& walls, const std::vector<Point2<Map>>& stops,
                                      const test::DriveSettings& settings, unsigned seed) {
