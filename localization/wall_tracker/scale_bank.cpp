@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/wall_tracker/explained.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -12,13 +14,6 @@ ScanPoints scaled(const ScanPoints& points, double factor) {
   for (float& x : result.x_m) x *= f;
   for (float& y : result.y_m) y *= f;
   return result;
-}
-
-/// Share of the scan's weight on drawn walls, those beside them less.
-double explained(const RegistrationResult& fit, const ScanPoints& points) {
-  double all = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) all += points.weight_of(i);
-  return all > 0.0 ? (fit.hessian(0, 0) + fit.hessian(1, 1)) / all : 0.0;
 }
 
 }  // namespace

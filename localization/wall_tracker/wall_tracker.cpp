@@ -108,6 +108,8 @@ PoseEstimate WallTracker::on_scan(Stamp stamp, const ScanPoints& seen) {
     track(points, step);
   else
     search(points, step.motion);
+  if (tracking_)
+    if (const auto there = nearby_.observe(points, global_.grid(), anchor_, step.motion)) step_aside(*there);
   if (tracking_) learn_scale(seen, step);
   anchor_stamp_ = stamp;
   since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
@@ -143,7 +145,7 @@ void WallTracker::lose(const std::string& reason, std::optional<GlobalAnswer> an
 void WallTracker::check_given(const ScanPoints& points) {
   GlobalAnswer answer = global_.judge(points, around(anchor_, *given_));
   given_.reset();
-  if (answer.state == GlobalState::Found) return start_at(answer.hypotheses.front().fit);
+  if (answer.state == GlobalState::Found) return start_at(answer.hypotheses.front().fit, points);
   health_ = {answer.state == GlobalState::Ambiguous ? LocalizationState::Ambiguous : LocalizationState::Lost,
              reason::kGivenRefuted.english + answer.reason};
   answer_ = std::move(answer);
@@ -159,11 +161,12 @@ void WallTracker::search(const ScanPoints& points, const Transform2<Base, Base>&
   agreeing_ = found ? (agrees ? agreeing_ + 1 : 1) : 0;
   health_ = {answer.state == GlobalState::Ambiguous ? LocalizationState::Ambiguous : LocalizationState::Lost,
              found ? reason::kOnceMore.english : answer.reason};
-  if (agreeing_ >= options_.sightings_to_start) return start_at(answer.hypotheses.front().fit);
+  if (agreeing_ >= options_.sightings_to_start) return start_at(answer.hypotheses.front().fit, points);
   answer_ = std::move(answer);
 }
 
-void WallTracker::start_at(const RegistrationResult& fit) {
+void WallTracker::start_at(const RegistrationResult& found, const ScanPoints& points) {
+  const RegistrationResult fit = nearby_.begin(points, global_.grid(), found);
   anchor_ = fit.map_from_base;
   covariance_ = fit.covariance + Eigen::Matrix3d(Eigen::Vector3d(1e-3, 1e-3, 1e-4).asDiagonal());
   tracking_ = true;
@@ -261,6 +264,15 @@ bool WallTracker::is_contradicted(const ScanPoints& points, const RegistrationRe
   return true;
 }
 
+/// The vehicle is where a pose beside the tracked one has it.
+void WallTracker::step_aside(const RegistrationResult& there) {
+  anchor_ = there.map_from_base;
+  covariance_ = there.covariance + Eigen::Matrix3d(Eigen::Vector3d(1e-3, 1e-3, 1e-4).asDiagonal());
+  usual_explained_ = there.inlier_fraction;
+  last_fit_.reset();
+  scale_.start_at(anchor_);
+}
+
 /// Where the building proves to be of another size than drawn, the vehicle is where the tracker of that size
 /// has it.
 void WallTracker::learn_scale(const ScanPoints& seen, const OdometryStep& step) {
@@ -293,6 +305,7 @@ void WallTracker::correct(const RegistrationResult& fit, const OdometryStep& ste
   constexpr double kUsual = 0.1;
   usual_explained_ += kUsual * (evidence_.explained - usual_explained_);
   usual_through_ += kUsual * (evidence_.through_walls - usual_through_);
+  if (misses_ >= options_.misses_to_degrade) nearby_.reopen();
   misses_ = 0;
   unbroken_ = true;
   ++settled_;

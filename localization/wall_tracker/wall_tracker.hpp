@@ -10,6 +10,7 @@
 #include "core/pose_hypothesis.hpp"
 #include "localization/global/global_localizer.hpp"
 #include "localization/motion_model/odometry_track.hpp"
+#include "localization/wall_tracker/nearby_rival.hpp"
 #include "localization/wall_tracker/recent_view.hpp"
 #include "localization/wall_tracker/scale_bank.hpp"
 #include "mapping/wall_map/wall.hpp"
@@ -102,7 +103,7 @@ class WallTracker {
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
   void check_given(const ScanPoints& points);
   void search(const ScanPoints& points, const Transform2<Base, Base>& moved);
-  void start_at(const RegistrationResult& fit);
+  void start_at(const RegistrationResult& found, const ScanPoints& points);
   void track(const ScanPoints& points, const OdometryStep& step);
   [[nodiscard]] double fall_of_view(const Transform2<Base, Base>& by_wheels,
                                     const Transform2<Base, Base>& by_walls);
@@ -111,6 +112,7 @@ class WallTracker {
   [[nodiscard]] bool is_contradicted(const ScanPoints& points, const RegistrationResult& fit,
                                      bool has_changed);
   void correct(const RegistrationResult& fit, const OdometryStep& step);
+  void step_aside(const RegistrationResult& there);
   void learn_scale(const ScanPoints& seen, const OdometryStep& step);
   void miss(const std::string& reason, bool loses);
   [[nodiscard]] bool wheels_still_do() const;
@@ -120,6 +122,7 @@ class WallTracker {
   GlobalLocalizer global_;
   OdometryModel model_;
   ScaleBank scale_;
+  NearbyRival nearby_;
   OdometryTrack track_;
   std::optional<GlobalAnswer> answer_;  ///< of the search under way
   std::optional<PoseSigma> given_;      ///< anchor_ is what a person said, not yet checked
