@@ -75,6 +75,7 @@ bool ObstacleField::is_under_something(const Column& column, const SensorView& v
 
 bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
                          Stamp now) const {
+  constexpr float kGlimpseAboveM = 0.3F;  // nothing lower stands there as far as was seen
   const Point2<Base> place = odom_from_base.inverse() * old.centre();
   if (std::hypot(place.x_m, place.y_m) > options_.reach_m) return false;
   old.entered = false;
@@ -84,6 +85,9 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<O
   }
   if (!old.confirmed) return false;
   if (is_under_something(old, view)) old.under = now;
+  // One glimpse of something tall is the edge of what went by: what stands there is seen again and again.
+  const bool glimpsed = old.part_of_tall && old.since == old.seen && old.low_m > kGlimpseAboveM;
+  if (glimpsed) return to_seconds(now - old.seen) <= options_.foot_memory_s;
   // A pallet that has come too near to be seen is still there; of a person the head would be seen.
   return old.under == Stamp{} || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
 }

@@ -140,6 +140,22 @@ TEST(ObstacleField, APersonWhoStandsBeforeTheBumperIsNotForgotten) {
   EXPECT_EQ(confirmed(field), 0) << "and it has left";
 }
 
+TEST(ObstacleField, OneGlimpseOfSomethingTallDoesNotHauntTheBlindZone) {
+  const SensorView high{0.0, 0.0, 1.25, to_rad(-15.0), to_rad(15.0)};  // sees nothing below 0.8 m at 1.6 m
+  for (const int scans : {1, 3}) {
+    ObstacleField field;
+    PointCloud<Base> cloud{at(0), {}};
+    for (const float z : {0.56F, 0.64F, 0.72F}) cloud.points.push_back({1.62F, 0.05F, z, 0.0F, 1, 5});
+    for (int i = 0; i < scans; ++i) {
+      cloud.stamp = at(0.1 * i);
+      field.update(cloud, high, {});
+    }
+    EXPECT_EQ(confirmed(field), 1);
+    for (int i = 5; i < 30; ++i) field.update({at(0.1 * i), {}}, high, {});
+    EXPECT_EQ(confirmed(field), scans == 1 ? 0 : 1) << scans;
+  }
+}
+
 TEST(ObstacleField, NonFinitePointsAreLeftOut) {
   ObstacleField field;
   const float nan = std::numeric_limits<float>::quiet_NaN();
