@@ -9,7 +9,7 @@ namespace madori::app {
 namespace {
 
 constexpr std::size_t kLongestTrail = 40;
-constexpr int kMostBackOuts = 2;  ///< to one target
+constexpr int kMostBackOuts = 2;  ///< on one route
 
 /// Where the vehicle came from, up to a turn on the spot or the end of what is remembered. Headings are those
 /// of the way, not of the vehicle.
@@ -65,15 +65,13 @@ bool is_free_behind(const CycleState& state, const Path& path, const CycleConfig
   });
 }
 
-/// The way that it came; straight back as far as that is free, where that way was held.
+/// The way that it came; straight back as far as that is free, where that way was held, leads into something
+/// or is too short to help.
 std::optional<Path> free_way_back(const CycleState& state, const CycleConfig& config) {
   constexpr double kShortestM = 0.3;
   constexpr double kShorterM = 0.1;
-  if (!state.way.backing_held) {
-    auto path = way_back(state, config);
-    if (path && !is_free_behind(state, *path, config)) path.reset();
-    return path;
-  }
+  const auto came = state.way.backing_held ? std::nullopt : way_back(state, config);
+  if (came && is_free_behind(state, *came, config)) return came;
   for (double length_m = config.back_out_m; length_m > kShortestM - 1e-6; length_m -= kShorterM)
     if (Path path = straight_back(state, length_m, config); is_free_behind(state, path, config)) return path;
   return std::nullopt;

@@ -141,9 +141,10 @@ struct Stirring {
 /// What was asked of the drive since the vehicle last got on, and from where.
 struct Effort {
   Transform2<Map, Base> from;
-  Stamp at{};             ///< by the drive's clock: a drive that lags behind has had less time to move
-  double driven_s = 0.0;  ///< the drive was asked to move
-  double asked_m = 0.0;   ///< of way, turns counted at the outline
+  Stamp at{};              ///< by the drive's clock: a drive that lags behind has had less time to move
+  double driven_s = 0.0;   ///< the drive was asked to move
+  double asked_m = 0.0;    ///< of way, turns counted at the outline
+  double direction = 1.0;  ///< -1 backwards
 };
 
 /// The way to the current target.
@@ -171,7 +172,7 @@ struct Navigation {
   std::optional<Stamp> held_since;
   bool backing = false;       ///< the path is the way that the vehicle came, driven backward
   bool backing_held = false;  ///< the way that it came led into something: it curves
-  int back_outs = 0;          ///< to this target
+  int back_outs = 0;          ///< on this route
   bool felt = false;          ///< something that was not seen has held the vehicle
   double margin_share = 1.0;  ///< of the ordinary margins, until it is out of where it stands too near
   bool by_mover = false;      ///< what blocks is on its way across

@@ -60,12 +60,15 @@ void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig&
   Effort& effort = *state.effort;
   const double step_s = to_seconds(now - std::exchange(effort.at, now));
   if (!tries) return;  // short stops do not hide it
+  const double direction = driven.linear_mps < 0.0 ? -1.0 : 1.0;
+  if (direction != effort.direction)
+    effort = {here, now, 0.0, 0.0, direction};  // what it goes back is no way lost
   effort.driven_s += step_s;
   effort.asked_m += (std::abs(driven.linear_mps) + std::abs(driven.angular_radps) * lever_m(config)) * step_s;
   const double moved_m = distance_m(here.translation(), effort.from.translation()) +
                          std::abs(wrap_angle(here.yaw_rad() - effort.from.yaw_rad())) * lever_m(config);
   if (moved_m > kGotOnM) {
-    effort = {here, now};
+    effort = {here, now, 0.0, 0.0, direction};
     state.way.felt = false;
     return;
   }

@@ -159,6 +159,7 @@ void try_another_route(CycleState& state, const CycleInput& input, const CycleCo
   output.events.push_back("the leg from node " + std::to_string(config.routes.nodes()[leg->first].id) +
                           " to node " + std::to_string(config.routes.nodes()[leg->second].id) +
                           " is blocked: taking another route");
+  way.back_outs = 0;  // the other route may need room that this one did not
   plan(state, input, config, output);
 }
 

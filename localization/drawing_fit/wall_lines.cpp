@@ -61,7 +61,7 @@ class Votes {
     return 0.5 * *at;
   }
   [[nodiscard]] Line best() const {
-    const auto row = static_cast<std::size_t>(2 * half_ + 1);
+    const auto row = 2 * static_cast<std::size_t>(half_) + 1;
     return line_at(static_cast<int>(best_ / row), static_cast<int>(best_ % row) - half_);
   }
   void give_up_best() { votes_[best_] = -1000000; }

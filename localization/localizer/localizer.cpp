@@ -86,10 +86,10 @@ PoseEstimate Localizer::on_odometry(const OdometryReading& reading) {
 }
 
 Localizer::Match Localizer::match(const SurfaceScan& scan, const OdometryStep& step) const {
-  const Match best = match_from(anchor_, scan, step);
+  Match best = match_from(anchor_, scan, step);
   if (late_anchor_ && best.place.inlier_share < options_.sure_inliers) {
-    const Match late = match_from(*late_anchor_, scan, step);
-    return late.place.inlier_share > best.place.inlier_share ? late : best;
+    Match late = match_from(*late_anchor_, scan, step);
+    if (late.place.inlier_share > best.place.inlier_share) return late;
   }
   return best;
 }

@@ -69,6 +69,7 @@ LocalMap Memory::whole_map(const Point2<Map>& centre, double until_path_m) const
   std::sort(near.begin(), near.end());
   near.resize(std::min(near.size(), static_cast<std::size_t>(options_.nearby_keyframes)));
   std::vector<LocalMap::Piece> pieces;
+  pieces.reserve(near.size() + keyframes_.size() - recent);
   for (const auto& [d, i] : near) {
     pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }

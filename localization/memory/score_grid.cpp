@@ -12,12 +12,13 @@ constexpr int kMargin = kReach + 16;  // so that windows may look over the borde
 /// Against a score of 0..1. The penalty grows with the logarithm: wheels that slipped are far off at once.
 constexpr double kPenaltyWeight = 0.03;
 
-std::array<std::uint8_t, (2 * kReach + 1) * (2 * kReach + 1)> smear_kernel() {
-  std::array<std::uint8_t, (2 * kReach + 1) * (2 * kReach + 1)> kernel{};
+constexpr std::size_t kKernelSide = 2 * kReach + 1;
+std::array<std::uint8_t, kKernelSide * kKernelSide> smear_kernel() {
+  std::array<std::uint8_t, kKernelSide * kKernelSide> kernel{};
   for (int y = -kReach; y <= kReach; ++y) {
     for (int x = -kReach; x <= kReach; ++x) {
       const double d = std::hypot(x, y) * ScoreGrid::kResolutionM / kSigmaM;
-      kernel[static_cast<std::size_t>((y + kReach) * (2 * kReach + 1) + x + kReach)] =
+      kernel[static_cast<std::size_t>(y + kReach) * kKernelSide + static_cast<std::size_t>(x + kReach)] =
           static_cast<std::uint8_t>(std::lround(255.0 * std::exp(-0.5 * d * d)));
     }
   }

@@ -32,7 +32,9 @@ class StrainGrid {
   void push(double explained_m) { explained_m_.push_back(explained_m); }
   [[nodiscard]] double at(int i, int j) const {
     const bool outside = i < 0 || j < 0 || i >= side() || j >= side();
-    return outside ? -1.0 : explained_m_[static_cast<std::size_t>(i * side() + j)];
+    return outside ? -1.0
+                   : explained_m_[static_cast<std::size_t>(i) * static_cast<std::size_t>(side()) +
+                                  static_cast<std::size_t>(j)];
   }
   [[nodiscard]] bool is_peak(int i, int j) const {
     for (int di = -1; di <= 1; ++di)

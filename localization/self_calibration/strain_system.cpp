@@ -72,20 +72,23 @@ struct Equations {
     const Eigen::Matrix3d information = f.information * geman_mcclure(z, kMotionLoss);
     const Eigen::Matrix3d a = row.by_from.transpose() * information;
     const Eigen::Matrix3d b = row.by_to.transpose() * information;
-    add_block(poses, 3 * f.from, 3 * f.from, a * row.by_from);
-    add_block(poses, 3 * f.to, 3 * f.to, b * row.by_to);
-    add_block(poses, 3 * f.from, 3 * f.to, a * row.by_to);
-    add_block(poses, 3 * f.to, 3 * f.from, b * row.by_from);
-    pose_side.segment<3>(3 * f.from) -= a * row.error;
-    pose_side.segment<3>(3 * f.to) -= b * row.error;
+    const int i = 3 * f.from;
+    const int j = 3 * f.to;
+    add_block(poses, i, i, a * row.by_from);
+    add_block(poses, j, j, b * row.by_to);
+    add_block(poses, i, j, a * row.by_to);
+    add_block(poses, j, i, b * row.by_from);
+    pose_side.segment<3>(i) -= a * row.error;
+    pose_side.segment<3>(j) -= b * row.error;
   }
 
   /// Against directions that a keyframe does not see; `off` from where the localizer had it.
   void add_pose_prior(int keyframe, const Eigen::Vector3d& off) {
     const double m = 1.0 / (kPosePriorM * kPosePriorM);
     const Eigen::Vector3d information(m, m, 1.0 / (kPosePriorRad * kPosePriorRad));
-    add_block(poses, 3 * keyframe, 3 * keyframe, information.asDiagonal());
-    pose_side.segment<3>(3 * keyframe) -= information.cwiseProduct(off);
+    const int at = 3 * keyframe;
+    add_block(poses, at, at, information.asDiagonal());
+    pose_side.segment<3>(at) -= information.cwiseProduct(off);
   }
 
   Triplets poses;

@@ -6,7 +6,7 @@ namespace madori::localization {
 
 PointCloud<Base> cloud_in_base(const PointCloud<Lidar>& cloud, const Transform2<Base, Lidar>& base_from_lidar,
                                double height_m, const OdometryTrack& track) {
-  constexpr float kOneFiring_s = 4e-4F;  // points this near in time share a motion: 0.4 mm at 1 m/s
+  constexpr float kOneFiringS = 4e-4F;  // points this near in time share a motion: 0.4 mm at 1 m/s
   PointCloud<Base> result;
   const float last_s = cloud.points.empty() ? 0.0F : cloud.points.back().time_offset_s;
   result.stamp = cloud.stamp + duration_from_seconds(static_cast<double>(last_s));
@@ -15,7 +15,7 @@ PointCloud<Base> cloud_in_base(const PointCloud<Lidar>& cloud, const Transform2<
   float moment_s = std::nanf("");
   Transform2<Base, Lidar> moved = base_from_lidar;
   for (const CloudPoint& p : cloud.points) {
-    if (end && !(std::abs(p.time_offset_s - moment_s) < kOneFiring_s)) {
+    if (end && !(std::abs(p.time_offset_s - moment_s) < kOneFiringS)) {
       moment_s = p.time_offset_s;
       const auto then = track.at(cloud.stamp + duration_from_seconds(static_cast<double>(moment_s)));
       moved = end->odom_from_base.inverse() * then.value_or(*end).odom_from_base * base_from_lidar;

@@ -27,13 +27,12 @@ GroundPlane refit(const std::vector<CloudPoint>& points, const GroundPlane& plan
     if (!(at.head<2>().squaredNorm() <= reach_m * reach_m) || !(std::abs(plane.height_of(p)) <= band_m))
       continue;
     sum += at;
-    squares.selfadjointView<Eigen::Lower>().rankUpdate(at);
+    squares.noalias() += at * at.transpose();
     ++count;
   }
   if (count < 3) return {};
   const Eigen::Vector3d mean = sum / count;
-  const Eigen::Matrix3d full = squares.selfadjointView<Eigen::Lower>();
-  const Eigen::Matrix3d covariance = full / count - mean * mean.transpose();
+  const Eigen::Matrix3d covariance = squares / count - mean * mean.transpose();
   const Eigen::Matrix2d spread = covariance.topLeftCorner<2, 2>();
   const double trace = spread.trace();
   const double least = trace / 2.0 - std::sqrt(std::max(0.0, trace * trace / 4.0 - spread.determinant()));

@@ -27,8 +27,8 @@ class Grouping {
     }
     y0_ = columns.front().cell_y;  // they are sorted by rows
     y1_ = columns.back().cell_y;
-    const auto rows = static_cast<std::size_t>(y1_ - y0_ + 1);
-    slots_.assign(rows * static_cast<std::size_t>(x1_ - x0_ + 1), -1);
+    const auto rows = static_cast<std::size_t>(y1_ - y0_) + 1;
+    slots_.assign(rows * (static_cast<std::size_t>(x1_ - x0_) + 1), -1);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       taken_[i] = !(columns[i].confirmed && columns[i].entered && columns[i].seen == stamp);
       slots_[slot(columns[i].cell_x, columns[i].cell_y)] = static_cast<std::int32_t>(i);
