@@ -102,6 +102,7 @@ std::vector<LegendEntry> legend_of(const std::vector<PoseEstimate>& estimates) {
 std::vector<std::uint8_t> trajectory_plot(const mapping::Walls& walls,
                                           const std::vector<PoseEstimate>& estimates, int longest_px) {
   std::vector<Point2<Map>> way;
+  way.reserve(estimates.size());
   for (const PoseEstimate& e : estimates) way.push_back(e.map_from_base.translation());
   MapCanvas canvas(walls, way, longest_px);
   canvas.walls(walls, colours::kGrey, 2);

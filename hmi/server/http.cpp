@@ -84,7 +84,7 @@ Response Response::error(int status, const std::string& code, const std::string&
   return json(body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), status);
 }
 
-void Router::add(std::string method, std::string pattern, Role needs, Handler handler, Work work) {
+void Router::add(std::string method, const std::string& pattern, Role needs, Handler handler, Work work) {
   routes_.push_back({std::move(method), elements_of(pattern), needs, std::move(handler), work});
 }
 

@@ -52,7 +52,8 @@ enum class Work {
 class Router {
  public:
   /// `needs` is the least role.
-  void add(std::string method, std::string pattern, Role needs, Handler handler, Work work = Work::Quick);
+  void add(std::string method, const std::string& pattern, Role needs, Handler handler,
+           Work work = Work::Quick);
 
   struct Match {
     const Handler* handler = nullptr;

@@ -58,8 +58,9 @@ CameraPicture take_picture(const Factory& factory, const CameraOptions& options)
       const double left = reach * (1.0 - (2.0 * column + 1.0) / width);
       const double up = reach * height / width * (1.0 - (2.0 * row + 1.0) / height);
       const double length = std::sqrt(1.0 + left * left + up * up);
-      rays.set(static_cast<std::size_t>(row * width + column), from, (c + s * up) / length, left / length,
-               (c * up - s) / length);
+      rays.set(
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column),
+          from, (c + s * up) / length, left / length, (c * up - s) / length);
     }
   }
   rays.cast(factory.world().rays(), factory.bodies(), static_cast<float>(options.range_max_m));
