@@ -84,8 +84,9 @@ std::vector<Candidate> candidates(const WallIndex& index, const MemoryCloud& clo
     const int columns = steps_up_to(drawing.x2 + kMarginM - box.x2 - x0, step);
     const int rows = steps_up_to(drawing.y2 + kMarginM - box.y2 - y0, step);
     for (int i = 0; i < columns * rows; ++i) {
-      const double x = x0 + i % columns * step;
-      const double y = y0 + i / columns * step;
+      const int row = i / columns;
+      const double x = x0 + (i - row * columns) * step;
+      const double y = y0 + row * step;
       best.push_back({score(index, turned, x, y), Transform2<Map, Map>(x, y, r * kStepRad)});
     }
     if (best.size() > 4096 || r + 1 == kTurns) {
