@@ -121,6 +121,20 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
   take_path(way, path_over(config, *route, state.pose.map_from_base), config);
 }
 
+/// A way around with a turn on the spot at its end where the goal has a heading: no curve ends in it exactly.
+Path ending_as_asked(Path path, const Navigation& way, const CycleConfig& config) {
+  const auto goal = config.routes.index_of(way.stop.node);
+  if (!goal || !config.routes.nodes()[*goal].heading_rad) return path;
+  auto& points = path.points;
+  const bool turns = points.size() > 1 && points.back().position == points[points.size() - 2].position;
+  if (turns) return path;
+  PathPoint last = points.back();
+  last.heading_rad = wrap_angle(*config.routes.nodes()[*goal].heading_rad);
+  last.curvature_per_m = 0.0;
+  points.push_back(last);
+  return path;
+}
+
 /// What blocks the way; the vehicle's own place where it has no room to turn.
 Point2<Map> place_of_block(const CycleState& state) {
   const auto& check = state.way.check;
@@ -228,7 +242,7 @@ void navigate(CycleState& state, const CycleInput& input, const CycleConfig& con
     way.detour_failed = input.detour->path ? "" : input.detour->reason;
     if (input.detour->path) {
       const std::size_t rejoin = std::min(input.detour->rejoin, input.detour->path->points.size() - 1);
-      take_path(way, *input.detour->path, config);
+      take_path(way, ending_as_asked(*input.detour->path, way, config), config);
       way.rejoin_m = way.path.along_m(rejoin);
     }
   }

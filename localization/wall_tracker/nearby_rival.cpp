@@ -86,7 +86,7 @@ std::optional<RegistrationResult> NearbyRival::observe(const ScanPoints& points,
   const RegistrationResult here = segment_icp(points, grid, pose, options_.icp);
   if (here.inlier_fraction < options_.sure_inliers) return std::nullopt;
   --votes_left_;
-  const auto there = best_rival(points, grid, here);
+  auto there = best_rival(points, grid, here);
   if (!there) return std::nullopt;
   const double lead = explained(*there, points) / explained(here, points) - 1.0;
   rival_->pose = there->map_from_base;

@@ -24,15 +24,6 @@ std::vector<std::size_t> rejoin_points(const DetourRequest& request, const Check
   return points;
 }
 
-/// Where a way that comes back at `rejoin` goes on with the route: a turn on the spot at its end is kept, as
-/// no curve ends at exactly the heading asked for.
-std::size_t goes_on_at(const Path& path, std::size_t rejoin) {
-  const auto& points = path.points;
-  const bool turns =
-      rejoin > 0 && rejoin + 1 == points.size() && points[rejoin].position == points[rejoin - 1].position;
-  return turns ? rejoin : rejoin + 1;
-}
-
 Transform2<Map, Base> pose_at(const PathPoint& point) {
   return {point.position.x_m, point.position.y_m, point.heading_rad};
 }
@@ -68,10 +59,9 @@ DetourAnswer plan_within(const DetourRequest& request, const WallGrid& walls, co
     }
     Path whole = around.value();
     const std::size_t joined = whole.points.size();
-    whole.points.insert(
-        whole.points.end(),
-        request.path.points.begin() + static_cast<std::ptrdiff_t>(goes_on_at(request.path, rejoin)),
-        request.path.points.end());
+    whole.points.insert(whole.points.end(),
+                        request.path.points.begin() + static_cast<std::ptrdiff_t>(rejoin) + 1,
+                        request.path.points.end());
     const PathCheck free = check_path(whole, 0, 1e3, request.obstacles, walls, check);
     if (free.blocked() && free.first_blocked < joined) continue;
     answer.rejoin = joined;

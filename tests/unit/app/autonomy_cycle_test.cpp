@@ -329,6 +329,22 @@ TEST(AutonomyCycle, ABlockedLegIsLeftOutOfANewRoute) {
   EXPECT_THAT(v->events, Contains(HasSubstr("taking another route")));
 }
 
+TEST(AutonomyCycle, AWayAroundThatEndsAtTheGoalEndsInItsHeading) {
+  for (const double heading_deg : {0.0, 90.0}) {
+    auto graph = planning::parse_routes("ID,EDA\n0,1\n1,0\n",
+                                        "ID,x,y,heading_deg\n0,0,0,\n1,8,0," + std::to_string(heading_deg))
+                     .graph;
+    ToyVehicle v(test::toy_config(std::move(graph)), {0.0, 0.0, 0.0});
+    for (double y = -0.8; y < 3.0; y += 0.2) v.lidar.posts.push_back({{5.4, y}, 0.1, 1.5});
+    v.drive_to({{1}});
+    v.say(OperatorWord::Resume);
+    ASSERT_TRUE(v.run_until([&] { return v.delivered(); }, 90.0)) << ::testing::PrintToString(v.events);
+    EXPECT_THAT(v.events, Contains(HasSubstr("detour found")));
+    EXPECT_LT(std::abs(wrap_angle(v.rolling.pose().yaw_rad() - to_rad(heading_deg))), to_rad(1.0))
+        << heading_deg;
+  }
+}
+
 TEST(AutonomyCycle, WhatLiesBeforeADoorIsNoDoor) {
   auto routes = planning::parse_routes("ID,EDA\n0,1\n1,0 2\n2,1\n",
                                        "ID,x,y,heading_deg,action\n0,0,0,,\n1,7,0,,door\n2,14,0,,\n");

@@ -103,21 +103,6 @@ TEST(FreeSpace, FindsAWayAroundALongBarrierAndTheSameOneForASeed) {
   EXPECT_EQ(answer.path->points.back().position, path.points.back().position);
 }
 
-TEST(FreeSpace, AWayThatMeetsTheRouteAtItsEndTurnsThereAsTheRouteDoes) {
-  const Path path = make_waypoints({{{0, 0}}, {{8, 0}}}, {}, 0.5 * kPi).value();
-  const auto obstacles = row(5.0, -2.6, 2.6);
-  const WallGrid walls;
-  DetourOptions options;
-  options.side.furthest_m = 1.0;
-  options.free_space.max_checks = 200'000;
-  const auto answer = plan_detour(request_for(path, obstacles, walls), walls, kCheck, options);
-  ASSERT_TRUE(answer.path.has_value()) << answer.reason;
-  const auto& points = answer.path->points;
-  EXPECT_EQ(points.back().position, path.points.back().position);
-  EXPECT_DOUBLE_EQ(points.back().heading_rad, 0.5 * kPi);
-  EXPECT_NEAR(distance_m(points[points.size() - 2].position, points.back().position), 0.0, 1e-9);
-}
-
 /// Random trees wander; what is driven does not. The oracle is the shortest way around the barrier's end.
 TEST(FreeSpace, WaysAreNotMuchLongerThanNeeded) {
   const auto obstacles = row(4.0, -2.6, 1.0);
