@@ -70,7 +70,7 @@ bool is_free_behind(const CycleState& state, const Path& path, const CycleConfig
 std::optional<Path> free_way_back(const CycleState& state, const CycleConfig& config) {
   constexpr double kShortestM = 0.3;
   constexpr double kShorterM = 0.1;
-  const auto came = state.way.backing_held ? std::nullopt : way_back(state, config);
+  auto came = state.way.backing_held ? std::nullopt : way_back(state, config);
   if (came && is_free_behind(state, *came, config)) return came;
   for (double length_m = config.back_out_m; length_m > kShortestM - 1e-6; length_m -= kShorterM)
     if (Path path = straight_back(state, length_m, config); is_free_behind(state, path, config)) return path;
