@@ -28,7 +28,7 @@ struct Seen {
 
   explicit Seen(const FactorySetup& setup) : factory(setup), receiver({}) {}
   void run(double seconds, const WheelCommand& wheels = {}) {
-    for (int i = 0; i < static_cast<int>(seconds * 100.0 + 0.5); ++i) {
+    for (int i = 0; i < std::lround(seconds * 100.0); ++i) {
       factory.step(milliseconds(10), wheels);
       const auto arrived = factory.take_packets();
       receiver.push(arrived);

@@ -58,7 +58,8 @@ TEST(Scenario, AWallThatDoesNotExistIsNamed) {
 
 TEST(Scenario, EveryShippedOneLoadsAndRuns) {
   int files = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(MADORI_SOURCE_DIR "/data/scenarios")) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(MADORI_SOURCE_DIR "/data/scenarios")) {
     if (entry.path().extension() != ".yaml") continue;
     FactorySetup setup;
     setup.scenario = load_scenario(entry.path());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace madori::simulation {
 namespace {
 
@@ -21,8 +23,7 @@ TEST(Mover, WalksItsPathToAndFro) {
   Mover mover(walker(), kFrames);
   double now = 0.0;
   const auto walk = [&](double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds / kDt + 0.5); ++i, now += kDt)
-      mover.advance(now, kDt, kFarAway);
+    for (int i = 0; i < std::lround(seconds / kDt); ++i, now += kDt) mover.advance(now, kDt, kFarAway);
   };
   walk(5.0);
   EXPECT_NEAR(mover.body().centre.x_m, 4.0, 1e-6);
@@ -64,7 +65,7 @@ TEST(Door, ALiftDoorRisesForTheVehicleAndShutsAfterIt) {
   EXPECT_EQ(lift.leaf()->z.low_m, 0.0);
   double now = 0.0;
   const auto wait = [&](double seconds, double vehicle_x) {
-    for (int i = 0; i < static_cast<int>(seconds / kDt + 0.5); ++i, now += kDt)
+    for (int i = 0; i < std::lround(seconds / kDt); ++i, now += kDt)
       lift.advance(now, kDt, {{vehicle_x, 2.0}, 0.6}, {});
   };
   wait(1.0, 3.0);
