@@ -57,7 +57,8 @@ struct Expected {
 };
 /// The manual's formula in double, return by return.
 Expected expected_point(const vlp16::DataPacket& packet, std::size_t b, std::size_t i, double gap_cdeg) {
-  const double firing = static_cast<double>(i / 16), channel = static_cast<double>(i % 16);
+  const std::size_t half = i / 16;
+  const double firing = static_cast<double>(half), channel = static_cast<double>(i % 16);
   const double azimuth = to_rad(
       (packet.blocks[b].azimuth_cdeg + gap_cdeg * (55.296 * firing + 2.304 * channel) / 110.592) / 100.0);
   const double elevation = to_rad(vlp16::kElevationsDeg[i % 16]);

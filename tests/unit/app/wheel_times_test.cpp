@@ -97,10 +97,11 @@ TEST(WheelTimes, WhatALateRevolutionSawStandsWhereItWasSeen) {
       input.drive.push_back(rolled(ms, config.odometry.wheels.left_radius_m));
       if (ms == kTaken_ms + late_ms) {
         PointCloud<Lidar> cloud{Stamp(std::chrono::milliseconds(kEpoch_ms + kTaken_ms)), {}};
-        for (int i = 0; i < 20; ++i)
-          cloud.points.push_back({.x_m = static_cast<float>(kBodyM - 4.0),
-                                  .y_m = 0.02F * static_cast<float>(i % 5),
-                                  .z_m = -0.4F - 0.02F * static_cast<float>(i / 5)});
+        for (int row = 0; row < 4; ++row)
+          for (int column = 0; column < 5; ++column)
+            cloud.points.push_back({.x_m = static_cast<float>(kBodyM - 4.0),
+                                    .y_m = 0.02F * static_cast<float>(column),
+                                    .z_m = -0.4F - 0.02F * static_cast<float>(row)});
         input.clouds.push_back(cloud);
       }
       state = step(std::move(state), input, config).state;
