@@ -87,9 +87,9 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<O
   if (is_under_something(old, view)) old.under = now;
   // One glimpse of something tall is the edge of what went by: what stands there is seen again and again.
   const bool glimpsed = old.part_of_tall && old.since == old.seen && old.low_m > kGlimpseAboveM;
-  if (glimpsed) return to_seconds(now - old.seen) <= options_.foot_memory_s;
   // A pallet that has come too near to be seen is still there; of a person the head would be seen.
-  return old.under == Stamp{} || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
+  const bool may_have_left = glimpsed || old.under != Stamp{};
+  return !may_have_left || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
 }
 
 void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,

@@ -156,6 +156,21 @@ TEST(ObstacleField, OneGlimpseOfSomethingTallDoesNotHauntTheBlindZone) {
   }
 }
 
+TEST(ObstacleField, OneGlimpseOfAPersonWhoStaysCounts) {
+  const SensorView high{0.0, 0.0, 1.25, to_rad(-15.0), to_rad(15.0)};
+  ObstacleField field;
+  PointCloud<Base> cloud{at(0), {}};
+  for (const float z : {0.56F, 0.64F, 0.72F}) cloud.points.push_back({1.62F, 0.05F, z, 0.0F, 1, 5});
+  field.update(cloud, high, {});
+  cloud.points.clear();  // from now on only the upper part is in view
+  for (const float z : {1.1F, 1.2F, 1.3F}) cloud.points.push_back({1.62F, 0.05F, z, 0.0F, 1, 5});
+  for (int i = 1; i < 30; ++i) {
+    cloud.stamp = at(0.1 * i);
+    field.update(cloud, high, {});
+  }
+  EXPECT_EQ(confirmed(field), 1);
+}
+
 TEST(ObstacleField, NonFinitePointsAreLeftOut) {
   ObstacleField field;
   const float nan = std::numeric_limits<float>::quiet_NaN();
