@@ -125,13 +125,9 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
 Path ending_as_asked(Path path, const Navigation& way, const CycleConfig& config) {
   const auto goal = config.routes.index_of(way.stop.node);
   if (!goal || !config.routes.nodes()[*goal].heading_rad) return path;
-  auto& points = path.points;
+  const auto& points = path.points;
   const bool turns = points.size() > 1 && points.back().position == points[points.size() - 2].position;
-  if (turns) return path;
-  PathPoint last = points.back();
-  last.heading_rad = wrap_angle(*config.routes.nodes()[*goal].heading_rad);
-  last.curvature_per_m = 0.0;
-  points.push_back(last);
+  if (!turns) planning::end_in(path, *config.routes.nodes()[*goal].heading_rad);
   return path;
 }
 

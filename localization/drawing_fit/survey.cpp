@@ -58,11 +58,6 @@ double score(const WallIndex& index, const MemoryCloud& sample, double dx, doubl
   return sum;
 }
 
-/// How many of 0, step, 2 step, ... do not exceed `span_m`.
-int steps_up_to(double span_m, double step_m) {
-  return span_m < 0.0 ? 0 : static_cast<int>(span_m / step_m) + 1;
-}
-
 /// The best places on a grid over all of the drawing that the cloud fits into.
 std::vector<Candidate> candidates(const WallIndex& index, const MemoryCloud& cloud) {
   const MemoryCloud sample = strongest(cloud, 120);
@@ -79,15 +74,10 @@ std::vector<Candidate> candidates(const WallIndex& index, const MemoryCloud& clo
     const MemoryCloud turned = moved(sample, turn);
     Box box;
     for (const CloudSurface& p : turned) box.add(p.x_m, p.y_m);
-    const double x0 = drawing.x1 - kMarginM - box.x1;
-    const double y0 = drawing.y1 - kMarginM - box.y1;
-    const int columns = steps_up_to(drawing.x2 + kMarginM - box.x2 - x0, step);
-    const int rows = steps_up_to(drawing.y2 + kMarginM - box.y2 - y0, step);
-    for (int i = 0; i < columns * rows; ++i) {
-      const int row = i / columns;
-      const double x = x0 + (i - row * columns) * step;
-      const double y = y0 + row * step;
-      best.push_back({score(index, turned, x, y), Transform2<Map, Map>(x, y, r * kStepRad)});
+    for (double y = drawing.y1 - kMarginM - box.y1; y <= drawing.y2 + kMarginM - box.y2; y += step) {
+      for (double x = drawing.x1 - kMarginM - box.x1; x <= drawing.x2 + kMarginM - box.x2; x += step) {
+        best.push_back({score(index, turned, x, y), Transform2<Map, Map>(x, y, r * kStepRad)});
+      }
     }
     if (best.size() > 4096 || r + 1 == kTurns) {
       const auto keep = static_cast<long>(std::min<std::size_t>(64, best.size()));

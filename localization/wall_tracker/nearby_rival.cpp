@@ -46,12 +46,10 @@ RegistrationResult NearbyRival::begin(const ScanPoints& points, const SegmentGri
 }
 
 bool NearbyRival::is_sure() const {
-  const double mean = rival_->lead / rival_->votes;
-  const bool early = rival_->votes < options_.fewest_votes;
-  if (rival_->votes < options_.fewest_where_clear || mean < (early ? options_.clear_lead : options_.enough))
-    return false;
-  const double variance = (rival_->lead2 / rival_->votes - mean * mean) / (rival_->votes - 1);
-  return mean * mean > options_.lead_sigmas * options_.lead_sigmas * variance;
+  const int votes = rival_->votes;
+  const double enough = votes < options_.fewest_votes ? options_.clear_lead : options_.enough;
+  return votes >= options_.fewest_where_clear && rival_->lead.mean(votes) >= enough &&
+         rival_->lead.is_sure(votes, options_.lead_sigmas);
 }
 
 void NearbyRival::reopen() {
@@ -88,11 +86,9 @@ std::optional<RegistrationResult> NearbyRival::observe(const ScanPoints& points,
   --votes_left_;
   auto there = best_rival(points, grid, here);
   if (!there) return std::nullopt;
-  const double lead = explained(*there, points) / explained(here, points) - 1.0;
   rival_->pose = there->map_from_base;
   ++rival_->votes;
-  rival_->lead += lead;
-  rival_->lead2 += lead * lead;
+  rival_->lead.add(explained(*there, points) / explained(here, points) - 1.0);
   if (!is_sure()) return std::nullopt;
   reopen();
   return there;

@@ -7,6 +7,7 @@
 #include "localization/registration/segment_grid.hpp"
 #include "localization/registration/segment_icp.hpp"
 #include "localization/scan_points.hpp"
+#include "localization/wall_tracker/lead.hpp"
 
 namespace madori::localization {
 
@@ -54,8 +55,7 @@ class NearbyRival {
   struct Rival {
     Transform2<Map, Base> pose;  ///< carried along by the motion
     int votes = 0;
-    double lead = 0.0;  ///< sums of its leads over the tracked pose, and of their squares
-    double lead2 = 0.0;
+    Lead lead = {};  ///< over the tracked pose
   };
   [[nodiscard]] bool is_beside(const RegistrationResult& other, const RegistrationResult& here) const;
   [[nodiscard]] std::optional<RegistrationResult> best_on_ring(const ScanPoints& points,

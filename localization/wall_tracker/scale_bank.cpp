@@ -24,9 +24,7 @@ ScaleBank::ScaleBank(const ScaleBankOptions& options) : options_(options) {
 
 /// Does it explain surely more, or surely less, than the size believed?
 bool ScaleBank::is_sure(const Member& m) const {
-  const double mean = m.lead / stretches_;
-  const double variance = std::max(1e-8, (m.lead2 / stretches_ - mean * mean) / (stretches_ - 1));
-  return mean * mean > options_.lead_sigmas * options_.lead_sigmas * variance;
+  return m.lead.is_sure(stretches_, options_.lead_sigmas);
 }
 
 void ScaleBank::begin_stage(int stage, const Transform2<Map, Base>& pose) {
@@ -91,9 +89,7 @@ bool ScaleBank::observe(const ScanPoints& seen, const SegmentGrid& grid,
 
 void ScaleBank::end_stretch() {
   for (Member& m : members_) {
-    const double mean = m.stretch / scans_;
-    m.lead += mean;
-    m.lead2 += mean * mean;
+    m.lead.add(m.stretch / scans_);
     m.stretch = 0.0;
   }
   scans_ = 0;
@@ -102,15 +98,16 @@ void ScaleBank::end_stretch() {
 
 bool ScaleBank::decide() {
   const Member believed = believed_member();
-  const Member best = *std::max_element(members_.begin(), members_.end(),
-                                        [](const Member& a, const Member& b) { return a.lead < b.lead; });
+  const Member best =
+      *std::max_element(members_.begin(), members_.end(),
+                        [](const Member& a, const Member& b) { return a.lead.sum < b.lead.sum; });
   const bool drawn = best.excess == 0.0;  // the drawing is right until it is surely not
   const bool early = stretches_ < options_.fewest_stretches;
   const double enough = early         ? options_.clear_lead
                         : drawn       ? 0.0
                         : stage_ == 0 ? options_.coarse_lead
                                       : options_.fine_lead;
-  if (best.excess != believed.excess && best.lead > enough * stretches_ && is_sure(best)) {
+  if (best.excess != believed.excess && best.lead.sum > enough * stretches_ && is_sure(best)) {
     const bool within = std::abs(best.excess - believed_) < (options_.beside - 0.5) * step();
     believed_ = best.excess;
     begin_stage(within ? 1 : 0, best.pose);

@@ -7,6 +7,7 @@
 #include "localization/registration/segment_grid.hpp"
 #include "localization/registration/segment_icp.hpp"
 #include "localization/scan_points.hpp"
+#include "localization/wall_tracker/lead.hpp"
 
 namespace madori::localization {
 
@@ -60,8 +61,7 @@ class ScaleBank {
     Transform2<Map, Base> pose;
     double explained = 0.0;  ///< of the newest scan
     double stretch = 0.0;    ///< sum of leads over the scans of this stretch
-    double lead = 0.0;       ///< sums of the stretches' mean leads, and of their squares
-    double lead2 = 0.0;
+    Lead lead = {};          ///< of the stretches' means
   };
   [[nodiscard]] double step() const { return stage_ == 0 ? options_.coarse : options_.fine; }
   [[nodiscard]] Member& believed_member() { return members_[static_cast<std::size_t>(options_.beside)]; }

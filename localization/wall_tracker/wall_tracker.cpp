@@ -109,7 +109,7 @@ PoseEstimate WallTracker::on_scan(Stamp stamp, const ScanPoints& seen) {
   else
     search(points, step.motion);
   if (tracking_)
-    if (const auto there = nearby_.observe(points, global_.grid(), anchor_, step.motion)) step_aside(*there);
+    if (const auto there = nearby_.observe(points, global_.grid(), anchor_, step.motion)) place_at(*there);
   if (tracking_) learn_scale(seen, step);
   anchor_stamp_ = stamp;
   since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
@@ -167,16 +167,12 @@ void WallTracker::search(const ScanPoints& points, const Transform2<Base, Base>&
 
 void WallTracker::start_at(const RegistrationResult& found, const ScanPoints& points) {
   const RegistrationResult fit = nearby_.begin(points, global_.grid(), found);
-  anchor_ = fit.map_from_base;
-  covariance_ = fit.covariance + Eigen::Matrix3d(Eigen::Vector3d(1e-3, 1e-3, 1e-4).asDiagonal());
+  place_at(fit);
   tracking_ = true;
-  scale_.start_at(anchor_);
   misses_ = agreeing_ = rivals_ = calm_ = settled_ = 0;
   settled_m_ = 0.0;
   unbroken_ = true;
-  usual_explained_ = fit.inlier_fraction;
   usual_through_ = 0.0;
-  last_fit_.reset();
   evidence_.explained = fit.inlier_fraction;
   health_ = {LocalizationState::Localized, ""};
   answer_.reset();
@@ -264,8 +260,8 @@ bool WallTracker::is_contradicted(const ScanPoints& points, const RegistrationRe
   return true;
 }
 
-/// The vehicle is where a pose beside the tracked one has it.
-void WallTracker::step_aside(const RegistrationResult& there) {
+/// The vehicle is there, whatever was tracked before.
+void WallTracker::place_at(const RegistrationResult& there) {
   anchor_ = there.map_from_base;
   covariance_ = there.covariance + Eigen::Matrix3d(Eigen::Vector3d(1e-3, 1e-3, 1e-4).asDiagonal());
   usual_explained_ = there.inlier_fraction;

@@ -112,7 +112,7 @@ class WallTracker {
   [[nodiscard]] bool is_contradicted(const ScanPoints& points, const RegistrationResult& fit,
                                      bool has_changed);
   void correct(const RegistrationResult& fit, const OdometryStep& step);
-  void step_aside(const RegistrationResult& there);
+  void place_at(const RegistrationResult& there);
   void learn_scale(const ScanPoints& seen, const OdometryStep& step);
   void miss(const std::string& reason, bool loses);
   [[nodiscard]] bool wheels_still_do() const;

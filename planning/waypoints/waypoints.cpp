@@ -112,13 +112,16 @@ Result<Path> make_waypoints(const std::vector<WayCorner>& corners, const Waypoin
     first = end;
   }
   if (final_heading_rad &&
-      std::abs(wrap_angle(*final_heading_rad - path.points.back().heading_rad)) > kDifferentHeadingRad) {
-    PathPoint last = path.points.back();
-    last.heading_rad = wrap_angle(*final_heading_rad);
-    last.curvature_per_m = 0.0;
-    path.points.push_back(last);
-  }
+      std::abs(wrap_angle(*final_heading_rad - path.points.back().heading_rad)) > kDifferentHeadingRad)
+    end_in(path, *final_heading_rad);
   return path;
+}
+
+void end_in(Path& path, double heading_rad) {
+  PathPoint last = path.points.back();
+  last.heading_rad = wrap_angle(heading_rad);
+  last.curvature_per_m = 0.0;
+  path.points.push_back(last);
 }
 
 std::string waypoints_csv(const Path& path) {

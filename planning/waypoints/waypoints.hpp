@@ -29,6 +29,9 @@ struct WaypointOptions {
                                           const WaypointOptions& options = {},
                                           std::optional<double> final_heading_rad = std::nullopt);
 
+/// A turn on the spot at the end of a path of at least one point.
+void end_in(Path& path, double heading_rad);
+
 /// The text of a waypoint file as published, `ID,x,y`; turns on the spot have no row of their own.
 [[nodiscard]] std::string waypoints_csv(const Path& path);
 
