@@ -3,7 +3,8 @@ import { useEffect, useState } from "preact/hooks";
 import "ol/ol.css";
 import "./styles.css";
 import { api } from "./api";
-import type { Routes, Session, Site, SiteRevisions, Walls } from "./api_types";
+import type { Session, SiteRevisions } from "./api_types";
+import { loadContent, newestOnly, type Content } from "./content";
 import { language, useText } from "./i18n";
 import { live } from "./live/live_socket";
 import { theme } from "./map/theme";
@@ -16,12 +17,6 @@ import { Icon } from "./ui/icon";
 import { Toast, attempt } from "./ui/toast";
 
 type PageName = "drive" | "setup" | "history";
-interface Content {
-  site: Site;
-  walls: Walls;
-  routes: Routes;
-}
-
 function Rail(props: { page: PageName; role: Session["role"]; needsPin: boolean; go: (page: PageName) => void; leave: () => void }) {
   const t = useText();
   const entry = (name: PageName) => (
@@ -61,12 +56,13 @@ function Panel() {
   const [session, setSession] = useState<Session | null>(null);
   const [content, setContent] = useState<Content | null>(null);
   const [page, setPage] = useState<PageName | null>(null);
-  const load = (): Promise<unknown> =>
-    attempt(async () => {
-      const [site, walls, routes] = await Promise.all([api.site(), api.walls(), api.routes()]);
-      setContent({ site, walls, routes });
-      setPage((old) => old ?? (site.scale && routes.nodes.length > 0 && site.sensors.length > 0 ? "drive" : "setup"));
-    });
+  const show = (loaded: Content) => {
+    const { site, routes } = loaded;
+    setContent(loaded);
+    setPage((old) => old ?? (site.scale && routes.nodes.length > 0 && site.sensors.length > 0 ? "drive" : "setup"));
+  };
+  const [newest] = useState(() => newestOnly(() => loadContent(api), show));
+  const load = () => attempt(newest);
   const enter = () =>
     void attempt(async () => {
       const current = await api.session();

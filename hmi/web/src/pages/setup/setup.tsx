@@ -49,8 +49,8 @@ interface Props {
   site: Site;
   walls: Walls;
   routes: Routes;
-  /** loads the site anew; the next step begins with what has come */
-  changed: () => Promise<unknown>;
+  /** loads the site anew; the next step begins with what has come. False where nothing came. */
+  changed: () => Promise<boolean>;
   finished: () => void;
 }
 
@@ -62,7 +62,7 @@ export function SetupPage({ site, walls, routes, changed, finished }: Props) {
   const locked = useStore(live.newest)?.live.locked;
   const next = () => setStep(steps[steps.indexOf(step) + 1] ?? "locate");
   /** Not at once: the next step would begin on what was before, and a quick touch go there. */
-  const saved = () => void changed().then(next);
+  const saved = () => void changed().then((came) => came && next());
   return (
     <main class="page">
       <StepBar shown={step} site={site} setup={setup} choose={setStep} />
