@@ -17,10 +17,22 @@ namespace {
 
 constexpr double kWidestShare = 0.025;  // of the drawing: further apart are no two faces of a wall
 constexpr double kThickestWall = 1.2;   // metres
+constexpr double kSolidWider = 2;       // times: what is filled from face to face is one wall, however thick
+constexpr double kFilled = 0.9;
 
 void reject_where(DrawnLines& drawn, const std::vector<bool>& which, RejectReason reason) {
   for (std::size_t i = 0; i < drawn.size(); ++i)
     if (which[i] && !drawn[i].rejected) drawn[i].rejected = reason;
+}
+
+/// Pairs further apart than two faces are count where the fill between them says that they belong together.
+std::vector<Strip> wall_strips(const DrawnLines& drawn, const GrayImage& ink, double widest_px) {
+  auto strips = find_strips(drawn, ink, kSolidWider * widest_px);
+  std::erase_if(strips, [&](const Strip& strip) {
+    const bool solid = drawn[strip.line].solid_face && drawn[strip.partner].solid_face;
+    return strip.width_px > widest_px && !(solid && strip.ink_share > kFilled);
+  });
+  return strips;
 }
 
 void reject_outer_faces(DrawnLines& drawn, const std::vector<Strip>& strips, const WallStyle& style,
@@ -38,7 +50,7 @@ WallStyle choose_walls(DrawnLines& drawn, const GrayImage& ink, const Components
                        const CleanedMarks& cleaned, const DetectionOptions& options) {
   double widest = kWidestShare * std::max(ink.width_px, ink.height_px);
   if (options.m_per_px) widest = std::min(widest, kThickestWall / *options.m_per_px);
-  const auto strips = find_strips(drawn, ink, widest);
+  const auto strips = wall_strips(drawn, ink, widest);
   const WallStyle style = measure_style(drawn, strips, cleaned.pen_px);
   const auto evidence = weigh_lines(drawn, strips, style);
   if (!options.keep_dimensions) reject_dimensions(drawn, cleaned.texts, evidence, style, cleaned.pen_px);

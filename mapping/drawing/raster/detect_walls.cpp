@@ -5,6 +5,7 @@
 #include "mapping/drawing/raster/clean_marks.hpp"
 #include "mapping/drawing/raster/components.hpp"
 #include "mapping/drawing/raster/extract_lines.hpp"
+#include "mapping/drawing/raster/settle_lines.hpp"
 #include "mapping/drawing/raster/skew.hpp"
 #include "mapping/drawing/raster/stage_clock.hpp"
 #include "mapping/drawing/raster/working_ink.hpp"
@@ -35,6 +36,11 @@ DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& chose
 
   clock.begin("sort", 0.9);  // walls, and what else lines stand for
   const WallStyle style = choose_walls(drawn, ink, marks, cleaned, options);
+  clock.end(drawn.size());
+
+  clock.begin("settle", 0.95);  // to a fraction of a pixel
+  settle_lines(drawn, {image, static_cast<double>(image.width_px) / ink.width_px,
+                       static_cast<double>(image.height_px) / ink.height_px, working.bright_lines});
   found.walls = column_faces(cleaned, style);
   found.rejected = std::move(cleaned.rejected);
   for (const DrawnLine& line : drawn) {

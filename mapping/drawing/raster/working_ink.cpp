@@ -67,7 +67,7 @@ GrayImage resized(const GrayImage& image, double factor) {
 WorkingInk inked(const GrayImage& image, Binarized binary, double factor) {
   Components marks(binary.ink);
   const double pen_px = std::min(pen_width_px(run_lengths(binary.ink, marks)), widest_pen_px(image));
-  return {std::move(binary.ink), std::move(marks), pen_px, factor, binary.threshold};
+  return {std::move(binary.ink), std::move(marks), pen_px, factor, binary.threshold, false};
 }
 
 }  // namespace
@@ -77,11 +77,14 @@ WorkingInk working_ink(const GrayImage& drawing, std::optional<double> threshold
   const GrayImage& picture = turned ? *turned : drawing;
   WorkingInk working = inked(picture, binarize(picture, threshold), 1);
   const double factor = working_factor(picture, working.pen_px);
-  if (factor == 1) return working;
-  const GrayImage other = resized(picture, factor);
-  const bool enlarged = factor > 1 && !threshold;
-  return inked(other, enlarged ? binarize_enlarged(other, working.threshold) : binarize(other, threshold),
-               factor);
+  if (factor != 1) {
+    const GrayImage other = resized(picture, factor);
+    const bool enlarged = factor > 1 && !threshold;
+    working = inked(
+        other, enlarged ? binarize_enlarged(other, working.threshold) : binarize(other, threshold), factor);
+  }
+  working.bright_lines = turned.has_value();
+  return working;
 }
 
 DetectionOptions resized(DetectionOptions options, double factor) {

@@ -10,11 +10,12 @@ namespace madori::mapping {
 
 /// The ink that the lines are looked for in.
 struct WorkingInk {
-  GrayImage ink;         ///< 255 = ink, 0 = paper
-  Components marks;      ///< of that ink
-  double pen_px = 1;     ///< the width of its thin pen
-  double factor = 1;     ///< its pixels for one of the drawing
-  double threshold = 0;  ///< on a paper of 255
+  GrayImage ink;              ///< 255 = ink, 0 = paper
+  Components marks;           ///< of that ink
+  double pen_px = 1;          ///< the width of its thin pen
+  double factor = 1;          ///< its pixels for one of the drawing
+  double threshold = 0;       ///< on a paper of 255
+  bool bright_lines = false;  ///< the drawing's lines are bright on a dark ground
 };
 
 /// Binarizes a drawing at a resolution at which a coarse pen neither multiplies the work nor changes what is

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "mapping/drawing/gray_image.hpp"
+#include "mapping/drawing/raster/drawn_line.hpp"
+
+namespace madori::mapping {
+
+/// What the lines are settled on.
+struct GreyDrawing {
+  const GrayImage& image;  ///< as it was drawn
+  double u_scale = 1;      ///< its pixels for one pixel of the lines
+  double v_scale = 1;
+  bool bright_lines = false;  ///< on a dark ground
+};
+
+/// Moves each line that is not rejected to where the grey levels of the drawing have it, to a fraction of a
+/// pixel: the face of a fill to where the grey passes half way from ink to paper, a stroke to the middle
+/// between its two edges. Binary pixels cannot tell this: an outline of pixels lies half a pixel inside the
+/// ink, and the middle of a stroke of even width lies half a pixel to one side. Lines move by at most 1.5
+/// pixels and keep their length; those with too few clear edges (crossings, hatching along them) stay.
+void settle_lines(DrawnLines& lines, const GreyDrawing& drawing);
+
+}  // namespace madori::mapping
