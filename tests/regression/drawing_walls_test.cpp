@@ -40,14 +40,15 @@ Case shared(const std::string& name, double m_per_px, double least_f1) {
 
 const std::string kFactory = std::string(MADORI_SOURCE_DIR) + "/data/sample_factory/";
 
-INSTANTIATE_TEST_SUITE_P(Drawings, DrawingWalls,
-                         ::testing::Values(Case{"factory", kFactory + "factory_scan.png",
-                                                kFactory + "true_walls_scan_px.csv", 0.025, 0.98},
-                                           shared("office", 0.00846, 0.97), shared("clinic", 0.02692, 0.78),
-                                           shared("hotel_L1", 0.05568, 0.62),
-                                           shared("mlstruct_7db30954", 0.00474825, 0.99),
-                                           shared("mlstruct_8888a588", 0.00272847, 0.99)),
-                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Drawings, DrawingWalls,
+    ::testing::Values(Case{"factory", kFactory + "factory_scan.png", kFactory + "true_walls_scan_px.csv",
+                           0.025, 0.98},
+                      shared("office", 0.00846, 0.97), shared("clinic", 0.02692, 0.78),
+                      // marked beside its walls by about the tolerance, see docs/reference/drawings.md
+                      shared("hotel_L1", 0.05568, 0.60), shared("mlstruct_7db30954", 0.00474825, 0.99),
+                      shared("mlstruct_8888a588", 0.00272847, 0.99)),
+    [](const auto& test) { return test.param.name; });
 
 /// The lines of this layout are what a later localization matches against: its four outer and inner sides,
 /// the core, the slanted corner and the curved walls must all be there.
