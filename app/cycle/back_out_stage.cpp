@@ -50,13 +50,15 @@ Path straight_back(const CycleState& state, double length_m, const CycleConfig& 
 }
 
 /// Nothing seen or drawn behind the vehicle all along; what it stands against before it does not count.
-bool is_free_behind(const Path& path, const std::vector<Point2<Map>>& obstacles, const CycleConfig& config) {
+bool is_free_behind(const Path& path, const std::vector<Point2<Map>>& obstacles, double wall_slack_m,
+                    const CycleConfig& config) {
   constexpr double kBehindM = 0.15;
   constexpr double kBeforeM = 0.15;
   planning::CheckOptions check = config.check;
   check.vehicle.front_m -= kBeforeM + kBehindM;  // the margin is added at both ends
   check.ends_margin_m = kBehindM;
-  check.sides_margin_m = check.wall_margin_m = 0.0;
+  check.sides_margin_m = 0.0;
+  check.wall_margin_m = -wall_slack_m;
   return std::all_of(path.points.begin(), path.points.end(), [&](const PathPoint& point) {
     const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m,
                                      wrap_angle(point.heading_rad + kPi));
@@ -70,11 +72,13 @@ std::optional<Path> free_way_back(const CycleState& state, const CycleConfig& co
   constexpr double kShortestM = 0.3;
   constexpr double kShorterM = 0.1;
   const auto obstacles = obstacle_points(state);
+  const auto is_free = [&](const Path& path) {
+    return is_free_behind(path, obstacles, state.way.squeeze.wall_slack_m, config);
+  };
   auto came = state.way.backing_held ? std::nullopt : way_back(state, config);
-  if (came && is_free_behind(*came, obstacles, config)) return came;
+  if (came && is_free(*came)) return came;
   for (double length_m = config.back_out_m; length_m > kShortestM - 1e-6; length_m -= kShorterM)
-    if (Path path = straight_back(state, length_m, config); is_free_behind(path, obstacles, config))
-      return path;
+    if (Path path = straight_back(state, length_m, config); is_free(path)) return path;
   return std::nullopt;
 }
 
@@ -86,7 +90,7 @@ bool is_wedged(const CycleState& state, const CycleConfig& config) {
                      !way.detour_pending && !way.path.empty();
   const bool near = way.stop_along_m - way.along_m < kNearM && !way.detour_failed.empty();
   return waits && !waits_for_door(way, config) &&
-         (way.felt || way.held || !way.turn_free || way.margin_share < 1.0 || near);
+         (way.felt || way.held || !way.turn_free || way.squeeze.share < 1.0 || near);
 }
 
 }  // namespace

@@ -34,22 +34,35 @@ bool turn_is_free(const CycleState& state, const std::vector<Point2<Map>>& obsta
   return !check.blocked();
 }
 
-/// The share of the ordinary margins that is kept. A vehicle may come to stand a hair within them, by the
-/// noise of what it sees; then each way begins blocked. After a while it may leave with less of them.
-double margin_share(const CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
-                    const CycleConfig& config) {
+/// How far the drawn walls reach into the vehicle that stands there: the drawing or the pose is off by so
+/// much. What the lidar sees is checked all the same. 0 where it is more than a drawing may be off by.
+double wall_slack_m(const CycleState& state, const CycleConfig& config, double share) {
+  constexpr double kStepM = 0.05;
+  constexpr double kMostM = 0.1;
+  for (double slack_m = 0.0; slack_m <= kMostM + 1e-9; slack_m += kStepM)
+    if (planning::is_free(state.pose.map_from_base, {}, *config.walls,
+                          planning::with_margins(config.check, {share, slack_m})))
+      return slack_m;
+  return 0.0;
+}
+
+/// What is kept of the ordinary margins. A vehicle may come to stand a hair within them, by the noise of what
+/// it sees; then each way begins blocked. After a while it may leave with less of them.
+planning::Squeeze squeeze_here(const CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
+                               const CycleConfig& config) {
   constexpr double kHalf = 0.5;
   constexpr double kLeast = 0.2;
   const Navigation& way = state.way;
   const auto fits = [&](double share) {
     return planning::is_free(state.pose.map_from_base, obstacles, *config.walls,
-                             planning::with_margins(config.check, share));
+                             planning::with_margins(config.check, {share, 0.0}));
   };
-  if (fits(1.0)) return 1.0;
+  if (fits(1.0)) return {};
   const bool stands = state.mode == Mode::Waiting && way.blocked_since && !way.by_mover &&
                       to_seconds(now - *way.blocked_since) > config.squeeze_after_s;
-  if (!stands) return way.margin_share;
-  return fits(kHalf) ? kHalf : kLeast;
+  if (!stands) return way.squeeze;
+  if (fits(kHalf)) return {kHalf, 0.0};
+  return {kLeast, wall_slack_m(state, config, kLeast)};
 }
 
 /// Whether something has seemed to move for long at one place, so that it does not: the edge of something
@@ -121,16 +134,16 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
   planning::PathCheck check = way.check;
   if (!check.blocked()) check.first_blocked = check.last_blocked = way.pursuit.index;
   output.detour_wanted = planning::DetourRequest{
-      way.detour_id,    way.plain, way.pursuit.index, state.pose.map_from_base, check, std::move(obstacles),
-      way.margin_share, !stuck};
+      way.detour_id, way.plain, way.pursuit.index, state.pose.map_from_base, check, std::move(obstacles),
+      way.squeeze,   !stuck};
 }
 
 void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
                  const CycleConfig& config) {
   Navigation& way = state.way;
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
-  way.margin_share = margin_share(state, obstacles, now, config);
-  const auto margins = planning::with_margins(config.check, way.margin_share);
+  way.squeeze = squeeze_here(state, obstacles, now, config);
+  const auto margins = planning::with_margins(config.check, way.squeeze);
   way.check = planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *config.walls, margins);
   const auto movers = true_movers(state, now, config);
   const auto crossing =
@@ -161,7 +174,7 @@ void check_behind(CycleState& state, Stamp now, const CycleConfig& config) {
   way.by_mover = way.check.blocked();
   way.unseen = false;
   way.turn_free = true;
-  way.margin_share = 1.0;
+  way.squeeze = {};
   way.stop_along_m = way.path.along_m(from) + way.check.free_m;
   way.care_along_m = planning::PathCheck::kFree;
 }

@@ -174,7 +174,7 @@ struct Navigation {
   bool backing_held = false;  ///< the way that it came led into something: it curves
   int back_outs = 0;          ///< on this route
   bool felt = false;          ///< something that was not seen has held the vehicle
-  double margin_share = 1.0;  ///< of the ordinary margins, until it is out of where it stands too near
+  planning::Squeeze squeeze;  ///< until it is out of where it stands too near to something
   bool by_mover = false;      ///< what blocks is on its way across
   bool unseen = false;        ///< what blocks is remembered from before it came too near for the lidar
   std::vector<Stirring> stirring;

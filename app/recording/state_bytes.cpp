@@ -85,8 +85,8 @@ void each_of_way(Bytes& bytes, Way& w) {
   bytes(w.rejoin_m), bytes(w.check), bytes(w.stop_along_m), bytes(w.care_along_m), bytes(w.turn_free);
   bytes(w.held), bytes(w.held_since), bytes(w.felt);
   bytes(w.backing), bytes(w.backing_held), bytes(w.back_outs);
-  bytes(w.margin_share), bytes(w.by_mover), bytes(w.unseen), bytes(w.stirring), bytes(w.blocked_since),
-      bytes(w.free_since), bytes(w.asked_detour);
+  bytes(w.squeeze.share), bytes(w.squeeze.wall_slack_m), bytes(w.by_mover), bytes(w.unseen),
+      bytes(w.stirring), bytes(w.blocked_since), bytes(w.free_since), bytes(w.asked_detour);
   bytes(w.detour_id), bytes(w.detour_pending), bytes(w.detour_failed), bytes(w.blocked_legs);
 }
 

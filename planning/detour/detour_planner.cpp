@@ -75,7 +75,7 @@ DetourAnswer plan_within(const DetourRequest& request, const WallGrid& walls, co
 
 DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls, const CheckOptions& ordinary,
                          const DetourOptions& options) {
-  const CheckOptions check = with_margins(ordinary, request.margin_share);
+  const CheckOptions check = with_margins(ordinary, request.squeeze);
   DetourAnswer answer = plan_within(request, walls, with_room(check, options.room_m), options);
   return answer.path ? answer : plan_within(request, walls, check, options);
 }

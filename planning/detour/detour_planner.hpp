@@ -21,8 +21,8 @@ struct DetourRequest {
   Transform2<Map, Base> map_from_base;
   PathCheck check;
   std::vector<Point2<Map>> obstacles;
-  double margin_share = 1.0;  ///< of the ordinary margins, where the vehicle has come to stand too near
-  bool turn_free = true;      ///< else the way begins as the vehicle stands: through the free space
+  Squeeze squeeze{};      ///< where the vehicle has come to stand too near to something
+  bool turn_free = true;  ///< else the way begins as the vehicle stands: through the free space
 };
 
 struct DetourAnswer {

@@ -24,12 +24,19 @@ struct CheckOptions {
   double turn_step_rad = 0.15;   ///< between the checked headings of a turn on the spot
 };
 
-/// The same with a share of the margins.
-[[nodiscard]] inline CheckOptions with_margins(CheckOptions options, double share) {
-  options.ends_margin_m *= share;
-  options.sides_margin_m *= share;
-  options.turn_margin_m *= share;
-  options.wall_margin_m *= share;
+/// What is left of the ordinary margins to a vehicle that has come to stand too near to something.
+struct Squeeze {
+  double share = 1.0;  ///< of every margin
+  double wall_slack_m =
+      0.0;  ///< so far drawn walls reach into where the vehicle stands: they are not exact there
+};
+
+/// The same with less of the margins.
+[[nodiscard]] inline CheckOptions with_margins(CheckOptions options, const Squeeze& squeeze) {
+  options.ends_margin_m *= squeeze.share;
+  options.sides_margin_m *= squeeze.share;
+  options.turn_margin_m *= squeeze.share;
+  options.wall_margin_m = options.wall_margin_m * squeeze.share - squeeze.wall_slack_m;
   return options;
 }
 

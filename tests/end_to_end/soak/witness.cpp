@@ -136,7 +136,7 @@ void Witness::trace(const app::CycleOutput& output, const app::CycleState& state
       "%10.2f  %s (%.3f, %.3f, %.1f deg) %.2f m/s %.2f rad/s, asked %.2f %.2f; free %.2f, share %.1f%s%s\n",
       time_s(), to_string(state.mode), at.x_m(), at.y_m(), to_deg(at.yaw_rad()), truth.linear_mps,
       truth.angular_radps, output.command.linear_mps, output.command.angular_radps,
-      way.stop_along_m - way.along_m, way.margin_share, way.by_mover ? ", mover" : "",
+      way.stop_along_m - way.along_m, way.squeeze.share, way.by_mover ? ", mover" : "",
       way.turn_free ? "" : ", no room to turn");
   std::printf("            path:");
   const auto base_from_map = at.inverse();
