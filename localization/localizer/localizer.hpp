@@ -5,10 +5,12 @@
 
 #include "core/odometry.hpp"
 #include "core/pose_estimate.hpp"
-#include "localization/health/wall_fit.hpp"
+#include "localization/localizer/keyframe_motion.hpp"
 #include "localization/localizer/map_state.hpp"
 #include "localization/localizer/map_worker.hpp"
 #include "localization/localizer/options.hpp"
+#include "localization/localizer/scan_agreement.hpp"
+#include "localization/localizer/scan_matcher.hpp"
 #include "localization/motion_model/odometry_track.hpp"
 #include "localization/scan_points.hpp"
 #include "mapping/wall_map/wall.hpp"
@@ -42,28 +44,16 @@ class Localizer {
 
  private:
   [[nodiscard]] PoseEstimate estimate(Stamp stamp, const Transform2<Map, Base>& map_from_base) const;
-  /// Where the scan lies, and where the recent keyframes alone would put it: the way between keyframes is
-  /// measured by these, so that finding an old place again does not enter the graph as a motion.
-  struct Match {
-    MatchResult place;
-    MatchResult recent;
-  };
-  Match match(const SurfaceScan& scan, const OdometryStep& step) const;
-  Match match_from(const Transform2<Map, Base>& anchor, const SurfaceScan& scan,
-                   const OdometryStep& step) const;
+  [[nodiscard]] PoseEstimate on_late_scan(Stamp stamp, const SurfaceScan& scan);
+  void follow(const SurfaceScan& scan, const OdometryStep& step);
+  [[nodiscard]] ScanMatch match(const SurfaceScan& scan, const OdometryStep& step) const;
   void start(SurfaceScan scan);
-  [[nodiscard]] std::optional<Transform2<Map, Base>> place_in_memory(const SurfaceScan& scan) const;
   void remember(SurfaceScan scan);
   void go_on(const MatchResult& recent, const OdometryStep& step);
   void think_if_due(Stamp stamp);
   void take_in_thoughts(Stamp stamp);
-  [[nodiscard]] HealthEvidence evidence_with_time(Stamp stamp) const;
-  [[nodiscard]] bool drawing_is_exact() const;
+  [[nodiscard]] bool gives_up(Stamp stamp) const;
   void search_from_here(SurfaceScan scan);
-  [[nodiscard]] bool jumps(const MatchResult& match, const OdometryStep& step) const;
-  [[nodiscard]] bool is_known_from_before(const SurfaceScan& scan, const MatchResult& match) const;
-  void note_agreement(const SurfaceScan& scan, const MatchResult& match, const OdometryStep& step);
-  void update_covariance(const MatchResult& match);
 
   LocalizerOptions options_;
   OdometryModel model_;
@@ -75,18 +65,11 @@ class Localizer {
   Transform2<Map, Base> anchor_;                      ///< the pose at the last scan
   std::optional<Transform2<Map, Base>> late_anchor_;  ///< of a scan whose stamp ran backwards
   OdometryStep since_scan_;
-  OdometryStep since_keyframe_;   ///< by the wheels
-  Transform2<Base, Base> moved_;  ///< since the newest keyframe, by the recent ones
-  double moved_agreement_ = 1.0;  ///< the least of the scans since then with the recent ones
-  Eigen::Matrix3d moved_information_ = Eigen::Matrix3d::Zero();  ///< of the last of these matches, Map axes
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
+  KeyframeMotion since_keyframe_;
+  ScanAgreement agreement_;
   int keyframes_since_thinking_ = 0;
-  double usual_inliers_ = 0.6;  ///< share of a scan that fits the memory
-  WallFit wall_fit_;
-  bool beside_walls_ = false;  ///< the last scan: think at once, the newest stretch may have drifted
-  Stamp last_agreed_{};
-  double doubt_path_m_ = 0.0;  ///< driven when the last scan agreed; newer keyframes agree with themselves
-  MapWorker worker_;           ///< last: it ends first
+  MapWorker worker_;  ///< last: it ends first
 };
 
 }  // namespace madori::localization

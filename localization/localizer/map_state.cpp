@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "localization/drawing_fit/survey.hpp"
 
@@ -20,9 +21,24 @@ void MapState::think(const LocalizerOptions& options) {
   }
 }
 
+Transform2<Map, Map> MapState::take_in(MapState thought, std::size_t known) {
+  const Transform2<Map, Map> by = memory.take_in(std::move(thought.memory), known);
+  thought.memory = std::move(memory);
+  thought.evidence.blind_scans = evidence.blind_scans;
+  thought.evidence.blind_m = evidence.blind_m;
+  thought.evidence.on_walls = evidence.on_walls;
+  thought.evidence.on_memory = evidence.on_memory;
+  *this = std::move(thought);
+  return by;
+}
+
 bool MapState::drawing_fits(const HealthLimits& limits) const {
   return evidence.fit_nats > (evidence.verified ? limits.doubted_nats : limits.verified_nats) &&
          evidence.fit_nats > limits.good_nats_a_wall * evidence.walls_seen;
+}
+
+bool MapState::drawing_is_exact(const LocalizerOptions& options) const {
+  return drawing && drawing->model().sigma_m < options.exact_drawing_m;
 }
 
 /// How far off the believed start the first keyframe lies, nats.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "localization/drawing_fit/drawing_fit.hpp"
@@ -17,8 +18,13 @@ struct MapState {
 
   /// The slow work, in the worker: closes loops, lays the memory on the drawing, solves the graph.
   void think(const LocalizerOptions& options);
+  /// Becomes `thought`, a copy made when this map had `known` keyframes and changed since, and what the scans
+  /// have said since then. Returns what moves this map's newest surroundings there.
+  Transform2<Map, Map> take_in(MapState thought, std::size_t known);
   /// Did the drawing explain the memory before? Only then is it any use for finding the place again.
   [[nodiscard]] bool drawing_fits(const HealthLimits& limits) const;
+  /// Is the drawing exact enough to pull on every scan?
+  [[nodiscard]] bool drawing_is_exact(const LocalizerOptions& options) const;
 
  private:
   void consult_drawing(const LocalizerOptions& options);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,9 +9,13 @@
 #include "core/pose_hypothesis.hpp"
 #include "localization/global/global_localizer.hpp"
 #include "localization/motion_model/odometry_track.hpp"
+#include "localization/wall_tracker/distant_rival.hpp"
 #include "localization/wall_tracker/nearby_rival.hpp"
-#include "localization/wall_tracker/recent_view.hpp"
+#include "localization/wall_tracker/place_search.hpp"
+#include "localization/wall_tracker/pose_filter.hpp"
 #include "localization/wall_tracker/scale_bank.hpp"
+#include "localization/wall_tracker/surroundings.hpp"
+#include "localization/wall_tracker/tracker_evidence.hpp"
 #include "mapping/wall_map/wall.hpp"
 
 namespace madori::localization {
@@ -41,37 +44,8 @@ struct WallTrackerOptions {
   /// until they may have erred by so much.
   double wheels_alone_m = 0.3;
   double wheels_alone_rad = 0.1;
-  double doubt_fall = 0.10;     ///< of the explained share below the usual: other places are looked at
-  double doubt_through = 0.10;  ///< rise of the share of beams through drawn walls: likewise
-  double doubt_nats = 4.0;      ///< by which a pose within 2 m may fit better before: likewise
-  double rival_nats = 5.0;      ///< by which another place must fit better to contradict the pose
-  int rivals_to_lose = 2;       ///< contradictions in a row
-  /// After so many scans and metres that fitted, with no sign that the vehicle was carried, it is where it is
-  /// said to be: among racks another place may fit by chance, as long as the vehicle stands there. More is
-  /// needed then, from that many places so far apart.
-  int scans_to_settle = 50;
-  double metres_to_settle = 2.0;
-  double settled_nats = 15.0;
-  int settled_rivals = 10;
-  double settled_every_m = 0.3;
-  int calm_scans = 2;  ///< after the other places were looked at in vain
-  /// What two scans in a row both see falls by so much below the usual where the later one was taken
-  /// elsewhere: neither driving nor what moves about changes a quarter of the walls in a tenth of a second.
-  double carried_fall = 0.25;
-  double changed_fall = 0.08;    ///< where a place that looks alike may be where it was carried to
-  double changed_spreads = 8.0;  ///< at least, in mean deviations
-  double twin_nats = 12.0;       ///< by which a place may fit worse to look alike
-};
-
-/// What the last scan said.
-struct TrackerEvidence {
-  double explained = 0.0;      ///< share of the points on drawn walls
-  double through_walls = 0.0;  ///< share of the beams that would pass a drawn wall
-  double nearby_nats = 0.0;    ///< by which the best pose within 2 m fits better (coarsely)
-  double kept = 1.0;           ///< share of what the scan before saw, taken from where the wheels say
-  double correction_m = 0.0;   ///< between wheels and walls
-  double correction_rad = 0.0;
-  bool looked_elsewhere = false;
+  SurroundingsOptions surroundings;
+  DistantRivalOptions distant;
 };
 
 /// The pose on a drawing that is right: global localization while the place is not known, then registration
@@ -101,14 +75,9 @@ class WallTracker {
 
  private:
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
-  void check_given(const ScanPoints& points);
   void search(const ScanPoints& points, const Transform2<Base, Base>& moved);
   void start_at(const RegistrationResult& found, const ScanPoints& points);
-  void track(const ScanPoints& points, const OdometryStep& step);
-  [[nodiscard]] double fall_of_view(const Transform2<Base, Base>& by_wheels,
-                                    const Transform2<Base, Base>& by_walls);
-  [[nodiscard]] bool is_doubtful() const;
-  [[nodiscard]] bool is_settled() const;
+  void track(const ScanPoints& points, const OdometryStep& step, const Transform2<Map, Base>& before);
   [[nodiscard]] bool is_contradicted(const ScanPoints& points, const RegistrationResult& fit,
                                      bool has_changed);
   void correct(const RegistrationResult& fit, const OdometryStep& step);
@@ -116,33 +85,24 @@ class WallTracker {
   void learn_scale(const ScanPoints& seen, const OdometryStep& step);
   void miss(const std::string& reason, bool loses);
   [[nodiscard]] bool wheels_still_do() const;
-  void lose(const std::string& reason, std::optional<GlobalAnswer> answer);
+  void lose(const std::string& reason, std::optional<GlobalAnswer> answer = std::nullopt);
 
   WallTrackerOptions options_;
   GlobalLocalizer global_;
   OdometryModel model_;
-  ScaleBank scale_;
-  NearbyRival nearby_;
   OdometryTrack track_;
-  std::optional<GlobalAnswer> answer_;  ///< of the search under way
-  std::optional<PoseSigma> given_;      ///< anchor_ is what a person said, not yet checked
-  int agreeing_ = 0;
+  PlaceSearch search_;
+  SurroundingsCheck surroundings_;
+  DistantRival distant_;
+  NearbyRival nearby_;
+  ScaleBank scale_;
+  PoseFilter filter_;  ///< at the last scan
   bool tracking_ = false;
   int misses_ = 0;
   bool unbroken_ = false;  ///< scan followed upon scan since the last that fitted
-  int rivals_ = 0;
-  int settled_ = 0;             ///< scans that fitted since the vehicle may last have been carried,
-  double settled_m_ = 0.0;      ///< and metres driven with them
-  double since_rival_m_ = 0.0;  ///< metres driven since other places were last looked at
-  int calm_ = 0;
-  double usual_explained_ = 0.0;
-  double usual_through_ = 0.0;
-  RecentView view_;
   TrackerEvidence evidence_;
   LocalizationHealth health_{LocalizationState::Lost, "no scan yet"};
-  Stamp anchor_stamp_{};
-  Transform2<Map, Base> anchor_;  ///< the pose at the last scan
-  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity() * 1e4;
+  Stamp scan_stamp_{};  ///< of the last scan
   std::optional<Transform2<Map, Base>> last_fit_;
   OdometryStep since_scan_;
 };

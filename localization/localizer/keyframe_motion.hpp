@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/frames.hpp"
+#include "core/transform2.hpp"
+#include "localization/memory/memory.hpp"
+#include "localization/motion_model/odometry_model.hpp"
+
+namespace madori::localization {
+
+/// The motion since the newest keyframe, as the scans measured it against the recent keyframes and as the
+/// wheels did. A new one for each keyframe.
+class KeyframeMotion {
+ public:
+  /// The small raw motion between two readings of the wheels.
+  void extend(const Transform2<Base, Base>& raw, const OdometryModel& model) { model.extend(wheels_, raw); }
+  /// A scan that the recent keyframes explain to the share `agreement`, and the motion since the one before;
+  /// `information` of (x, y, yaw) at the scan's pose, Map axes.
+  void add_matched(const Transform2<Base, Base>& motion, const Eigen::Matrix3d& information,
+                   double agreement);
+  /// A scan that they do not: the wheels' motion since the one before stands in, and they may have slipped.
+  void add_unmatched(const Transform2<Base, Base>& by_wheels, double agreement);
+
+  /// Driven, metres.
+  [[nodiscard]] double path_m() const { return wheels_.path_m; }
+  /// In the axes of the keyframe that it started from.
+  [[nodiscard]] MeasuredMotion measured(const Transform2<Map, Base>& map_from_keyframe) const;
+
+ private:
+  OdometryStep wheels_;
+  Transform2<Base, Base> motion_;                          ///< by the scans
+  double agreement_ = 1.0;                                 ///< the least of the scans
+  Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();  ///< of the last match, Map axes
+};
+
+}  // namespace madori::localization

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/frames.hpp"
+#include "core/transform2.hpp"
+
+namespace madori::localization {
+
+/// Whether two answers to "where am I?" are one: nearer than 0.3 m and 0.1 rad.
+[[nodiscard]] inline bool is_same_place(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b) {
+  constexpr double kSamePlaceM = 0.3;
+  constexpr double kSamePlaceRad = 0.1;
+  return distance_m(a.translation(), b.translation()) < kSamePlaceM &&
+         std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < kSamePlaceRad;
+}
+
+}  // namespace madori::localization

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "localization/wall_tracker/recent_view.hpp"
+
+namespace madori::localization {
+
+struct SurroundingsOptions {
+  /// What two scans in a row both see falls by so much below the usual where the later one was taken
+  /// elsewhere: neither driving nor what moves about changes a quarter of the walls in a tenth of a second.
+  double carried_fall = 0.25;
+  double changed_fall = 0.08;    ///< where a place that looks alike may be where it was carried to
+  double changed_spreads = 8.0;  ///< at least, in mean deviations
+};
+
+/// Beside the scan before: the same surroundings, changed as they would be in a place that looks alike, or
+/// others altogether.
+enum class Surroundings { Same, Changed, Others };
+
+/// Was the vehicle carried off between two scans? Learns what is usual, needs no drawing. Deterministic,
+/// causal.
+class SurroundingsCheck {
+ public:
+  explicit SurroundingsCheck(const SurroundingsOptions& options) : options_(options) {}
+
+  /// A scan, Base frame at `stamp`; the one before it becomes the one that it is compared with.
+  void take(Stamp stamp, const ScanPoints& points);
+  /// Compares the two, the later one laid where the wheels or where the walls say that it was taken.
+  [[nodiscard]] Surroundings compare(const Transform2<Base, Base>& by_wheels,
+                                     const Transform2<Base, Base>& by_walls);
+  /// Share of the surfaces, 0..1, that both scans saw as they were compared; 1 until then.
+  [[nodiscard]] double kept() const { return kept_; }
+
+ private:
+  SurroundingsOptions options_;
+  RecentView view_;
+  double kept_ = 1.0;
+};
+
+}  // namespace madori::localization
