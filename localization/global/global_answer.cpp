@@ -1,0 +1,91 @@
+#include "localization/global/global_answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "localization/health/reasons.hpp"
+
+namespace madori::localization {
+namespace {
+
+void sort_by_likelihood(std::vector<Hypothesis>& all) {
+  std::sort(all.begin(), all.end(),
+            [](const Hypothesis& a, const Hypothesis& b) { return a.log_likelihood > b.log_likelihood; });
+}
+
+/// Relative to the first, which is the likeliest: the exponentials cannot overflow.
+void fill_in_probabilities(std::vector<Hypothesis>& all) {
+  double sum = 0.0;
+  for (const Hypothesis& h : all) sum += std::exp(h.log_likelihood - all.front().log_likelihood);
+  for (Hypothesis& h : all) h.probability = std::exp(h.log_likelihood - all.front().log_likelihood) / sum;
+}
+
+/// State and reason, from hypotheses by falling likelihood; at least one.
+void believe_or_doubt(GlobalAnswer& answer, const GlobalOptions& options) {
+  const auto& all = answer.hypotheses;
+  const Hypothesis& best = all.front();
+  const double lead = all.size() > 1 ? best.log_likelihood - all[1].log_likelihood : options.clear_nats;
+  const bool is_clear = best.fit.inlier_fraction >= options.well_explained && lead >= options.clear_nats;
+  if (best.fit.inlier_fraction < options.least_explained) {
+    answer.reason = reason::kNoPlace.english;
+  } else if (best.through_walls > options.most_through) {
+    answer.reason = reason::kThroughWalls.english;
+  } else if (best.probability < options.certain) {
+    answer.state = GlobalState::Ambiguous;
+    answer.reason = reason::kTwoAlike.english;
+  } else if (best.fit.inlier_fraction < options.well_explained && lead < options.clear_nats) {
+    answer.state = GlobalState::Ambiguous;
+    answer.reason = reason::kMuchUndrawn.english;
+  } else if (best.through_walls > options.doubtful_through && !is_clear) {
+    answer.state = GlobalState::Ambiguous;
+    answer.reason = reason::kThroughSomeWalls.english;
+  } else {
+    answer.state = GlobalState::Found;
+  }
+}
+
+}  // namespace
+
+const char* to_string(GlobalState state) {
+  switch (state) {
+    case GlobalState::Found:
+      return "FOUND";
+    case GlobalState::Ambiguous:
+      return "AMBIGUOUS";
+    case GlobalState::Nowhere:
+      return "NOWHERE";
+  }
+  return "NOWHERE";
+}
+
+GlobalAnswer decide(std::vector<Hypothesis> hypotheses, const GlobalOptions& options) {
+  GlobalAnswer answer;
+  answer.hypotheses = std::move(hypotheses);
+  if (answer.hypotheses.empty()) {
+    answer.reason = reason::kNothingToSearch.english;
+    return answer;
+  }
+  sort_by_likelihood(answer.hypotheses);
+  fill_in_probabilities(answer.hypotheses);
+  believe_or_doubt(answer, options);
+  return answer;
+}
+
+bool same_place(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b, double limit_m,
+                double limit_rad) {
+  return distance_m(a.translation(), b.translation()) < limit_m &&
+         std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < limit_rad;
+}
+
+std::vector<Hypothesis> distinct(std::vector<Hypothesis> all, double same_m, double same_rad) {
+  sort_by_likelihood(all);
+  std::vector<Hypothesis> kept;
+  for (const Hypothesis& h : all)
+    if (std::none_of(kept.begin(), kept.end(), [&](const Hypothesis& k) {
+          return same_place(k.fit.map_from_base, h.fit.map_from_base, same_m, same_rad);
+        }))
+      kept.push_back(h);
+  return kept;
+}
+
+}  // namespace madori::localization

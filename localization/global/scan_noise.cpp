@@ -1,0 +1,27 @@
+#include "localization/global/scan_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace madori::localization {
+
+double scan_noise_m(const ScanPoints& points) {
+  constexpr double kNear = 1.0;
+  constexpr std::size_t kLeast = 30;
+  constexpr double kMedianOfRayleigh = 1.1774;
+  std::vector<double> off;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Point2<Base> before = points.point(i - 1);
+    const Point2<Base> after = points.point(i + 1);
+    if (distance_m(before, after) > kNear) continue;
+    off.push_back(distance_m(points.point(i),
+                             Point2<Base>{0.5 * (before.x_m + after.x_m), 0.5 * (before.y_m + after.y_m)}));
+  }
+  if (off.size() < kLeast) return 0.0;
+  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+  std::nth_element(off.begin(), middle, off.end());
+  return *middle / (kMedianOfRayleigh * std::sqrt(1.5));
+}
+
+}  // namespace madori::localization
