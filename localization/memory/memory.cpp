@@ -1,25 +1,13 @@
 #include "localization/memory/memory.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "localization/memory/fuse.hpp"
+#include "localization/memory/loop_closing.hpp"
+#include "localization/memory/thinning.hpp"
 
 namespace madori::localization {
-namespace {
-
-/// Map-axes information of a pose, expressed in the axes of another pose.
-Eigen::Matrix3d turned_into(const Eigen::Matrix3d& information, double yaw_rad) {
-  Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
-  r(0, 0) = r(1, 1) = std::cos(yaw_rad);
-  r(0, 1) = -std::sin(yaw_rad);
-  r(1, 0) = std::sin(yaw_rad);
-  return r.transpose() * information * r;
-}
-
-}  // namespace
 
 Memory::Memory(const MemoryOptions& options) : options_(options) {}
 
@@ -104,80 +92,19 @@ void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& m
   broken_ = false;
 }
 
-std::vector<Memory::LoopCandidate> Memory::loop_candidates(std::size_t newest) const {
-  const std::size_t end = window_begin(newest);
-  const Transform2<Map, Base>& here = poses_[newest];
-  std::vector<LoopCandidate> found;
-  std::size_t i = 0;
-  while (i < end) {  // one candidate per stay in the neighbourhood
-    if (distance_m(poses_[i].translation(), here.translation()) > options_.loop_radius_m) {
-      ++i;
-      continue;
-    }
-    LoopCandidate c{i, i, i, options_.loop_radius_m};
-    for (; i < end && distance_m(poses_[i].translation(), here.translation()) <= options_.loop_radius_m;
-         ++i) {
-      const double d = distance_m(poses_[i].translation(), here.translation()) +
-                       std::abs(wrap_angle(poses_[i].yaw_rad() - here.yaw_rad()));
-      if (d < c.distance_m || c.nearest == c.first) {
-        c.distance_m = d;
-        c.nearest = i;
-      }
-    }
-    const std::size_t half = static_cast<std::size_t>(options_.loop_chain) / 2;
-    c.first = c.nearest > half ? c.nearest - half : 0;
-    c.last = std::min(end - 1, c.nearest + half);
-    found.push_back(c);
-  }
-  std::sort(found.begin(), found.end(),
-            [](const auto& a, const auto& b) { return a.distance_m < b.distance_m; });
-  if (found.size() > 2) {
-    found.resize(2);  // the nearest two say enough
-  }
-  return found;
-}
-
-bool Memory::close_loop(std::size_t newest, const LoopCandidate& candidate) {
-  std::vector<LocalMap::Piece> pieces;
-  for (std::size_t i = candidate.first; i <= candidate.last; ++i) {
-    pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
-  }
-  const LocalMap map(pieces, poses_[newest].translation(), options_.map_radius_m);
-  if (map.empty()) {
-    return false;
-  }
-  const double open_m = keyframes_[newest].path_m - last_loop_path_m_ + extra_open_m_;
-  SearchWindow window;
-  window.sigma_m = 0.05 + options_.drift_per_m * open_m;
-  window.sigma_rad = 0.01 + options_.drift_rad_per_m * open_m;
-  window.half_m = std::clamp(3.0 * window.sigma_m, 0.2, 3.0);
-  window.half_rad = std::clamp(3.0 * window.sigma_rad, 0.05, 0.5);
-  const SurfaceScan& scan = *keyframes_[newest].scan;
-  const SearchResult coarse = map.search(scan, poses_[newest], window);
-  const MatchResult match = map.refine(scan, coarse.map_from_base, {});
-  if (match.inlier_share < options_.loop_inliers ||
-      distance_m(match.map_from_base.translation(), coarse.map_from_base.translation()) > 0.15) {
-    return false;
-  }
-  const Transform2<Map, Base>& old = poses_[candidate.nearest];
-  RelativeFactor factor;
-  factor.from = static_cast<int>(candidate.nearest);
-  factor.to = static_cast<int>(newest);
-  factor.motion = old.inverse() * match.map_from_base;
-  factor.information = turned_into(limited(match.information), old.yaw_rad());
-  factor.loop = true;
-  factors_.push_back(factor);
-  return true;
-}
-
 int Memory::close_loops() {
   int closed = 0;
   for (; looked_back_ < size(); ++looked_back_) {
     const Keyframe& keyframe = keyframes_[looked_back_];
     extra_open_m_ = keyframe.after_break ? options_.break_open_m : extra_open_m_;
+    const double open_m = keyframe.path_m - last_loop_path_m_ + extra_open_m_;
     int here = 0;
-    for (const LoopCandidate& candidate : loop_candidates(looked_back_)) {
-      here += close_loop(looked_back_, candidate) ? 1 : 0;
+    for (const LoopCandidate& candidate :
+         loop_candidates(poses_, looked_back_, window_begin(looked_back_), options_)) {
+      const auto loop = match_loop(keyframes_, poses_, looked_back_, candidate, open_m, options_);
+      if (!loop) continue;
+      factors_.push_back(*loop);
+      ++here;
     }
     if (here > 0) {
       last_loop_path_m_ = keyframe.path_m;
@@ -189,49 +116,14 @@ int Memory::close_loops() {
   return closed;
 }
 
-bool Memory::is_crowded(std::size_t k, const std::vector<char>& gone) const {
-  int beside = 0;
-  for (std::size_t i = k + 1; i < size() && beside < options_.keyframes_a_place; ++i) {
-    beside += gone[i] == 0 &&
-                      distance_m(poses_[i].translation(), poses_[k].translation()) < options_.place_m &&
-                      std::abs(wrap_angle(poses_[i].yaw_rad() - poses_[k].yaw_rad())) < options_.place_rad
-                  ? 1
-                  : 0;
-  }
-  return beside >= options_.keyframes_a_place;
-}
-
-/// The first keyframe stays: the start pose is tied to it. The recent ones stay: they are matched against.
+/// The recent ones stay: they are matched against.
 int Memory::fuse() {
-  std::vector<char> gone(size(), 0);
-  int fused = 0;
-  for (std::size_t k = 1; k < std::min(window_begin(), looked_back_); ++k) {
-    if (is_crowded(k, gone) && take_out(static_cast<int>(k), poses_, factors_)) {
-      gone[k] = 1;
-      ++fused;
-    }
-  }
-  if (fused > 0) forget(gone);
-  return fused;
-}
-
-void Memory::forget(const std::vector<char>& gone) {
-  std::vector<int> number(size(), 0);
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < gone.size(); ++k) {
-    number[k] = static_cast<int>(kept);
-    if (gone[k] != 0) continue;
-    keyframes_[kept] = keyframes_[k];
-    poses_[kept] = poses_[k];
-    ++kept;
-  }
-  looked_back_ -= size() - kept;
-  keyframes_.resize(kept);
-  poses_.resize(kept);
-  for (RelativeFactor& f : factors_) {
-    f.from = number[static_cast<std::size_t>(f.from)];
-    f.to = number[static_cast<std::size_t>(f.to)];
-  }
+  const std::size_t before = size();
+  const std::vector<char> gone = thin_out(poses_, factors_, std::min(window_begin(), looked_back_), options_);
+  const auto fused = std::count(gone.begin(), gone.end(), 1);
+  if (fused > 0) compact(gone, keyframes_, poses_, factors_);
+  looked_back_ -= before - size();
+  return static_cast<int>(fused);
 }
 
 std::size_t Memory::bytes() const {
@@ -264,21 +156,7 @@ bool Memory::optimise(const std::vector<UnaryFactor>& unary) {
 }
 
 double Memory::loops_against(const Transform2<Map, Map>& by, std::size_t first) const {
-  constexpr double kLossSq = 9.0;  // GraphOptions::loop_loss
-  const auto nats = [](const RelativeFactor& f, const auto& from, const auto& to) {
-    const Eigen::Vector3d e = relative_error(f, from, to);
-    return 0.5 * kLossSq * std::log1p(e.dot(f.information * e) / kLossSq);
-  };
-  double sum = 0.0;
-  for (const RelativeFactor& f : factors_) {
-    const auto from = static_cast<std::size_t>(f.from);
-    const auto to = static_cast<std::size_t>(f.to);
-    if (!f.loop || (from < first) == (to < first)) continue;
-    sum +=
-        nats(f, from < first ? poses_[from] : by * poses_[from], to < first ? poses_[to] : by * poses_[to]) -
-        nats(f, poses_[from], poses_[to]);
-  }
-  return sum;
+  return localization::loops_against(factors_, poses_, by, first);
 }
 
 void Memory::move(const Transform2<Map, Map>& by, std::size_t first) {

@@ -1,51 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
-#include "core/frames.hpp"
-#include "core/transform2.hpp"
+#include "localization/memory/keyframe.hpp"
 #include "localization/memory/local_map.hpp"
+#include "localization/memory/memory_options.hpp"
 #include "localization/memory/pose_graph.hpp"
-#include "localization/memory/surface_scan.hpp"
 
 namespace madori::localization {
-
-/// Sizes of the memory. Lengths are metres of driving unless said otherwise.
-struct MemoryOptions {
-  double window_path_m = 12.0;  ///< keyframes this recent are matched against in any case
-  int window_keyframes = 30;    ///< at most
-  double map_radius_m = 18.0;   ///< of the surfaces around the vehicle that are matched against
-  double loop_radius_m = 3.5;   ///< how near an old keyframe must be to close a loop with it
-  int loop_chain = 12;          ///< keyframes around the nearest one that make the piece to match against
-  double loop_inliers = 0.55;   ///< share of the scan that must fit
-  double nearby_m = 5.0;        ///< old keyframes this near count as nearby
-  int nearby_keyframes = 20;    ///< at most
-  double break_open_m = 60.0;   ///< a break in the chain counts as so much driving
-  double drift_per_m = 0.015;   ///< growth of the uncertainty between loops, metres a metre
-  double drift_rad_per_m = 0.004;
-  double chain_m = 0.02;      ///< error of the motion between keyframes, metres a root-metre:
-  double chain_rad = 0.006;   ///< what the match of a scan cannot know of itself
-  double place_m = 0.6;       ///< keyframes this near to each other,
-  double place_rad = 0.35;    ///< looking the same way, are of the same place
-  int keyframes_a_place = 1;  ///< that stay when more recent ones come
-};
-
-/// A remembered scan at its pose. The scan never changes: copies of a memory share it.
-struct Keyframe {
-  std::shared_ptr<const SurfaceScan> scan;
-  double path_m = 0.0;       ///< driven since the start
-  bool after_break = false;  ///< the motion from its forerunner may be wrong
-  double agreement = 1.0;    ///< MeasuredMotion::agreement from its forerunner
-};
-
-/// A motion with its information, in the axes of the pose it starts from.
-struct MeasuredMotion {
-  Transform2<Base, Base> motion;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  double agreement = 1.0;  ///< share of a scan that lay on what was seen before it, the least on the way
-};
 
 /// What the vehicle has seen itself: keyframes in a pose graph. Poses are Map frame, and are only as right as
 /// the first one and the unary factors of the drawing make them. Causal, deterministic. A copy is cheap.
@@ -99,17 +62,7 @@ class Memory {
   Transform2<Map, Map> take_in(Memory other, std::size_t known);
 
  private:
-  struct LoopCandidate {
-    std::size_t nearest;
-    std::size_t first;
-    std::size_t last;
-    double distance_m;
-  };
   [[nodiscard]] std::size_t window_begin(std::size_t newest) const;
-  [[nodiscard]] bool is_crowded(std::size_t k, const std::vector<char>& gone) const;
-  void forget(const std::vector<char>& gone);
-  [[nodiscard]] std::vector<LoopCandidate> loop_candidates(std::size_t newest) const;
-  [[nodiscard]] bool close_loop(std::size_t newest, const LoopCandidate& candidate);
 
   MemoryOptions options_;
   std::vector<Keyframe> keyframes_;
