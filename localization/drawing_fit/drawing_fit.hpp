@@ -4,34 +4,13 @@
 #include <memory>
 #include <vector>
 
+#include "localization/drawing_fit/alignment.hpp"
+#include "localization/drawing_fit/drawing_model.hpp"
 #include "localization/drawing_fit/memory_cloud.hpp"
 #include "localization/drawing_fit/wall_index.hpp"
 #include "localization/memory/pose_graph.hpp"
 
 namespace madori::localization {
-
-/// How well the drawing describes the building, learned from the fit: a seen surface of a drawn direction
-/// lies on a drawn wall with a normal error of `sigma_m`, or is something else with probability 1 -
-/// `inliers`.
-struct DrawingModel {
-  double sigma_m = 0.2;
-  double inliers = 0.5;
-};
-
-/// Where the memory lies on the drawing: what to move it by, and how much better that is (nats of likelihood;
-/// the pieces of one wall count as one for two metres).
-struct Alignment {
-  Transform2<Map, Map> correction;
-  double gain = 0.0;        ///< over leaving it where it is
-  double likelihood = 0.0;  ///< at the correction
-};
-
-/// Window of the search around where the memory lies now, turning about the memory's own centre.
-struct AlignmentWindow {
-  double half_m = 1.2;
-  double half_rad = 0.35;
-  std::size_t sample = 500;  ///< surfaces that are looked at on the grid
-};
 
 /// Fits the memory as a whole to the drawing, and turns the drawing into pulls on the keyframes.
 class DrawingFit {
@@ -63,11 +42,6 @@ class DrawingFit {
             Eigen::Vector3d& gradient) const;
 
  private:
-  [[nodiscard]] Transform2<Map, Map> refine(const MemoryCloud& cloud, const Point2<Map>& centre,
-                                            Transform2<Map, Map> correction, const DrawingModel& model) const;
-  [[nodiscard]] std::vector<Transform2<Map, Map>> coarse(const MemoryCloud& cloud, const Point2<Map>& centre,
-                                                         const AlignmentWindow& window) const;
-
   std::shared_ptr<const WallIndex> index_;  ///< copies share it
   DrawingModel model_;
 };
