@@ -1,157 +1,14 @@
 #include "app/orders/order_store.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
-#include "app/orders/sqlite.hpp"
+#include "app/orders/order_rows.hpp"
 
 namespace madori::app {
-namespace {
 
-constexpr int kFormat = 2;
-constexpr int kBusyMs = 5000;
-
-constexpr std::array kSetUp{
-    "PRAGMA journal_mode=WAL",
-    "PRAGMA synchronous=FULL",
-    "PRAGMA foreign_keys=ON",
-};
-constexpr std::array kTables{
-    "CREATE TABLE IF NOT EXISTS orders (id INTEGER PRIMARY KEY AUTOINCREMENT, repeat INTEGER NOT NULL, "
-    "state TEXT NOT NULL, round INTEGER NOT NULL DEFAULT 0, next_stop INTEGER NOT NULL DEFAULT 0, "
-    "note TEXT NOT NULL DEFAULT '', created_ns INTEGER NOT NULL, changed_ns INTEGER NOT NULL)",
-    "CREATE TABLE IF NOT EXISTS order_stops (order_id INTEGER NOT NULL REFERENCES orders(id), "
-    "position INTEGER NOT NULL, node INTEGER NOT NULL, action TEXT NOT NULL, wait_s REAL NOT NULL, "
-    "PRIMARY KEY (order_id, position))",
-    "CREATE TABLE IF NOT EXISTS stops_done (order_id INTEGER NOT NULL REFERENCES orders(id), "
-    "round INTEGER NOT NULL, position INTEGER NOT NULL, done_ns INTEGER NOT NULL, "
-    "PRIMARY KEY (order_id, round, position))",
-    "CREATE TABLE IF NOT EXISTS events (id INTEGER PRIMARY KEY, stamp_ns INTEGER NOT NULL, kind TEXT NOT "
-    "NULL, "
-    "text TEXT NOT NULL)",
-};
-
-/// From format 1: the queue can be put in another sequence.
-constexpr std::array kSequence{
-    "ALTER TABLE orders ADD COLUMN place INTEGER NOT NULL DEFAULT 0",
-    "UPDATE orders SET place = id",
-};
-
-constexpr std::array kStates{OrderState::Queued, OrderState::Running, OrderState::Done, OrderState::Cancelled,
-                             OrderState::Refused};
-constexpr std::array kActions{StopAction::Pass, StopAction::Wait, StopAction::Load, StopAction::Unload};
-
-template <class Values>
-auto value_named(const Values& values, const std::string& name) {
-  const auto* found =
-      std::find_if(values.begin(), values.end(), [&](auto v) { return name == to_string(v); });
-  if (found == values.end())
-    throw Error("madori.db", "holds an unknown word \"" + name + "\"", "restore a backup");
-  return *found;
-}
-
-std::int64_t nanoseconds(Stamp stamp) {
-  return stamp.time_since_epoch().count();
-}
-
-std::vector<OrderStop> stops_of(sqlite3* database, std::int64_t id) {
-  Statement query(database,
-                  "SELECT node, action, wait_s FROM order_stops WHERE order_id = ? ORDER BY position");
-  query.bind(id);
-  std::vector<OrderStop> stops;
-  while (query.step())
-    stops.push_back(
-        {static_cast<int>(query.integer(0)), value_named(kActions, query.text(1)), query.real(2)});
-  return stops;
-}
-
-/// The orders that a condition selects.
-template <class... Values>
-std::vector<Order> orders_where(sqlite3* database, const std::string& condition, const Values&... values) {
-  Statement query(database,
-                  ("SELECT id, repeat, state, round, next_stop, note FROM orders " + condition).c_str());
-  query.bind(values...);
-  std::vector<Order> orders;
-  while (query.step())
-    orders.push_back({query.integer(0), stops_of(database, query.integer(0)),
-                      static_cast<int>(query.integer(1)), value_named(kStates, query.text(2)),
-                      static_cast<int>(query.integer(3)), static_cast<std::size_t>(query.integer(4)),
-                      query.text(5)});
-  return orders;
-}
-
-void save_progress(sqlite3* database, const Order& order, Stamp now) {
-  Statement(database,
-            "UPDATE orders SET state = ?, round = ?, next_stop = ?, note = ?, changed_ns = ? WHERE id = ?")
-      .bind(std::string(to_string(order.state)), order.round, order.next_stop, order.note, nanoseconds(now),
-            order.id)
-      .run();
-}
-
-sqlite3* open(const std::filesystem::path& file) {
-  sqlite3* database = nullptr;
-  if (sqlite3_open(file.c_str(), &database) == SQLITE_OK) return database;
-  const std::string what = database == nullptr ? "out of memory" : sqlite3_errmsg(database);
-  sqlite3_close(database);
-  throw Error(file.string(), what, "check the folder and its permissions");
-}
-
-}  // namespace
-
-const char* to_string(StopAction action) {
-  switch (action) {
-    case StopAction::Pass:
-      return "pass";
-    case StopAction::Wait:
-      return "wait";
-    case StopAction::Load:
-      return "load";
-    case StopAction::Unload:
-      return "unload";
-  }
-  return "pass";
-}
-
-const char* to_string(OrderState state) {
-  switch (state) {
-    case OrderState::Queued:
-      return "queued";
-    case OrderState::Running:
-      return "running";
-    case OrderState::Done:
-      return "done";
-    case OrderState::Cancelled:
-      return "cancelled";
-    case OrderState::Refused:
-      return "refused";
-  }
-  return "refused";
-}
-
-void OrderStore::Close::operator()(sqlite3* database) const {
-  sqlite3_close(database);
-}
-
-OrderStore::OrderStore(const std::filesystem::path& file) : database_(open(file)), file_(file.string()) {
-  sqlite3_busy_timeout(database_.get(), kBusyMs);
-  for (const char* sql : kSetUp) Statement(database_.get(), sql).run();
-  const auto format = [&] {
-    Statement version(database_.get(), "PRAGMA user_version");
-    version.step();
-    return version.integer(0);
-  };
-  if (format() > kFormat)
-    throw Error(file_, "was written by a newer Madori", "update this one, or use another site folder");
-  if (format() == kFormat) return;
-  Transaction transaction(database_.get());
-  if (format() == kFormat) return;  // another program was quicker
-  if (format() < 1)
-    for (const char* sql : kTables) Statement(database_.get(), sql).run();
-  for (const char* sql : kSequence) Statement(database_.get(), sql).run();
-  Statement(database_.get(), ("PRAGMA user_version=" + std::to_string(kFormat)).c_str()).run();
-  transaction.commit();
-}
+OrderStore::OrderStore(const std::filesystem::path& file)
+    : database_(open_order_database(file)), file_(file.string()) {}
 
 OrderStore::~OrderStore() = default;
 
@@ -159,17 +16,7 @@ std::int64_t OrderStore::add(const std::vector<OrderStop>& stops, int repeat, St
   if (stops.empty() || repeat < 1)
     throw Error(file_, "an order needs at least one stop and one round", "name a station: --to ID");
   Transaction transaction(database_.get());
-  Statement(database_.get(), "INSERT INTO orders (repeat, state, created_ns, changed_ns) VALUES (?, ?, ?, ?)")
-      .bind(repeat, std::string(to_string(OrderState::Queued)), nanoseconds(now), nanoseconds(now))
-      .run();
-  const std::int64_t id = sqlite3_last_insert_rowid(database_.get());
-  Statement(database_.get(), "UPDATE orders SET place = (SELECT MAX(place) + 1 FROM orders) WHERE id = ?")
-      .bind(id)
-      .run();
-  for (std::size_t i = 0; i < stops.size(); ++i)
-    Statement(database_.get(), "INSERT INTO order_stops VALUES (?, ?, ?, ?, ?)")
-        .bind(id, i, stops[i].node, std::string(to_string(stops[i].action)), stops[i].wait_s)
-        .run();
+  const std::int64_t id = insert_order(database_.get(), stops, repeat, now);
   transaction.commit();
   return id;
 }

@@ -1,15 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/orders/order.hpp"
+#include "app/orders/order_database.hpp"
 #include "core/stamp.hpp"
-
-struct sqlite3;
 
 namespace madori::app {
 
@@ -56,10 +54,7 @@ class OrderStore {
   [[nodiscard]] std::string integrity() const;
 
  private:
-  struct Close {
-    void operator()(sqlite3* database) const;
-  };
-  std::unique_ptr<sqlite3, Close> database_;
+  Database database_;
   std::string file_;
 };
 
