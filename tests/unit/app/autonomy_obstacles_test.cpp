@@ -1,0 +1,150 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/app/corridor_vehicle.hpp"
+
+// What stands in the way: waiting, driving around, another route.
+namespace madori::app {
+namespace {
+
+using test::corridor_vehicle;
+using test::ToyVehicle;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(AutonomyCycle, APersonInTheWayIsWaitedFor) {
+  auto v = corridor_vehicle();
+  v->config.detour_after_s = 1000.0;
+  v->lidar.posts.push_back({{6.0, 0.0}, 0.2, 1.7});
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  double nearest = 10.0;
+  v->each_step = [&] { nearest = std::min(nearest, v->clearance_m()); };
+  v->run_until([&] { return false; }, 12.0);
+  EXPECT_EQ(v->state().mode, Mode::Waiting);
+  EXPECT_EQ(v->state().standstill.cause.text, "something stands in the way");
+  EXPECT_GT(nearest, 0.1);
+  EXPECT_LT(nearest, 0.8);
+  v->lidar.posts.clear();
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
+TEST(AutonomyCycle, WhatCameTooNearForTheLidarStaysUntilTheOperatorHasLooked) {
+  auto v = corridor_vehicle();
+  v->config.detour_after_s = 1000.0;
+  v->lidar.bodies.push_back(
+      {{{6.0, -0.3}, {6.0, 0.3}}, 0.1, 0.2});  // lies lower than the lidar's lowest beam
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->state().mode == Mode::Waiting; }, 15.0));
+  v->run_until([&] { return false; }, 2.0);
+  EXPECT_EQ(v->state().standstill.cause.code, "unseen-in-the-way");
+  EXPECT_EQ(v->state().standstill.remedy.code, "look-and-resume");
+  v->lidar.bodies.clear();
+  EXPECT_FALSE(v->run_until([&] { return v->state().mode == Mode::Driving; }, 10.0)) << "nobody has looked";
+  v->say(OperatorWord::Resume);
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
+TEST(AutonomyCycle, APalletIsDrivenAround) {
+  auto v = corridor_vehicle();
+  v->lidar.bodies.push_back({{{6.0, -0.4}, {6.0, 0.4}}, 0.4, 0.3});
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  double nearest = 10.0;
+  v->each_step = [&] { nearest = std::min(nearest, v->clearance_m()); };
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 90.0)) << v->state().standstill.cause.text;
+  EXPECT_GT(nearest, 0.03);
+  EXPECT_THAT(v->events, Contains(HasSubstr("-> detouring")));
+  EXPECT_THAT(v->events, Contains(HasSubstr("back on route")));
+}
+
+TEST(AutonomyCycle, StandingAHairWithinItsOwnMarginBesideABodyItGetsOutAfterAWhile) {
+  for (const bool squeezes : {true, false}) {
+    auto v = corridor_vehicle();
+    if (!squeezes) v->config.squeeze_after_s = 1e6;
+    v->lidar.posts.push_back({{0.2, 0.44}, 0.1, 1.0});  // 4 cm beside the vehicle, which keeps 6 cm
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    double nearest = 10.0;
+    v->each_step = [&] { nearest = std::min(nearest, v->clearance_m()); };
+    EXPECT_FALSE(v->run_until([&] { return v->rolling.pose().x_m() > 0.1; }, 9.0));
+    EXPECT_EQ(v->run_until([&] { return v->delivered(); }, 60.0), squeezes)
+        << ::testing::PrintToString(v->events);
+    EXPECT_GT(nearest, 0.0);
+  }
+}
+
+TEST(AutonomyCycle, ABlockedLegIsLeftOutOfANewRoute) {
+  auto v = corridor_vehicle();
+  v->config.detour_after_s = 1000.0;
+  v->config.reroute_after_s = 3.0;
+  for (double y = -2.0; y < 2.0; y += 0.2) v->lidar.posts.push_back({{14.0, y}, 0.15, 1.0});
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 120.0)) << ::testing::PrintToString(v->events);
+  EXPECT_THAT(v->events, Contains(HasSubstr("taking another route")));
+}
+
+TEST(AutonomyCycle, AWayAroundThatEndsAtTheGoalEndsInItsHeading) {
+  for (const double heading_deg : {0.0, 90.0}) {
+    auto graph = planning::parse_routes("ID,EDA\n0,1\n1,0\n",
+                                        "ID,x,y,heading_deg\n0,0,0,\n1,8,0," + std::to_string(heading_deg))
+                     .graph;
+    ToyVehicle v(test::toy_config(std::move(graph)), {0.0, 0.0, 0.0});
+    for (double y = -0.8; y < 3.0; y += 0.2) v.lidar.posts.push_back({{5.4, y}, 0.1, 1.5});
+    v.drive_to({{1}});
+    v.say(OperatorWord::Resume);
+    ASSERT_TRUE(v.run_until([&] { return v.delivered(); }, 90.0)) << ::testing::PrintToString(v.events);
+    EXPECT_THAT(v.events, Contains(HasSubstr("detour found")));
+    EXPECT_LT(std::abs(wrap_angle(v.rolling.pose().yaw_rad() - to_rad(heading_deg))), to_rad(1.0))
+        << heading_deg;
+  }
+}
+
+TEST(AutonomyCycle, WhatLiesBeforeADoorIsNoDoor) {
+  auto routes = planning::parse_routes("ID,EDA\n0,1\n1,0 2\n2,1\n",
+                                       "ID,x,y,heading_deg,action\n0,0,0,,\n1,7,0,,door\n2,14,0,,\n");
+  ToyVehicle v(test::toy_config(std::move(routes.graph)), {0.0, 0.0, 0.0});
+  v.lidar.bodies.push_back({{{6.0, -0.3}, {6.0, 0.3}}, 0.1, 0.2});  // too low to be seen from near
+  v.drive_to({{2}});
+  v.say(OperatorWord::Resume);
+  EXPECT_TRUE(v.run_until([&] { return v.delivered(); }, 60.0)) << v.state().standstill.cause.text;
+  EXPECT_THAT(v.events, Contains(HasSubstr("detour found"))) << "a door is waited for, this is driven around";
+}
+
+TEST(AutonomyCycle, ADoorThatStaysShutIsLeftOutOfANewRouteAfterAWhile) {
+  auto graph =
+      planning::parse_routes("ID,EDA\n0,1\n1,0 4 3\n4,1 2\n2,4 3\n3,1 2\n",
+                             "ID,x,y,heading_deg,action\n0,0,0,,\n1,10,0,,\n4,15,0,,door\n2,22,0,90,\n"
+                             "3,16,6,,\n")
+          .graph;
+  ToyVehicle v(test::toy_config(graph), Transform2<Map, Base>(0.0, 0.0, 0.0));
+  for (double y = -2.0; y < 2.0; y += 0.2) v.lidar.posts.push_back({{15.0, y}, 0.15, 2.2});
+  v.drive_to({{2}});
+  v.say(OperatorWord::Resume);
+  ASSERT_TRUE(v.run_until([&] { return v.state().standstill.cause == notice(Cause::DoorNotOpen); }, 40.0));
+  v.run_until([&] { return false; }, 50.0);
+  EXPECT_THAT(v.events, Not(Contains(HasSubstr("taking another route")))) << "it may open";
+  EXPECT_TRUE(v.run_until([&] { return v.delivered(); }, 90.0)) << ::testing::PrintToString(v.events);
+  EXPECT_THAT(v.events, Contains(HasSubstr("taking another route")));
+}
+
+// The edge of something remembered, or somebody who works beside the way.
+TEST(AutonomyCycle, WhatStirsInOnePlaceBesideTheWayDoesNotHoldTheVehicleForEver) {
+  for (const bool for_ever : {false, true}) {
+    auto v = corridor_vehicle();
+    if (for_ever) v->config.mover_stays_after_s = 1e6;
+    v->lidar.posts.push_back({{6.0, 0.9}, 0.1, 1.0});
+    v->each_step = [&] { v->lidar.posts[0].at.y_m = 0.9 + 0.2 * std::sin(2.0 * kPi * v->time_s()); };
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    EXPECT_TRUE(v->run_until([&] { return v->state().way.by_mover; }, 15.0));
+    EXPECT_NE(v->run_until([&] { return v->delivered(); }, 60.0), for_ever)
+        << ::testing::PrintToString(v->events);
+  }
+}
+
+}  // namespace
+}  // namespace madori::app
