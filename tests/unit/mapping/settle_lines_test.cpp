@@ -24,8 +24,9 @@ GrayImage painted(const std::function<bool(double u, double v)>& is_ink, int ink
   for (int v = 0; v < kSide; ++v)
     for (int u = 0; u < kSide; ++u) {
       int covered = 0;
-      for (int k = 0; k < kFiner * kFiner; ++k)
-        covered += is_ink(u + (k % kFiner + 0.5) / kFiner, v + (k / kFiner + 0.5) / kFiner) ? 1 : 0;
+      for (int row = 0; row < kFiner; ++row)
+        for (int column = 0; column < kFiner; ++column)
+          covered += is_ink(u + (column + 0.5) / kFiner, v + (row + 0.5) / kFiner) ? 1 : 0;
       const double share = static_cast<double>(covered) / (kFiner * kFiner);
       image.pixels.push_back(static_cast<std::uint8_t>(std::lround(std::lerp(paper, ink, share))));
     }
@@ -143,7 +144,8 @@ TEST(SettleLines, SolidWallsComeOutAtTheirEdges) {
   GrayImage image{600, 500, std::vector<std::uint8_t>(600 * 500, 255), 0};
   const auto fill = [&](int u0, int v0, int u1, int v1) {
     for (int v = v0; v < v1; ++v)
-      for (int u = u0; u < u1; ++u) image.pixels[static_cast<std::size_t>(v * 600 + u)] = 0;
+      for (int u = u0; u < u1; ++u)
+        image.pixels[static_cast<std::size_t>(v) * 600 + static_cast<std::size_t>(u)] = 0;
   };
   fill(50, 50, 550, 66);
   fill(50, 434, 550, 450);
