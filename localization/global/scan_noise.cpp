@@ -1,8 +1,9 @@
 #include "localization/global/scan_noise.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "core/median.hpp"
 
 namespace madori::localization {
 
@@ -19,9 +20,7 @@ double scan_noise_m(const ScanPoints& points) {
                              Point2<Base>{0.5 * (before.x_m + after.x_m), 0.5 * (before.y_m + after.y_m)}));
   }
   if (off.size() < kLeast) return 0.0;
-  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
-  std::nth_element(off.begin(), middle, off.end());
-  return *middle / (kMedianOfRayleigh * std::sqrt(1.5));
+  return median_of(off) / (kMedianOfRayleigh * std::sqrt(1.5));
 }
 
 }  // namespace madori::localization

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.hpp"
 #include "localization/self_calibration/strain_search.hpp"
 #include "localization/self_calibration/strain_system.hpp"
 
@@ -17,9 +18,7 @@ constexpr double kShareOfSigma = 0.1;   // likewise: what is smaller is lost in 
 double robust_sigma(std::vector<double> values) {
   if (values.empty()) return 0.0;
   for (double& v : values) v = std::abs(v);
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.4826 * *middle;
+  return 1.4826 * median_of(values);
 }
 
 Eigen::Vector3d uniform_direction() {

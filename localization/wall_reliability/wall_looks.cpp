@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/median.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -128,9 +130,7 @@ class Looker {
   }
 
   void measure(const Sight& sight, const Point2<Map>& base, WallLook& look) {
-    const auto middle = offsets_.begin() + static_cast<long>(offsets_.size() / 2);
-    std::nth_element(offsets_.begin(), middle, offsets_.end());
-    look.offset_m = *middle;
+    look.offset_m = median_of(offsets_);
     const Segment2<Map>& s = cells_.all()[look.cell].segment;
     const double rx = 0.5 * (s.a.x_m + s.b.x_m) - base.x_m;
     const double ry = 0.5 * (s.a.y_m + s.b.y_m) - base.y_m;

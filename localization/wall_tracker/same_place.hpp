@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cmath>
-
-#include "core/frames.hpp"
-#include "core/transform2.hpp"
+#include "localization/global/global_answer.hpp"
 
 namespace madori::localization {
 
@@ -11,8 +8,7 @@ namespace madori::localization {
 [[nodiscard]] inline bool is_same_place(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b) {
   constexpr double kSamePlaceM = 0.3;
   constexpr double kSamePlaceRad = 0.1;
-  return distance_m(a.translation(), b.translation()) < kSamePlaceM &&
-         std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < kSamePlaceRad;
+  return same_place(a, b, kSamePlaceM, kSamePlaceRad);
 }
 
 }  // namespace madori::localization

@@ -26,9 +26,8 @@ struct CheckOptions {
 
 /// What is left of the ordinary margins to a vehicle that has come to stand too near to something.
 struct Squeeze {
-  double share = 1.0;  ///< of every margin
-  double wall_slack_m =
-      0.0;  ///< so far drawn walls reach into where the vehicle stands: they are not exact there
+  double share = 1.0;         ///< of every margin
+  double wall_slack_m = 0.0;  ///< so far drawn walls reach into it: they are not exact there
 };
 
 /// The same with less of the margins.

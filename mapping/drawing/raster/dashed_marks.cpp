@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/median.hpp"
 #include "mapping/drawing/raster/drawn_line.hpp"
 #include "mapping/drawing/raster/line_fit.hpp"
 #include "mapping/drawing/raster/line_index.hpp"
@@ -79,9 +80,7 @@ std::vector<Link> links_of(std::size_t self, const std::vector<Bar>& bars, const
 }
 
 bool even(std::vector<double> gaps) {
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  const double typical = *middle;
+  const double typical = median_of(gaps);
   const auto like = std::count_if(gaps.begin(), gaps.end(), [&](double gap) {
     return std::abs(gap - typical) <= std::max(2.0, kEvenGap * typical);
   });

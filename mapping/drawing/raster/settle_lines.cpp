@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/median.hpp"
 #include "mapping/drawing/raster/edge_profile.hpp"
 #include "mapping/drawing/raster/line_fit.hpp"
 
@@ -36,8 +37,8 @@ class Settler {
     take_samples(line, axis);
     if (line.solid_face) keep_common_side();
     if (!keep_about_median()) return;
-    const auto [shift, turn] = moved(0.5 * line.length_px());
     const double half = 0.5 * line.length_px();
+    const auto [shift, turn] = moved(half);
     const double first = shift - turn * half, last = shift + turn * half;
     PixelSegment& s = line.segment;
     s = {s.u1 - first * axis.direction_v, s.v1 + first * axis.direction_u, s.u2 - last * axis.direction_v,
@@ -100,9 +101,7 @@ class Settler {
     if (samples_.empty()) return false;
     std::vector<double> offsets;
     for (const Sample& s : samples_) offsets.push_back(s.offset);
-    const auto middle = offsets.begin() + std::ssize(offsets) / 2;
-    std::nth_element(offsets.begin(), middle, offsets.end());
-    const double median = *middle;
+    const double median = median_of(offsets);
     std::erase_if(samples_, [&](const Sample& s) { return std::abs(s.offset - median) > kAside; });
     return samples_.size() >= kFewest &&
            static_cast<double>(samples_.size()) >= kLeastShare * static_cast<double>(taken_);

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "core/median.hpp"
+
 namespace madori::mapping {
 namespace {
 
@@ -75,8 +77,7 @@ TextGroup describe(const Components& marks, std::vector<std::size_t> members) {
     vv += dv * dv;
   }
   group.angle_rad = 0.5 * std::atan2(2 * uv, uu - vv);
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
-  group.height_px = sizes[sizes.size() / 2];
+  group.height_px = median_of(sizes);
   const double spread = 0.5 * (uu + vv) + std::hypot(0.5 * (uu - vv), uv);
   group.length_px = std::sqrt(12 * spread / count) + group.height_px;
   group.marks = std::move(members);

@@ -1,11 +1,12 @@
 #include "mapping/drawing/vector/dxf_units.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string_view>
+
+#include "core/median.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -37,8 +38,7 @@ int score(const Unit& unit, const DxfUnitEvidence& evidence) {
   if (evidence.imperial_texts) points += unit.metric ? -4 : 4;
   std::vector<double> radii = evidence.door_radii;
   if (!radii.empty()) {
-    std::ranges::nth_element(radii, radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2));
-    const double door_m = radii[radii.size() / 2] * unit.metres;
+    const double door_m = median_of(radii) * unit.metres;
     points += door_m >= 0.55 && door_m <= 1.5 ? 3 : -3;
   }
   return points;
