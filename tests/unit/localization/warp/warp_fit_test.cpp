@@ -1,0 +1,102 @@
+#include "localization/warp/warp_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/segment_distance.hpp"
+#include "tests/support/bent_memory.hpp"
+
+namespace madori::localization {
+namespace {
+
+using test::BentBuilding;
+using test::BentBuildingOptions;
+using test::BentMemoryOptions;
+using test::BuildingKind;
+
+MemoryCloud seen_on_lap(const BentBuilding& building, double clutter) {
+  BentMemoryOptions options;
+  options.metres = 70.0;
+  options.clutter = clutter;
+  return memory_cloud(test::bent_memory(building, options));
+}
+
+/// Errors of the poses of the lap carried onto the drawing, sorted.
+std::vector<double> errors_m(const BentBuilding& building, const DrawingWarp& warp) {
+  std::vector<double> errors;
+  for (const Point2<Map>& p : test::along_lap(building, 0.5, 70.0))
+    errors.push_back(distance_m(warp.map(building.warp->building(p)), p));
+  std::sort(errors.begin(), errors.end());
+  return errors;
+}
+
+class WarpFitOfKind : public testing::TestWithParam<BuildingKind> {};
+
+TEST_P(WarpFitOfKind, AnExactDrawingIsIdentityInClutter) {
+  BentBuildingOptions options;
+  options.kind = GetParam();
+  options.amplitude_m = 0.0;
+  options.furniture = 0.3;
+  const BentBuilding building = test::bent_building(options);
+  const WallIndex index(building.drawn);
+  const WarpFit fit = fit_warp_from_start(index, seen_on_lap(building, 0.3));
+  EXPECT_LT(errors_m(building, fit.warp).back(), 0.001);
+  EXPECT_TRUE(fit.warp.is_identity());
+  EXPECT_LT(fit.evidence_nats, 0.0);
+}
+
+TEST_P(WarpFitOfKind, ABentDrawingIsFoundOut) {
+  BentBuildingOptions options;
+  options.kind = GetParam();
+  options.amplitude_m = 0.6;
+  options.scale = 0.985;
+  const BentBuilding building = test::bent_building(options);
+  const WallIndex index(building.drawn);
+  const WarpFit fit = fit_warp_from_start(index, seen_on_lap(building, 0.05));
+  const std::vector<double> errors = errors_m(building, fit.warp);
+  EXPECT_LT(errors[errors.size() / 2], 0.10);
+  EXPECT_LT(errors[errors.size() * 95 / 100], 0.35);
+  EXPECT_GT(fit.evidence_nats, 50.0);
+  EXPECT_NEAR(fit.warp.similarity().scale, 1.0 / options.scale, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, WarpFitOfKind,
+                         testing::Values(BuildingKind::Office, BuildingKind::Hall, BuildingKind::Corridors));
+
+TEST(WarpFit, FindsTheSizeOfADrawingThatIsRightOtherwise) {
+  for (const double scale : {0.98, 1.02}) {
+    BentBuildingOptions options;
+    options.amplitude_m = 0.0;
+    options.scale = scale;
+    const BentBuilding building = test::bent_building(options);
+    const WallIndex index(building.drawn);
+    const WarpFit fit = fit_warp_from_start(index, seen_on_lap(building, 0.1));
+    EXPECT_NEAR(fit.warp.similarity().scale * scale, 1.0, 0.002);
+    EXPECT_LT(errors_m(building, fit.warp).back(), 0.05);
+  }
+}
+
+TEST(WarpFit, AWallDrawnHalfAMetreOffIsToldAndBendsNothing) {
+  BentBuildingOptions options;
+  options.amplitude_m = 0.0;
+  options.straight_drawing = true;
+  BentBuilding building = test::bent_building(options);
+  const MemoryCloud cloud = seen_on_lap(building, 0.1);
+  // The lower wall of the building, seen through the doors of many rooms, and a partition.
+  std::size_t moved = 0;
+  const auto seen = fit_warp(WallIndex(building.drawn), cloud, {}).walls;
+  for (std::size_t i = 0; i < building.drawn.size(); ++i)
+    if (building.drawn[i].segment.length_m() < 8.0 && seen[i].seen_m() > seen[moved].seen_m()) moved = i;
+  Segment2<Map>& s = building.drawn[moved].segment;
+  const double length = s.length_m();
+  const Point2<Map> by{-0.5 * (s.b.y_m - s.a.y_m) / length, 0.5 * (s.b.x_m - s.a.x_m) / length};
+  s = {{s.a.x_m + by.x_m, s.a.y_m + by.y_m}, {s.b.x_m + by.x_m, s.b.y_m + by.y_m}};
+  const WarpFit fit = fit_warp_from_start(WallIndex(building.drawn), cloud);
+  EXPECT_NEAR(fit.walls[moved].offset_m(), -0.5, 0.03);
+  EXPECT_LT(fit.walls[moved].sigma_m(), 0.1);
+  EXPECT_LT(errors_m(building, fit.warp).back(), 0.001);
+}
+
+}  // namespace
+}  // namespace madori::localization
