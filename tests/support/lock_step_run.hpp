@@ -20,14 +20,18 @@ class LockStepRun {
  public:
   static constexpr Duration kStep = std::chrono::milliseconds(20);
 
-  LockStepRun(const app::SiteForDriving& site, const simulation::FactorySetup& setup)
+  using SourceMaker = std::function<std::unique_ptr<app::PoseSource>(const simulation::Factory&)>;
+
+  /// Without `make_source` the vehicle localizes as the product does.
+  LockStepRun(const app::SiteForDriving& site, const simulation::FactorySetup& setup,
+              const SourceMaker& make_source = {})
       : factory(std::make_shared<simulation::Factory>(setup)), begun_(factory->now()) {
     app::TransportOptions options;
     options.site = database_.path();
     options.detours_in_step = true;
     options.store_poll_s = 0.1;
     run = std::make_unique<app::TransportRun>(
-        site.config, std::make_unique<app::DrawingPose>(site.walls),
+        site.config, make_source ? make_source(*factory) : std::make_unique<app::DrawingPose>(site.walls),
         std::make_unique<app::FactoryLink>(factory, site.config.odometry.wheels, kStep), options);
     run->say({app::OperatorWord::Resume, {}});
   }

@@ -1,0 +1,83 @@
+// Drives from the drawing in buildings that are not as drawn: the whole cycle in lock-step, the devices' own
+// bytes, no pose given, an operator who taps at most once. docs/reference/buildings-figures.md says what is
+// measured. Exit 1 where a drive could not be made at all.
+//   bench_buildings [../shared/data/buildings] [--only hotel_L1/start0] [--jobs 2] [--json FILE] [--csv FILE]
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+
+#include "core/result.hpp"
+#include "tests/bench/buildings/building_drive.hpp"
+#include "tests/bench/buildings/drive_report.hpp"
+#include "tests/bench/buildings/jobs.hpp"
+#include "tests/bench/buildings/trial_localizer.hpp"
+
+namespace madori::bench {
+namespace {
+
+struct Arguments {
+  std::filesystem::path buildings = std::string(MADORI_SHARED_DATA) + "/buildings";
+  std::string only;
+  DriveOptions drive;
+  int jobs = 1;
+  std::string json_file, csv_file;
+};
+
+std::vector<nlohmann::json> drive_all(const Arguments& a) {
+  std::vector<Job> jobs;
+  for (const BuildingStart& start : list_starts(a.buildings, a.only))
+    jobs.push_back({start.name, [start, &a] { return to_json(BuildingDrive(start, a.drive).drive()); }});
+  std::vector<nlohmann::json> figures;
+  run_jobs(jobs, a.jobs, [&](const nlohmann::json& f) {
+    print_row(f);
+    figures.push_back(f);
+  });
+  std::sort(figures.begin(), figures.end(),
+            [](const auto& x, const auto& y) { return x["name"] < y["name"]; });
+  return figures;
+}
+
+int run(const Arguments& a) {
+  if (!a.drive.trace.empty()) std::filesystem::create_directories(a.drive.trace);
+  print_head();
+  const auto figures = drive_all(a);
+  print_sums(figures);
+  if (!a.json_file.empty()) std::ofstream(a.json_file) << nlohmann::json(figures).dump(1) << '\n';
+  if (!a.csv_file.empty()) std::ofstream(a.csv_file) << to_csv(figures);
+  return std::any_of(figures.begin(), figures.end(),
+                     [](const auto& f) { return !f.value("error", "").empty(); });
+}
+
+}  // namespace
+}  // namespace madori::bench
+
+int main(int argc, char** argv) {
+  CLI::App app("Driving from the drawing in buildings that are not as drawn");
+  madori::bench::Arguments a;
+  app.add_option("BUILDINGS", a.buildings, "folder of buildings with a README")->capture_default_str();
+  app.add_option("--only", a.only, "parts of starts' names, comma between");
+  app.add_option("--source", a.drive.source, "what localizes")
+      ->check(CLI::IsMember(madori::bench::localizer_names()))
+      ->capture_default_str();
+  app.add_option("--sensor", a.drive.sensor, "what it localizes with; scan: a 2D scanner in process")
+      ->check(CLI::IsMember({"vlp16", "scan"}))
+      ->capture_default_str();
+  app.add_option("--seed", a.drive.seed, "order of stations, and how taps are off")->capture_default_str();
+  app.add_option("--laps", a.drive.laps, "visits of all stations")->capture_default_str();
+  app.add_option("--limit-s", a.drive.limit_s, "simulated seconds for one delivery")->capture_default_str();
+  app.add_option("--jobs", a.jobs, "processes at once")->check(CLI::Range(1, 64))->capture_default_str();
+  app.add_option("--trace", a.drive.trace,
+                 "folder of a CSV a start: truth, pose, state, five times a second");
+  app.add_option("--json", a.json_file, "file of all figures");
+  app.add_option("--csv", a.csv_file, "file of a line a start");
+  CLI11_PARSE(app, argc, argv);
+  spdlog::set_level(spdlog::level::off);
+  try {
+    return madori::bench::run(a);
+  } catch (const madori::Error& e) {
+    std::fprintf(stderr, "bench_buildings: %s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,59 @@
+#include "tests/bench/buildings/pose_source_choice.hpp"
+
+#include <utility>
+
+#include "localization/wall_extraction/wall_extraction.hpp"
+#include "tests/bench/buildings/trial_localizer.hpp"
+#include "tests/bench/buildings/wall_scanner.hpp"
+
+namespace madori::bench {
+namespace {
+
+/// Either lidar's points on walls to a localizer.
+class ChosenSource final : public app::PoseSource {
+ public:
+  ChosenSource(std::unique_ptr<TrialLocalizer> localizer, bool scans, const app::SiteForDriving& site,
+               const simulation::Factory& factory)
+      : localizer_(std::move(localizer)),
+        scans_(scans),
+        lidar_{site.config.lidar.x_m, site.config.lidar.y_m},
+        factory_(factory),
+        scanner_(site.walls.size()) {}
+
+  PoseEstimate on_odometry(const OdometryReading& reading) override {
+    const PoseEstimate pose = localizer_->on_odometry(reading);
+    if (!scans_ || factory_.now() <= seen_) return pose;
+    seen_ = factory_.now();
+    scanner_.moved(seen_, factory_.truth().building_from_base);
+    const auto scans = scanner_.take(factory_.world(), factory_.bodies());
+    for (const auto& [stamp, points] : scans) localizer_->on_scan(stamp, points, scanner_.place());
+    return scans.empty() ? pose : localizer_->on_odometry(reading);
+  }
+  void on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& /*odom_from_base*/) override {
+    if (!scans_) localizer_->on_scan(cloud.stamp, localization::extract_walls(cloud), lidar_);
+  }
+  void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) override {
+    localizer_->set_pose(map_from_base, sigma);
+  }
+  void search_anew() override { localizer_->search_anew(); }
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return localizer_->hypotheses(); }
+
+ private:
+  std::unique_ptr<TrialLocalizer> localizer_;
+  bool scans_;
+  Point2<Base> lidar_;
+  const simulation::Factory& factory_;
+  WallScanner scanner_;
+  Stamp seen_{};
+};
+
+}  // namespace
+
+std::unique_ptr<app::PoseSource> make_pose_source(const std::string& name, const std::string& sensor,
+                                                  const app::SiteForDriving& site,
+                                                  const simulation::Factory& factory) {
+  return std::make_unique<ChosenSource>(make_trial_localizer(name, site.walls), sensor == "scan", site,
+                                        factory);
+}
+
+}  // namespace madori::bench
