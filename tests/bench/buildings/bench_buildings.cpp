@@ -1,6 +1,7 @@
 // Drives from the drawing in buildings that are not as drawn: the whole cycle in lock-step, the devices' own
 // bytes, no pose given, an operator who taps at most once. docs/reference/buildings-figures.md says what is
-// measured. Exit 1 where a drive could not be made at all.
+// measured. Exit 1 where a drive could not be made at all. With --random N: localization alone in random
+// buildings whose drawing is bent by a known warp.
 //   bench_buildings [../shared/data/buildings] [--only hotel_L1/start0] [--jobs 2] [--json FILE] [--csv FILE]
 #include <spdlog/spdlog.h>
 
@@ -9,6 +10,7 @@
 #include <fstream>
 
 #include "core/result.hpp"
+#include "tests/bench/buildings/bent_campaign.hpp"
 #include "tests/bench/buildings/building_drive.hpp"
 #include "tests/bench/buildings/drive_report.hpp"
 #include "tests/bench/buildings/jobs.hpp"
@@ -21,6 +23,7 @@ struct Arguments {
   std::filesystem::path buildings = std::string(MADORI_SHARED_DATA) + "/buildings";
   std::string only;
   DriveOptions drive;
+  BentCampaign bent;
   int jobs = 1;
   std::string json_file, csv_file;
 };
@@ -39,7 +42,11 @@ std::vector<nlohmann::json> drive_all(const Arguments& a) {
   return figures;
 }
 
-int run(const Arguments& a) {
+int run(Arguments a) {
+  if (a.bent.count > 0) {
+    a.bent.trial.source = a.drive.source;
+    return drive_bent_buildings(a.bent, a.jobs, a.json_file);
+  }
   if (!a.drive.trace.empty()) std::filesystem::create_directories(a.drive.trace);
   print_head();
   const auto figures = drive_all(a);
@@ -48,6 +55,20 @@ int run(const Arguments& a) {
   if (!a.csv_file.empty()) std::ofstream(a.csv_file) << to_csv(figures);
   return std::any_of(figures.begin(), figures.end(),
                      [](const auto& f) { return !f.value("error", "").empty(); });
+}
+
+void add_random_options(CLI::App& app, BentCampaign& bent) {
+  app.add_option("--random", bent.count, "random bent buildings at each amplitude, by as many seeds");
+  app.add_option("--first-seed", bent.first_seed, "constants are chosen below 1001")->capture_default_str();
+  app.add_option("--amplitudes", bent.amplitudes_m, "largest displacement of the drawing, metres")
+      ->delimiter(',');
+  app.add_option("--sensors", bent.sensors, "vlp16, scan")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"vlp16", "scan"}));
+  app.add_option("--metres", bent.trial.metres, "driven in each")->capture_default_str();
+  app.add_flag("!--no-tap", bent.trial.tap, "the place is not given, but sought");
+  app.add_option("--samples", bent.samples_file,
+                 "file of what was said and what was right, for plot_reliability.py");
 }
 
 }  // namespace
@@ -72,6 +93,7 @@ int main(int argc, char** argv) {
                  "folder of a CSV a start: truth, pose, state, five times a second");
   app.add_option("--json", a.json_file, "file of all figures");
   app.add_option("--csv", a.csv_file, "file of a line a start");
+  madori::bench::add_random_options(app, a.bent);
   CLI11_PARSE(app, argc, argv);
   spdlog::set_level(spdlog::level::off);
   try {
