@@ -14,6 +14,7 @@
 #include "tests/bench/buildings/building_drive.hpp"
 #include "tests/bench/buildings/drive_report.hpp"
 #include "tests/bench/buildings/jobs.hpp"
+#include "tests/bench/buildings/pose_source_choice.hpp"
 #include "tests/bench/buildings/trial_localizer.hpp"
 
 namespace madori::bench {
@@ -79,8 +80,10 @@ int main(int argc, char** argv) {
   madori::bench::Arguments a;
   app.add_option("BUILDINGS", a.buildings, "folder of buildings with a README")->capture_default_str();
   app.add_option("--only", a.only, "parts of starts' names, comma between");
-  app.add_option("--source", a.drive.source, "what localizes")
-      ->check(CLI::IsMember(madori::bench::localizer_names()))
+  auto sources = madori::bench::localizer_names();
+  sources.emplace_back(madori::bench::kTruth);
+  app.add_option("--source", a.drive.source, "what localizes; truth: nothing does, for comparison")
+      ->check(CLI::IsMember(sources))
       ->capture_default_str();
   app.add_option("--sensor", a.drive.sensor, "what it localizes with; scan: a 2D scanner in process")
       ->check(CLI::IsMember({"vlp16", "scan"}))

@@ -47,11 +47,32 @@ class ChosenSource final : public app::PoseSource {
   Stamp seen_{};
 };
 
+/// The true pose, as if the drawing were right: what planning and control make of the building by themselves.
+class TrueSource final : public app::PoseSource {
+ public:
+  explicit TrueSource(const simulation::Factory& factory) : factory_(factory) {}
+
+  PoseEstimate on_odometry(const OdometryReading& reading) override {
+    constexpr double kVariance = 1e-6;
+    const auto pose = factory_.truth().map_from_base;
+    return {reading.stamp, pose, kVariance * Eigen::Matrix3d::Identity(), {LocalizationState::Localized, ""}};
+  }
+  void on_cloud(const PointCloud<Base>& /*cloud*/,
+                const Transform2<Odom, Base>& /*odom_from_base*/) override {}
+  void set_pose(const Transform2<Map, Base>& /*map_from_base*/, const PoseSigma& /*sigma*/) override {}
+  void search_anew() override {}
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return {}; }
+
+ private:
+  const simulation::Factory& factory_;
+};
+
 }  // namespace
 
 std::unique_ptr<app::PoseSource> make_pose_source(const std::string& name, const std::string& sensor,
                                                   const app::SiteForDriving& site,
                                                   const simulation::Factory& factory) {
+  if (name == kTruth) return std::make_unique<TrueSource>(factory);
   return std::make_unique<ChosenSource>(make_trial_localizer(name, site.walls), sensor == "scan", site,
                                         factory);
 }
