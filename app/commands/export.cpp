@@ -4,8 +4,11 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/learned/deviations.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "app/plot/reliability_plot.hpp"
+#include "core/result.hpp"
+#include "localization/warp/warp_file.hpp"
 #include "mapping/georeference/geojson.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "planning/route_graph/route_csv.hpp"
@@ -30,6 +33,7 @@ struct ExportArguments {
   std::string site;
   std::string geojson;
   std::string reliability;
+  std::string deviations;
 };
 
 void write_geojson(const ExportArguments& arguments) {
@@ -51,6 +55,24 @@ void write_reliability(const ExportArguments& arguments) {
   mapping::write_file_atomically(arguments.reliability, reliability_plot(walls, learned.reliability));
 }
 
+/// Where the building is not as drawn: a picture, a table and GeoJSON.
+void write_deviations(const ExportArguments& arguments) {
+  const std::filesystem::path folder(arguments.site);
+  const mapping::Site site = mapping::load_scaled_site(folder);
+  const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
+  localization::WarpFit fit;
+  const std::string trouble = localization::load_warp(folder / kWarpFile, walls, fit);
+  if (!trouble.empty() || fit.walls.empty())
+    throw Error((folder / kWarpFile).string(),
+                trouble.empty() ? "nothing has been learned of where the walls stand" : trouble,
+                "drive, or learn from a log: madori localize DIR --log LOG --learn");
+  const std::vector<Deviation> rows = deviations(walls, fit);
+  const std::string& stem = arguments.deviations;
+  mapping::write_file_atomically(stem + ".png", deviations_plot(walls, rows));
+  mapping::write_file_atomically(stem + ".csv", deviations_csv(rows));
+  mapping::write_file_atomically(stem + ".geojson", deviations_geojson(site, rows));
+}
+
 }  // namespace
 
 void add_export(CLI::App& app) {
@@ -60,9 +82,17 @@ void add_export(CLI::App& app) {
   command->add_option("--geojson", arguments->geojson, "GeoJSON, WGS84 (QGIS and others); - for stdout");
   command->add_option("--reliability", arguments->reliability,
                       "picture of what the lidar has seen of the drawn walls (PNG)");
-  command->callback([arguments] {
-    if (arguments->geojson.empty() && arguments->reliability.empty())
-      throw CLI::RequiredError("--geojson or --reliability");
+  CLI::Option* deviations = command->add_option(
+      "--deviations", arguments->deviations,
+      "where the building is not as drawn, wall by wall: STEM.png, STEM.csv and STEM.geojson; "
+      "without STEM: deviations in the site folder");
+  deviations->expected(0, 1);
+  command->callback([arguments, deviations] {
+    if (deviations->count() > 0 && arguments->deviations.empty())
+      arguments->deviations = (std::filesystem::path(arguments->site) / "deviations").string();
+    if (arguments->geojson.empty() && arguments->reliability.empty() && arguments->deviations.empty())
+      throw CLI::RequiredError("--geojson, --reliability or --deviations");
+    if (!arguments->deviations.empty()) write_deviations(*arguments);
     if (!arguments->geojson.empty()) write_geojson(*arguments);
     if (!arguments->reliability.empty()) write_reliability(*arguments);
   });

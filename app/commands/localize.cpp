@@ -11,6 +11,7 @@
 #include "app/health_log.hpp"
 #include "app/json_output.hpp"
 #include "app/learned/calibration_file.hpp"
+#include "app/learned/deviations.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "app/log_options.hpp"
 #include "app/log_player.hpp"
@@ -21,6 +22,7 @@
 #include "localization/drawing_learner/drawing_learner.hpp"
 #include "localization/memory/memory_file.hpp"
 #include "localization/wall_reliability/reliability_file.hpp"
+#include "localization/warp/warp_file.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
@@ -104,6 +106,19 @@ localization::SelfCalibration calibrate(const localization::DrawingLearner& lear
   return tied.converged && tied.uniform_sigma() < alone.uniform_sigma() ? tied : alone;
 }
 
+/// Where the drawn walls really stand, by the localizer's memory; goes on from what was learned before.
+void keep_warp(const std::filesystem::path& folder, const mapping::Walls& walls,
+               const localization::Localizer& localizer) {
+  localization::WarpFit fit;
+  const std::string trouble = localization::load_warp(folder / kWarpFile, walls, fit);
+  if (!trouble.empty()) std::fprintf(stderr, "%s\n", trouble.c_str());
+  const localization::WallIndex index(walls);
+  const localization::MemoryCloud cloud = localization::memory_cloud(localizer.memory());
+  fit = fit.walls.empty() ? localization::fit_warp_from_start(index, cloud)
+                          : localization::fit_warp(index, cloud, fit.warp);
+  localization::save_warp(folder / kWarpFile, fit, walls);
+}
+
 void localize(const LocalizeArguments& arguments) {
   const std::filesystem::path folder(arguments.site);
   const mapping::Site site = mapping::load_scaled_site(folder);
@@ -135,6 +150,9 @@ void localize(const LocalizeArguments& arguments) {
   if (arguments.learn) {
     localization::save_reliability(folder / kReliabilityFile, learner.reliability());
     (void)keep_calibration(folder, walls, *calibration);
+    // A memory that lies in a wrong place would bend the drawing to it.
+    if (!estimates.empty() && estimates.back().health.state <= LocalizationState::Degraded)
+      keep_warp(folder, walls, localizer);
   }
   mapping::write_file_atomically(arguments.out, trajectory);
   if (!arguments.health_file.empty()) {

@@ -16,7 +16,7 @@ namespace madori::localization {
 /// file.
 [[nodiscard]] std::string load_warp(const std::filesystem::path& file, const mapping::Walls& drawn,
                                     WarpFit& fit);
-/// Writes the file atomically. Throws Error (disk full, no permission).
+/// Writes the file atomically, and its folder where there is none. Throws Error (disk full, no permission).
 void save_warp(const std::filesystem::path& file, const WarpFit& fit, const mapping::Walls& drawn);
 
 }  // namespace madori::localization

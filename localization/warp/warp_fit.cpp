@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -15,14 +16,19 @@
 namespace madori::localization {
 namespace {
 
-constexpr double kFreedom = 3.0;       ///< of Student's t of the offsets: some walls are drawn quite wrong
-constexpr double kStretchM = 8.0;      ///< a longer wall has several offsets
-constexpr double kPieceM = 1.0;        ///< surfaces of so much of a wall are one row of the normal equations
+constexpr double kFreedom = 3.0;    ///< of Student's t of the offsets: some walls are drawn quite wrong
+constexpr double kStretchM = 8.0;   ///< a longer wall has several offsets
+constexpr double kFinestM = 2.5;    ///< spacing of control points, a fifth of the range;
+constexpr double kCoarsestM = 4.0;  ///< finer costs time, coarser does not follow a bend of 15 m
+constexpr double kPieceM = 1.0;     ///< surfaces of so much of a wall are one row of the normal equations
+constexpr double kShortestRangeM = 8.0;
+constexpr double kLongestRangeM = 40.0;
 constexpr double kSteepest = 0.45;     ///< step between control points by spacing; below 0.5 nothing folds
 constexpr double kPriorCount = 10.0;   ///< walls' worth of belief in the statistics of a drawing never seen
 constexpr double kLeastSigmaM = 0.01;  ///< residual: no memory is more exact
 constexpr double kLeastOffsetM = 0.003;
-constexpr double kVoteM = 0.05;  ///< bins of the search for a wall that stands elsewhere
+constexpr double kLeastVotes = 0.2;  ///< walls of two metres: less cannot move a wall
+constexpr double kVoteM = 0.05;      ///< bins of the search for a wall that stands elsewhere
 
 /// A surface that may belong to a stretch of a wall's side.
 struct Pair {
@@ -33,6 +39,7 @@ struct Pair {
   double distance_m;  ///< as WallSides::Candidate
   double along_m;
   double odds;         ///< of direction and side
+  double weight;       ///< of the surface, in observations
   double spread_m2;    ///< variance of where the warp carries the wall
   double share = 0.0;  ///< probability that the surface belongs to it
 };
@@ -54,6 +61,15 @@ double student_log(double offset_m, double scale_m) {
 double student_weight(double offset_m, double scale_m) {
   const double z = offset_m / scale_m;
   return (kFreedom + 1.0) / (kFreedom + z * z);
+}
+
+/// Errors of a drawing persist along a wall: two metres of it are one observation, and so is a shorter wall
+/// as a whole (the reveal of a door, the face of a column), of which no long straight surface is expected.
+double weight_of(const CloudSurface& surface, double wall_m) {
+  constexpr double kObservationM = 2.0;
+  constexpr double kShortestM = 0.4;
+  const double expected = std::clamp(wall_m / kObservationM, 0.1, 1.0);
+  return std::min(1.0, surface.weight / expected) * kVoxelM / std::clamp(wall_m, kShortestM, kObservationM);
 }
 
 enum class Shape { Identity, Similarity, Field };
@@ -151,7 +167,8 @@ void Explanation::pair_up(double doubt) {
     const double ny = at.sin_yaw() * s.normal_x + at.cos_yaw() * s.normal_y;
     const double spread = spread_m2(at.translation(), doubt);
     sides_.for_each_near(at.translation(), nx, ny, [&](const WallSides::Candidate& c) {
-      pairs_.push_back({i, c.wall, c.side, key_of(c), c.distance_m, c.along_m, c.odds, spread});
+      pairs_.push_back({i, c.wall, c.side, key_of(c), c.distance_m, c.along_m, c.odds,
+                        weight_of(s, sides_.lines()[c.wall].length_m), spread});
     });
   }
 }
@@ -185,7 +202,7 @@ void Explanation::vote(double doubt) {
       const double others = (sum - 1.0 - odds(pair, 0.0)) / sum;
       votes[static_cast<std::size_t>(unit)]
            [static_cast<std::size_t>(std::clamp(bin_of(pair.distance_m), 0, kBins - 1))] +=
-          static_cast<float>(cloud_[pair.surface].weight * pair.odds * (1.0 - others));
+          static_cast<float>(pair.weight * pair.odds * (1.0 - others));
     }
   }
   const double inliers = std::clamp(statistics_.inliers, 0.05, 0.98);
@@ -197,6 +214,8 @@ void Explanation::vote(double doubt) {
     gain[static_cast<std::size_t>(k)] = std::log1p(peak * std::exp(-0.5 * z * z));
   }
   for (std::size_t u = 0; u < units_.size(); ++u) {
+    const float cast = std::accumulate(votes[u].begin(), votes[u].end(), 0.0F);
+    if (cast < kLeastVotes) continue;
     const double scale = std::sqrt(statistics_.offset_m * statistics_.offset_m + spreads[u]);
     double best = -1e9;
     for (int k = 0; k < kBins; ++k) {
@@ -204,8 +223,7 @@ void Explanation::vote(double doubt) {
       double score = student_log(offset, scale);
       for (int b = 0; b < kBins; ++b) {
         const float count = votes[u][static_cast<std::size_t>(b)];
-        if (count > 0.0F)
-          score += kShareOfObservation * count * gain[static_cast<std::size_t>(std::abs(b - k))];
+        if (count > 0.0F) score += count * gain[static_cast<std::size_t>(std::abs(b - k))];
       }
       if (score > best) {
         best = score;
@@ -231,7 +249,7 @@ void Explanation::share_out(double) {
     for (std::size_t k = 0; first < last; ++first, ++k) {
       pairs_[first].share = own[k] / sum;
       units_[static_cast<std::size_t>(unit_of_key_[pairs_[first].unit])].weight +=
-          kShareOfObservation * cloud_[pairs_[first].surface].weight * pairs_[first].share;
+          pairs_[first].weight * pairs_[first].share;
     }
   }
 }
@@ -240,7 +258,7 @@ WarpLattice Explanation::lattice() const {
   WarpLattice made;
   if (shape_ != Shape::Field) return made;
   const double range = statistics_.range_m;
-  made.spacing_m = std::clamp(std::round(range / 5.0), 2.0, 4.0);
+  made.spacing_m = std::clamp(0.2 * range, kFinestM, kCoarsestM);
   Point2<Map> low{1e9, 1e9};
   Point2<Map> high{-1e9, -1e9};
   for (const Pair& pair : pairs_) {
@@ -274,7 +292,7 @@ std::vector<WarpObservation> Explanation::observations() const {
     if (pair.share < 1e-3) continue;
     const CloudSurface& s = cloud_[pair.surface];
     const double variance = statistics_.residual_m * statistics_.residual_m + pair.spread_m2;
-    const double w = kShareOfObservation * s.weight * pair.share / variance;
+    const double w = pair.weight * pair.share / variance;
     const auto piece = static_cast<std::uint64_t>(pair.along_m / kPieceM);
     const auto [at, fresh] =
         index.try_emplace((static_cast<std::uint64_t>(pair.unit) << 16U) | piece, sums.size());
@@ -371,7 +389,7 @@ void Explanation::learn_statistics() {
   for (std::size_t u = 0; u < units_.size(); ++u)
     units_[u].variance_m2 = posterior_->offset_variance(static_cast<int>(u));
   for (const Pair& pair : pairs_) {
-    const double w = kShareOfObservation * cloud_[pair.surface].weight * pair.share;
+    const double w = pair.weight * pair.share;
     const double offset = units_[static_cast<std::size_t>(unit_of_key_[pair.unit])].offset_m;
     const Point2<Map> foot = sides_.foot(pair.wall, pair.along_m);
     const Point2<Building> at = warp_.building(foot);
@@ -383,9 +401,9 @@ void Explanation::learn_statistics() {
     const double r = nx * (s.x_m - at.x_m) + ny * (s.y_m - at.y_m) - offset;
     squares += w * r * r;
     seen += w;
+    belonging += kShareOfObservation * s.weight * pair.share;
   }
   for (const CloudSurface& s : cloud_) all += kShareOfObservation * s.weight;
-  belonging += seen;
   const double left = std::max(0.2 * seen, seen - posterior_->freedom());
   statistics_.residual_m = std::clamp(std::sqrt((square + squares) / (count + left)), kLeastSigmaM, 0.2);
   statistics_.inliers = std::clamp(belonging / all, 0.05, 0.98);
@@ -421,7 +439,7 @@ void Explanation::try_ranges() {
   double best = score(statistics_.range_m, *posterior_);
   const double present = statistics_.range_m;
   for (const double factor : {0.8, 1.25}) {
-    const double range = std::clamp(present * factor, 5.0, 40.0);
+    const double range = std::clamp(present * factor, kShortestRangeM, kLongestRangeM);
     WarpPriorWeights prior = prior_;
     prior.range_m = range;
     const WarpPosterior other(lattice_, pivot_, rows_, prior);
@@ -467,7 +485,7 @@ WarpFit Explanation::result() const {
     const Unit& unit = units_[static_cast<std::size_t>(unit_of_key_[pair.unit])];
     WallSide& found = fit.walls[pair.wall].sides[side];
     const double length = kVoxelM * pair.share;
-    const double w = cloud_[pair.surface].weight * pair.share;
+    const double w = pair.weight * pair.share;
     found.seen_m += length;
     found.offset_m += w * unit.offset_m;
     found.sigma_m += w * (unit.variance_m2 + statistics_.residual_m * statistics_.residual_m);
@@ -475,7 +493,7 @@ WarpFit Explanation::result() const {
     if (std::abs(pair.distance_m - unit.offset_m) < 0.5) near[pair.wall][side] += kVoxelM;
     squares += w * (unit.offset_m * unit.offset_m);
     all += w;
-    fit.walls_seen += kShareOfObservation * w;
+    fit.walls_seen += w;
   }
   for (std::size_t i = 0; i < fit.walls.size(); ++i) {
     for (std::size_t side = 0; side < 2; ++side) {
@@ -514,8 +532,8 @@ WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const Drawing
   const auto explain = [&](const DrawingWarp& start, Shape shape, int rounds) {
     Explanation explanation(sides, cloud, start, shape);
     double doubt = 1.0;
-    for (int k = 0; k < rounds; ++k, doubt *= 0.5)
-      explanation.round(k + 1 < rounds ? doubt : 0.0, k + 2 >= rounds);
+    for (int k = 0; k + 1 < rounds; ++k, doubt *= 0.5) explanation.round(doubt, false);
+    explanation.round(0.0, true);
     return explanation;
   };
   if (cloud.empty() || drawn.walls().empty()) {
@@ -527,7 +545,7 @@ WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const Drawing
   Explanation field = explain(before, Shape::Field, options.rounds);
   const Explanation whole =
       explain(DrawingWarp(before.similarity(), {}, before.statistics()), Shape::Similarity, options.rounds);
-  const Explanation identity = explain(DrawingWarp({}, {}, before.statistics()), Shape::Identity, 3);
+  const Explanation identity = explain(DrawingWarp({}, {}, before.statistics()), Shape::Identity, 2);
   field.try_ranges();
   const double nats[3] = {identity.nats(), whole.nats(), field.nats()};
   const double gain = std::max(nats[1], nats[2]) - nats[0];
@@ -541,7 +559,7 @@ WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const Drawing
 }
 
 WarpFit fit_warp_from_start(const WallIndex& drawn, const MemoryCloud& cloud, const WarpFitOptions& options) {
-  constexpr int kKeyframes = 6;
+  constexpr int kKeyframes = 4;  // two metres of driving
   int last = 0;
   for (const CloudSurface& s : cloud) last = std::max(last, s.keyframe);
   WarpFit fit;

@@ -38,7 +38,7 @@ struct WarpFit {
 };
 
 struct WarpFitOptions {
-  int rounds = 4;           ///< of association and least squares
+  int rounds = 3;           ///< of association and least squares
   double least_nats = 3.0;  ///< of evidence before a warp is believed: odds of 20 to 1
 };
 

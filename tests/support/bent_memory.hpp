@@ -10,10 +10,10 @@ namespace madori::test {
 
 struct BentMemoryOptions {
   double metres = 100.0;   ///< of the lap
-  double spacing_m = 0.8;  ///< of the keyframes
+  double spacing_m = 0.5;  ///< of the keyframes
   double range_sigma_m = 0.015;
   double clutter = 0.0;  ///< share of the beams
-  int beams = 540;
+  int beams = 450;
   double range_max_m = 25.0;
 };
 

@@ -17,7 +17,7 @@ using test::BuildingKind;
 
 MemoryCloud seen_on_lap(const BentBuilding& building, double clutter) {
   BentMemoryOptions options;
-  options.metres = 70.0;
+  options.metres = 50.0;
   options.clutter = clutter;
   return memory_cloud(test::bent_memory(building, options));
 }
@@ -25,7 +25,7 @@ MemoryCloud seen_on_lap(const BentBuilding& building, double clutter) {
 /// Errors of the poses of the lap carried onto the drawing, sorted.
 std::vector<double> errors_m(const BentBuilding& building, const DrawingWarp& warp) {
   std::vector<double> errors;
-  for (const Point2<Map>& p : test::along_lap(building, 0.5, 70.0))
+  for (const Point2<Map>& p : test::along_lap(building, 0.5, 50.0))
     errors.push_back(distance_m(warp.map(building.warp->building(p)), p));
   std::sort(errors.begin(), errors.end());
   return errors;
