@@ -86,7 +86,7 @@ ceres::Solver::Options solver_options(const GraphOptions& options) {
   solver.max_num_iterations = options.max_iterations;
   solver.num_threads = 1;  // the same answer on every machine and replay
   solver.logging_type = ceres::SILENT;
-  solver.function_tolerance = 1e-5;
+  solver.function_tolerance = options.function_tolerance;
   solver.max_solver_time_in_seconds = 1e9;  // never the clock: replays must agree
   return solver;
 }

@@ -1,0 +1,127 @@
+#include "localization/landmarks/landmark_agent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.hpp"
+
+namespace madori::localization::landmarks {
+namespace {
+
+double distance_m(const Displacement& d) {
+  return std::hypot(d.x_m, d.y_m);
+}
+
+double widest_sigma_m(const Matrix3& covariance) {
+  return std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
+}
+
+/// Squared sigmas between a match and what was expected, axes of the landmark.
+double surprise(const FullPose& expected, const Displacement& found, const Matrix3& found_covariance) {
+  const Vector3 off{{found.x_m - expected.motion.x_m, found.y_m - expected.motion.y_m,
+                     wrap_angle(found.yaw_rad - expected.motion.yaw_rad)}};
+  return dot(off, inverse(expected.uncertainty.covariance + found_covariance) * off);
+}
+
+}  // namespace
+
+LandmarkAgent::LandmarkAgent(LandmarkHub& hub, const std::optional<FullPose>& rough_start,
+                             const AgentOptions& options)
+    : hub_(&hub), options_(options), rough_start_(rough_start) {}
+
+void LandmarkAgent::move(const FullPose& step) {
+  since_ = added(since_, step);
+  path_m_ += distance_m(step.motion);
+  driven_m_ += distance_m(step.motion);
+  yaw_rad_ += step.motion.yaw_rad;
+  headings_.push_back({driven_m_, yaw_rad_});
+}
+
+FullPose LandmarkAgent::pose() const {
+  if (last_ >= 0) return added(hub_->landmark(last_), since_);
+  return rough_start_ ? added(*rough_start_, since_) : since_;
+}
+
+/// A turning point, or a crossing: more ways lead on than before, and more than a corridor's two.
+bool LandmarkAgent::at_a_place(const Surroundings& seen) {
+  while (!headings_.empty() && driven_m_ - headings_.front().path_m > 0.5 * seen.corridor_width_m)
+    headings_.pop_front();
+  double turned = 0.0;
+  for (const Heading& h : headings_) turned = std::max(turned, std::abs(yaw_rad_ - h.yaw_rad));
+  const bool steady = seen.openings == openings_before_;
+  openings_before_ = seen.openings;
+  const bool crossing = steady && openings_ >= 0 && seen.openings > std::max(openings_, 2);
+  if (steady) openings_ = seen.openings;
+  return crossing || turned > options_.turning_point_rad;
+}
+
+std::optional<LandmarkAgent::Recognised> LandmarkAgent::recognise(const Surroundings& seen, bool is_place,
+                                                                  bool& near_known) const {
+  const std::vector<FullPose> landmarks = hub_->seen_from(std::max(last_, 0));
+  const FullPose here = last_ >= 0 ? since_ : pose();
+  const bool lost = !knows_its_place();
+  std::optional<Recognised> best;
+  double second = 0.0;
+  near_known = false;
+  for (int k = 0; k < static_cast<int>(landmarks.size()); ++k) {
+    if (landmarks[k].uncertainty.is_unknown()) continue;
+    if (k == last_ && !left_last_) {
+      near_known = true;
+      continue;
+    }
+    const double range_m = hub_->map().descriptor(k).median_range_m();
+    const FullPose expected = added(negated(landmarks[k]), here);
+    MatchWindow window{{}, seen.corridor_width_m, kPi};
+    if (!lost) {
+      const double sigma_m = widest_sigma_m(expected.uncertainty.covariance);
+      const double away_m = distance_m(expected.motion);
+      const double reach_m = (is_place ? 1.0 : 0.5) * seen.corridor_width_m;
+      if (away_m > reach_m + 3.0 * sigma_m) continue;
+      if (away_m < seen.corridor_width_m && std::abs(expected.motion.yaw_rad) < 0.25 * kPi) near_known = true;
+      window = {expected.motion, std::min(3.0 * sigma_m, 2.0 * range_m),
+                3.0 * std::sqrt(expected.uncertainty.covariance(2, 2))};
+    }
+    DescriptorMatch match = match_descriptor(hub_->map().descriptor(k), seen.descriptor, window);
+    const double floor_m2 = std::pow(options_.match_share * range_m, 2);
+    match.uncertainty.covariance =
+        match.uncertainty.covariance +
+        Matrix3::diagonal(floor_m2, floor_m2, std::pow(options_.match_sigma_rad, 2));
+    if (match.quality < (lost ? options_.alone_quality : options_.least_quality) ||
+        match.rival_quality > options_.rival_quality * match.quality)
+      continue;
+    if (!lost && surprise(expected, match.landmark_from_scan, match.uncertainty.covariance) > options_.gate)
+      continue;
+    second = std::max(second, best ? std::min(best->match.quality, match.quality) : 0.0);
+    if (!best || match.quality > best->match.quality) best = Recognised{k, match};
+  }
+  if (lost && best && second > options_.rival_quality * best->match.quality) return std::nullopt;
+  return best;
+}
+
+Sighting LandmarkAgent::arrive(Stamp stamp, int landmark, bool known, const FullPose& landmark_from_agent,
+                               double quality) {
+  if (last_ >= 0 && last_ != landmark)
+    hub_->measure(last_, landmark, added(since_, negated(landmark_from_agent)));
+  last_ = landmark;
+  left_last_ = false;
+  since_ = landmark_from_agent;
+  path_m_ = 0.0;
+  sightings_.push_back({stamp, landmark, known, landmark_from_agent, quality});
+  return sightings_.back();
+}
+
+std::optional<Sighting> LandmarkAgent::look(Stamp stamp, const Surroundings& seen) {
+  const bool is_place = at_a_place(seen);
+  const bool first = last_ < 0;
+  left_last_ = left_last_ || distance_m(since_.motion) > 1.5 * seen.corridor_width_m;
+  if (seen.descriptor.size() == 0 || (!first && path_m_ < seen.corridor_width_m)) return std::nullopt;
+  if (hub_->map().size() == 0) return arrive(stamp, hub_->add(seen.descriptor), false, {}, 1.0);
+  bool near_known = false;
+  if (const auto found = recognise(seen, is_place || first, near_known))
+    return arrive(stamp, found->landmark, true, {found->match.landmark_from_scan, found->match.uncertainty},
+                  found->match.quality);
+  if (!knows_its_place() || !is_place || near_known || hub_->full()) return std::nullopt;
+  return arrive(stamp, hub_->add(seen.descriptor), false, {}, 1.0);
+}
+
+}  // namespace madori::localization::landmarks

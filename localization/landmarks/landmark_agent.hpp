@@ -1,0 +1,80 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "core/stamp.hpp"
+#include "localization/landmarks/landmark_hub.hpp"
+#include "localization/landmarks/surroundings.hpp"
+
+namespace madori::localization::landmarks {
+
+/// An agent at a landmark.
+struct Sighting {
+  Stamp stamp{};
+  int landmark = 0;
+  bool known = false;            ///< recognised; else it was new and lies where the agent stood
+  FullPose landmark_from_agent;  ///< the published -Det
+  double quality = 1.0;          ///< of the match
+};
+
+struct AgentOptions {
+  double turning_point_rad =
+      1.0471975511965976;       ///< 60 degrees, within half a corridor's width (sheet of the paper)
+  double least_quality = 0.6;   ///< of a match: chosen on the Intel log, see docs/explanation/landmarks.md
+  double alone_quality = 0.75;  ///< the same where nothing is known of the place
+  double rival_quality = 0.9;   ///< share of the best at which another place is as good: no answer
+  double gate = 16.27;  ///< squared sigmas, 99.9 % of three: how far a match may lie from the expected pose
+  double match_share = 0.005;       ///< no match is better than this share of the descriptor's median range,
+  double match_sigma_rad = 0.0026;  ///< nor than 0.15 degrees, as in the memory's pose graph
+};
+
+/// One vehicle that maps: dead reckoning between landmarks, a scan match at each. Deterministic.
+class LandmarkAgent {
+ public:
+  /// The first agent starts the map: its first scan becomes landmark 0. A further agent has a rough pose,
+  /// seen from landmark 0; without one it compares what it sees with all landmarks until one alone fits.
+  explicit LandmarkAgent(LandmarkHub& hub, const std::optional<FullPose>& rough_start = {},
+                         const AgentOptions& options = {});
+
+  /// Dead reckoning since the last call: the new pose seen from the old one.
+  void move(const FullPose& step);
+  /// A scan at the present pose. A sighting where it is of a place: known ones are matched, others become
+  /// landmarks.
+  std::optional<Sighting> look(Stamp stamp, const Surroundings& seen);
+
+  /// Seen from landmark 0; unknown until a further agent has found its first landmark.
+  [[nodiscard]] FullPose pose() const;
+  [[nodiscard]] const std::vector<Sighting>& sightings() const { return sightings_; }
+
+ private:
+  struct Recognised {
+    int landmark;
+    DescriptorMatch match;
+  };
+  [[nodiscard]] bool at_a_place(const Surroundings& seen);
+  [[nodiscard]] bool knows_its_place() const { return last_ >= 0 || rough_start_; }
+  [[nodiscard]] std::optional<Recognised> recognise(const Surroundings& seen, bool is_place,
+                                                    bool& near_known) const;
+  Sighting arrive(Stamp stamp, int landmark, bool known, const FullPose& landmark_from_agent, double quality);
+
+  LandmarkHub* hub_;
+  AgentOptions options_;
+  std::optional<FullPose> rough_start_;
+  int last_ = -1;           ///< landmark of the last sighting
+  bool left_last_ = false;  ///< far enough from it to come back to it
+  FullPose since_;          ///< the agent seen from it
+  double path_m_ = 0.0;     ///< driven since
+  struct Heading {
+    double path_m, yaw_rad;
+  };
+  std::deque<Heading> headings_;  ///< of the last half corridor width
+  double driven_m_ = 0.0;
+  double yaw_rad_ = 0.0;
+  int openings_ = -1;         ///< of the last two scans that agreed
+  int openings_before_ = -1;  ///< of the scan before
+  std::vector<Sighting> sightings_;
+};
+
+}  // namespace madori::localization::landmarks
