@@ -13,6 +13,7 @@ void add_device_options(CLI::App& command, SocketOptions& devices);
 
 void add_demo(CLI::App& app);
 void add_evaluate(CLI::App& app);
+void add_landmarks(CLI::App& app);
 void add_localize(CLI::App& app);
 void add_export(CLI::App& app);
 void add_import(CLI::App& app);

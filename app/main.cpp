@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   madori::app::add_demo(app);
   madori::app::add_evaluate(app);
+  madori::app::add_landmarks(app);
   madori::app::add_localize(app);
   madori::app::add_map(app);
   madori::app::add_export(app);

@@ -8,6 +8,8 @@
 namespace madori::localization::landmarks {
 namespace {
 
+constexpr std::size_t kMostGuesses = 100;
+
 double distance_m(const Displacement& d) {
   return std::hypot(d.x_m, d.y_m);
 }
@@ -31,6 +33,7 @@ LandmarkAgent::LandmarkAgent(LandmarkHub& hub, const std::optional<FullPose>& ro
 
 void LandmarkAgent::move(const FullPose& step) {
   since_ = added(since_, step);
+  for (Guess& guess : guesses_) guess.since = added(guess.since, step);
   path_m_ += distance_m(step.motion);
   driven_m_ += distance_m(step.motion);
   yaw_rad_ += step.motion.yaw_rad;
@@ -59,9 +62,8 @@ std::optional<LandmarkAgent::Recognised> LandmarkAgent::recognise(const Surround
                                                                   bool& near_known) const {
   const std::vector<FullPose> landmarks = hub_->seen_from(std::max(last_, 0));
   const FullPose here = last_ >= 0 ? since_ : pose();
-  const bool lost = !knows_its_place();
+  const double reach_m = (is_place ? 1.0 : 0.5) * seen.corridor_width_m;
   std::optional<Recognised> best;
-  double second = 0.0;
   near_known = false;
   for (int k = 0; k < static_cast<int>(landmarks.size()); ++k) {
     if (landmarks[k].uncertainty.is_unknown()) continue;
@@ -69,33 +71,43 @@ std::optional<LandmarkAgent::Recognised> LandmarkAgent::recognise(const Surround
       near_known = true;
       continue;
     }
-    const double range_m = hub_->map().descriptor(k).median_range_m();
     const FullPose expected = added(negated(landmarks[k]), here);
-    MatchWindow window{{}, seen.corridor_width_m, kPi};
-    if (!lost) {
-      const double sigma_m = widest_sigma_m(expected.uncertainty.covariance);
-      const double away_m = distance_m(expected.motion);
-      const double reach_m = (is_place ? 1.0 : 0.5) * seen.corridor_width_m;
-      if (away_m > reach_m + 3.0 * sigma_m) continue;
-      if (away_m < seen.corridor_width_m && std::abs(expected.motion.yaw_rad) < 0.25 * kPi) near_known = true;
-      window = {expected.motion, std::min(3.0 * sigma_m, 2.0 * range_m),
-                3.0 * std::sqrt(expected.uncertainty.covariance(2, 2))};
-    }
-    DescriptorMatch match = match_descriptor(hub_->map().descriptor(k), seen.descriptor, window);
-    const double floor_m2 = std::pow(options_.match_share * range_m, 2);
-    match.uncertainty.covariance =
-        match.uncertainty.covariance +
-        Matrix3::diagonal(floor_m2, floor_m2, std::pow(options_.match_sigma_rad, 2));
-    if (match.quality < (lost ? options_.alone_quality : options_.least_quality) ||
-        match.rival_quality > options_.rival_quality * match.quality)
+    const double sigma_m = widest_sigma_m(expected.uncertainty.covariance);
+    const double away_m = distance_m(expected.motion);
+    if (away_m > reach_m + 3.0 * sigma_m) continue;
+    if (away_m < seen.corridor_width_m && std::abs(expected.motion.yaw_rad) < 0.25 * kPi) near_known = true;
+    const Descriptor& descriptor = hub_->map().descriptor(k);
+    const MatchWindow window{expected.motion, std::min(3.0 * sigma_m, 2.0 * descriptor.median_range_m()),
+                             3.0 * std::sqrt(expected.uncertainty.covariance(2, 2))};
+    const DescriptorMatch match = match_landmark(descriptor, seen, window);
+    if (match.quality < options_.least_quality ||
+        match.rival_quality > options_.rival_quality * match.quality ||
+        surprise(expected, match.landmark_from_scan, match.uncertainty.covariance) > options_.gate)
       continue;
-    if (!lost && surprise(expected, match.landmark_from_scan, match.uncertainty.covariance) > options_.gate)
-      continue;
-    second = std::max(second, best ? std::min(best->match.quality, match.quality) : 0.0);
     if (!best || match.quality > best->match.quality) best = Recognised{k, match};
   }
-  if (lost && best && second > options_.rival_quality * best->match.quality) return std::nullopt;
   return best;
+}
+
+/// Nothing is known of the place, and crossings look alike: two different landmarks, one after the other,
+/// must put the agent in the same place.
+std::optional<LandmarkAgent::Recognised> LandmarkAgent::recognise_alone(const Surroundings& seen) {
+  const std::vector<PlaceProposal> places = propose_places(*hub_, seen);
+  for (const PlaceProposal& place : places)
+    for (const Guess& guess : guesses_) {
+      const FullPose carried_on = added(guess.place.pose, guess.since);
+      if (guess.place.landmark == place.landmark ||
+          surprise(carried_on, place.pose.motion, place.pose.uncertainty.covariance) > options_.gate)
+        continue;
+      const FullPose before{guess.place.match.landmark_from_scan, guess.place.match.uncertainty};
+      last_ = guess.place.landmark;
+      since_ = added(before, guess.since);
+      guesses_.clear();
+      return Recognised{place.landmark, place.match};
+    }
+  for (const PlaceProposal& place : places) guesses_.push_back({place, {}});
+  while (guesses_.size() > kMostGuesses) guesses_.pop_front();
+  return std::nullopt;
 }
 
 Sighting LandmarkAgent::arrive(Stamp stamp, int landmark, bool known, const FullPose& landmark_from_agent,
@@ -116,11 +128,17 @@ std::optional<Sighting> LandmarkAgent::look(Stamp stamp, const Surroundings& see
   left_last_ = left_last_ || distance_m(since_.motion) > 1.5 * seen.corridor_width_m;
   if (seen.descriptor.size() == 0 || (!first && path_m_ < seen.corridor_width_m)) return std::nullopt;
   if (hub_->map().size() == 0) return arrive(stamp, hub_->add(seen.descriptor), false, {}, 1.0);
+  if (!knows_its_place()) {  // another look after half a corridor's width
+    if (driven_m_ - looked_at_m_ < 0.5 * seen.corridor_width_m) return std::nullopt;
+    looked_at_m_ = driven_m_;
+  }
   bool near_known = false;
-  if (const auto found = recognise(seen, is_place || first, near_known))
+  const auto found =
+      knows_its_place() ? recognise(seen, is_place || first, near_known) : recognise_alone(seen);
+  if (found)
     return arrive(stamp, found->landmark, true, {found->match.landmark_from_scan, found->match.uncertainty},
                   found->match.quality);
-  if (!knows_its_place() || !is_place || near_known || hub_->full()) return std::nullopt;
+  if (first || !is_place || near_known || hub_->full()) return std::nullopt;
   return arrive(stamp, hub_->add(seen.descriptor), false, {}, 1.0);
 }
 

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "core/stamp.hpp"
-#include "localization/landmarks/landmark_hub.hpp"
-#include "localization/landmarks/surroundings.hpp"
+#include "localization/landmarks/place_proposals.hpp"
 
 namespace madori::localization::landmarks {
 
@@ -21,20 +20,18 @@ struct Sighting {
 
 struct AgentOptions {
   double turning_point_rad =
-      1.0471975511965976;       ///< 60 degrees, within half a corridor's width (sheet of the paper)
-  double least_quality = 0.6;   ///< of a match: chosen on the Intel log, see docs/explanation/landmarks.md
-  double alone_quality = 0.75;  ///< the same where nothing is known of the place
-  double rival_quality = 0.9;   ///< share of the best at which another place is as good: no answer
+      1.0471975511965976;      ///< 60 degrees, within half a corridor's width (sheet of the paper)
+  double least_quality = 0.6;  ///< of a match: chosen on the Intel log, see docs/explanation/landmarks.md
+  double rival_quality = 0.9;  ///< share of the best at which another place is as good: no answer
   double gate = 16.27;  ///< squared sigmas, 99.9 % of three: how far a match may lie from the expected pose
-  double match_share = 0.005;       ///< no match is better than this share of the descriptor's median range,
-  double match_sigma_rad = 0.0026;  ///< nor than 0.15 degrees, as in the memory's pose graph
 };
 
 /// One vehicle that maps: dead reckoning between landmarks, a scan match at each. Deterministic.
 class LandmarkAgent {
  public:
   /// The first agent starts the map: its first scan becomes landmark 0. A further agent has a rough pose,
-  /// seen from landmark 0; without one it compares what it sees with all landmarks until one alone fits.
+  /// seen from landmark 0; without one it compares what it sees with all landmarks until two of them, one
+  /// after the other, put it in the same place.
   explicit LandmarkAgent(LandmarkHub& hub, const std::optional<FullPose>& rough_start = {},
                          const AgentOptions& options = {});
 
@@ -57,7 +54,14 @@ class LandmarkAgent {
   [[nodiscard]] bool knows_its_place() const { return last_ >= 0 || rough_start_; }
   [[nodiscard]] std::optional<Recognised> recognise(const Surroundings& seen, bool is_place,
                                                     bool& near_known) const;
+  [[nodiscard]] std::optional<Recognised> recognise_alone(const Surroundings& seen);
   Sighting arrive(Stamp stamp, int landmark, bool known, const FullPose& landmark_from_agent, double quality);
+
+  /// A place that a scan suggested while nothing was known, and the way since.
+  struct Guess {
+    PlaceProposal place;
+    FullPose since;
+  };
 
   LandmarkHub* hub_;
   AgentOptions options_;
@@ -71,9 +75,11 @@ class LandmarkAgent {
   };
   std::deque<Heading> headings_;  ///< of the last half corridor width
   double driven_m_ = 0.0;
+  double looked_at_m_ = -1e9;  ///< driven at the last look without any idea of the place
   double yaw_rad_ = 0.0;
   int openings_ = -1;         ///< of the last two scans that agreed
   int openings_before_ = -1;  ///< of the scan before
+  std::deque<Guess> guesses_;
   std::vector<Sighting> sightings_;
 };
 
