@@ -13,4 +13,4 @@ riscv64-unknown-elf-g++ -std=c++20 -march=rv32imac -mabi=ilp32 -mcmodel=medany -
   localization/landmarks/{bare_math,descriptor,descriptor_match,reductions,uncertain_pose}.cpp \
   tests/embedded/landmark_vectors.cpp tests/embedded/riscv32_start.cpp -lgcc -o "$work/landmarks.elf"
 riscv64-unknown-elf-size "$work/landmarks.elf"
-timeout 120 qemu-system-riscv32 -machine virt -bios none -nographic -kernel "$work/landmarks.elf" </dev/null
+timeout 500 qemu-system-riscv32 -machine virt -bios none -nographic -kernel "$work/landmarks.elf" </dev/null
