@@ -21,7 +21,7 @@ struct Sighting {
 struct AgentOptions {
   double turning_point_rad =
       1.0471975511965976;      ///< 60 degrees, within half a corridor's width (sheet of the paper)
-  double least_quality = 0.6;  ///< of a match: chosen on the Intel log, see docs/explanation/landmarks.md
+  double least_quality = 0.6;  ///< of a match: set beforehand, see docs/explanation/landmarks.md
   double rival_quality = 0.9;  ///< share of the best at which another place is as good: no answer
   double gate = 16.27;  ///< squared sigmas, 99.9 % of three: how far a match may lie from the expected pose
 };
