@@ -21,6 +21,8 @@ void add_detection_options(CLI::App& command, mapping::DetectionOptions& d) {
   command.add_option("--min-wall-length", d.min_wall_length_px, "shortest wall, pixels (default: measured)");
   command.add_option("--min-thickness", d.min_thickness_px, "solid walls are at least this thick, pixels");
   command.add_option("--close-gap", d.close_gap_px, "gaps up to this are closed, pixels");
+  command.add_option("--model", d.model, "choose the walls by this wall model instead of by rules")
+      ->check(CLI::ExistingFile);
   command.add_flag("--keep-furniture", d.keep_furniture, "furniture, machines and stairs are walls too");
   command.add_flag("--keep-dashed", d.keep_dashed, "dashed lines are walls too");
   command.add_flag("--keep-dimensions", d.keep_dimensions, "dimension lines are walls too");

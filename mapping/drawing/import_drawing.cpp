@@ -4,6 +4,7 @@
 #include <chrono>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 #include <utility>
 
 #include "core/result.hpp"
@@ -76,6 +77,20 @@ Walls to_map(const std::vector<PixelSegment>& segments, int height_px, double m_
     walls.push_back({static_cast<int>(walls.size()) + 1, {a, b}});
   }
   return walls;
+}
+
+/// The rows of walls.csv, each with the probability of its wall; as they are where nothing was judged.
+std::string with_probabilities(const std::string& rows, const std::vector<double>& probabilities) {
+  if (probabilities.empty()) return rows;
+  std::istringstream in(rows);
+  std::ostringstream out;
+  out.precision(3);
+  std::string row;
+  for (std::size_t i = 0; std::getline(in, row); ++i) {
+    out << row << ',';
+    i == 0 ? out << "probability\n" : out << probabilities[i - 1] << '\n';
+  }
+  return out.str();
 }
 
 /// One colour from edge to edge, as an empty page or a failed scan has it.
@@ -206,6 +221,7 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
 
   stages.begin("points", 0.85);
   const PointMap points = stage_walls(options, plan, walls, unit, scale.has_value(), change);
+  change.write("walls.csv", with_probabilities(walls_csv(walls), found.probabilities));
   stages.end(points.points.size());
   stages.begin("save", 0.9);
   stage_site(options, report.site, change);

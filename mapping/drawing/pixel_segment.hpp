@@ -44,6 +44,7 @@ enum class RejectReason { Text, Dimension, Hatch, DoorArc, Dashed, TitleBlock, F
 struct RejectedSegment {
   PixelSegment segment;
   RejectReason reason = RejectReason::Other;
+  double probability = 0;  ///< that it is a wall all the same
 };
 
 }  // namespace madori::mapping

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -95,7 +96,7 @@ SiteTransaction::~SiteTransaction() {
 }
 
 fs::path SiteTransaction::staged(const std::string& name) {
-  puts_.push_back(name);
+  if (std::find(puts_.begin(), puts_.end(), name) == puts_.end()) puts_.push_back(name);
   fs::path file = site_ / kStaging / name;
   fs::create_directories(file.parent_path());
   return file;

@@ -33,13 +33,15 @@ Walls load_walls(const std::filesystem::path& file) {
   for (int number = 1; std::getline(stream, line); ++number) {
     if (number == 1 || line.empty() || line == "\r") continue;
     Wall wall;
+    double probability = 1;  // that it is a wall; every line here was taken for one
     auto& [a, b] = wall.segment;
     std::string_view row = line;
     const bool good = take_number(row, wall.id) && take_number(row, a.x_m) && take_number(row, a.y_m) &&
-                      take_number(row, b.x_m) && take_number(row, b.y_m) && row.empty() &&
-                      std::isfinite(a.x_m + a.y_m + b.x_m + b.y_m);
+                      take_number(row, b.x_m) && take_number(row, b.y_m) &&
+                      (row.empty() || take_number(row, probability)) && row.empty() &&
+                      std::isfinite(a.x_m + a.y_m + b.x_m + b.y_m) && probability >= 0 && probability <= 1;
     if (!good)
-      throw Error(file.string() + ":" + std::to_string(number), "is not `id,x1,y1,x2,y2`",
+      throw Error(file.string() + ":" + std::to_string(number), "is not `id,x1,y1,x2,y2[,probability]`",
                   "mend or remove that line");
     walls.push_back(wall);
   }

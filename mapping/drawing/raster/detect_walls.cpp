@@ -1,6 +1,10 @@
 #include "mapping/drawing/raster/detect_walls.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/result.hpp"
+#include "mapping/drawing/labelling/label_lines.hpp"
 #include "mapping/drawing/raster/choose_walls.hpp"
 #include "mapping/drawing/raster/clean_marks.hpp"
 #include "mapping/drawing/raster/components.hpp"
@@ -12,47 +16,104 @@
 
 namespace madori::mapping {
 
+namespace {
+
+/// A drawing as lines, each with the reason where a rule explains it as something else than a wall.
+struct RuledLines {
+  WorkingInk working;
+  CleanedMarks cleaned;
+  DrawnLines drawn;
+  WallStyle style;
+  double u_scale = 1, v_scale = 1;  // pixels of the drawing for one of the lines
+};
+
+RuledLines rule_lines(const GrayImage& image, const DetectionOptions& chosen, StageClock& clock) {
+  clock.begin("binarize", 0);  // ink or paper, at a resolution that suits the pen
+  RuledLines ruled{working_ink(image, chosen.threshold), {}, {}, {}};
+  GrayImage& ink = ruled.working.ink;
+  const DetectionOptions options = resized(chosen, ruled.working.factor);
+  ruled.u_scale = static_cast<double>(image.width_px) / ink.width_px;
+  ruled.v_scale = static_cast<double>(image.height_px) / ink.height_px;
+  clock.picture("binarize", ink);
+  clock.end(static_cast<std::size_t>(ruled.working.threshold));
+
+  clock.begin("marks", 0.15);  // text, dashed lines, dirt: known by their marks alone
+  ruled.cleaned = clean_marks(ink, ruled.working.marks, ruled.working.pen_px, options);
+  const Components marks(ink);
+  clock.picture("marks", ink);
+  clock.end(marks.all().size());
+
+  ruled.drawn = extract_lines(ink, marks, ruled.cleaned.pen_px, options, clock);
+
+  clock.begin("sort", 0.8);  // what else lines stand for
+  ruled.style = choose_walls(ruled.drawn, ink, marks, ruled.cleaned, options);
+  clock.end(ruled.drawn.size());
+  return ruled;
+}
+
+/// The lines by the model: walls and others; where somebody asked to keep a kind of lines, it stays.
+DrawnLines judged(const GrayImage& image, const RuledLines& ruled, const DetectionOptions& chosen) {
+  const LabelSheet sheet = label_sheet(image, ruled.drawn, ruled.u_scale, ruled.v_scale);
+  const WallModel model = chosen.model.empty() ? WallModel::shipped() : WallModel::load(chosen.model);
+  DrawnLines lines =
+      label_lines(sheet, model.probabilities(sheet.features), ruled.drawn, ruled.u_scale, ruled.v_scale);
+  const DetectionOptions options = resized(chosen, ruled.working.factor);
+  const bool keeps = options.keep_furniture || options.keep_dashed || options.keep_dimensions;
+  for (DrawnLine& line : lines) {
+    const bool kept = keeps && !line.rejected && !line.pale;
+    if (line.probability >= kWallFrom || kept) {
+      line.rejected.reset();
+    } else if (!line.rejected) {
+      line.rejected = RejectReason::Other;
+    }
+    if (options.min_wall_length_px && !line.rejected && line.length_px() < *options.min_wall_length_px)
+      line.rejected = RejectReason::TooShort;
+  }
+  return lines;
+}
+
+}  // namespace
+
+LabelSheet training_sheet(const GrayImage& image) {
+  DetectedWalls unused;
+  const StageSink sink;
+  const Progress progress;
+  StageClock clock(unused, sink, progress);
+  const RuledLines ruled = rule_lines(image, {}, clock);
+  return label_sheet(image, ruled.drawn, ruled.u_scale, ruled.v_scale);
+}
+
 DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& chosen, const StageSink& sink,
                            const Progress& progress) {
   if (!chosen.is_valid()) throw Error("wall detection", chosen.why_invalid(), "correct the option");
   if (image.empty()) throw Error("wall detection", "the picture has no pixels", "import another drawing");
   DetectedWalls found;
   StageClock clock(found, sink, progress);
+  RuledLines ruled = rule_lines(image, chosen, clock);
 
-  clock.begin("binarize", 0);  // ink or paper, at a resolution that suits the pen
-  WorkingInk working = working_ink(image, chosen.threshold);
-  GrayImage& ink = working.ink;
-  const DetectionOptions options = resized(chosen, working.factor);
-  clock.picture("binarize", ink);
-  clock.end(static_cast<std::size_t>(working.threshold));
-
-  clock.begin("marks", 0.15);  // text, dashed lines, dirt: known by their marks alone
-  CleanedMarks cleaned = clean_marks(ink, working.marks, working.pen_px, options);
-  const Components marks(ink);
-  clock.picture("marks", ink);
-  clock.end(marks.all().size());
-
-  DrawnLines drawn = extract_lines(ink, marks, cleaned.pen_px, options, clock);
-
-  clock.begin("sort", 0.9);  // walls, and what else lines stand for
-  const WallStyle style = choose_walls(drawn, ink, marks, cleaned, options);
+  clock.begin("label", 0.85);  // by the wall model where one is named, or where the rules find nothing
+  const bool by_rules =
+      chosen.model.empty() && std::any_of(ruled.drawn.begin(), ruled.drawn.end(),
+                                          [](const DrawnLine& line) { return !line.rejected; });
+  DrawnLines drawn = by_rules ? std::move(ruled.drawn) : judged(image, ruled, chosen);
   clock.end(drawn.size());
 
   clock.begin("settle", 0.95);  // to a fraction of a pixel
-  settle_lines(drawn, {image, static_cast<double>(image.width_px) / ink.width_px,
-                       static_cast<double>(image.height_px) / ink.height_px, working.bright_lines});
-  found.walls = column_faces(cleaned, style);
-  found.rejected = std::move(cleaned.rejected);
+  settle_lines(drawn, {image, ruled.u_scale, ruled.v_scale, ruled.working.bright_lines});
+  found.walls = column_faces(ruled.cleaned, ruled.style);
+  if (!by_rules) found.probabilities.assign(found.walls.size(), 1);
+  found.rejected = std::move(ruled.cleaned.rejected);
   for (const DrawnLine& line : drawn) {
     if (line.rejected) {
-      found.rejected.push_back({line.segment, *line.rejected});
+      found.rejected.push_back({line.segment, *line.rejected, line.probability});
     } else {
       found.walls.push_back(line.segment);
+      if (!by_rules) found.probabilities.push_back(line.probability);
     }
   }
-  rescale(found, ink, image);
+  rescale(found, ruled.working.ink, image);
   found.skew_deg = measure_skew_deg(found.walls);
-  if (options.straighten) straighten(found.walls, found.skew_deg);
+  if (chosen.straighten) straighten(found.walls, found.skew_deg);
   clock.end(found.walls.size());
   if (progress) progress("done", 1);
   return found;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,8 @@ struct DetectionOptions {
   std::optional<double> close_gap_px;
   /// Scale where it is known already; guards only against absurd wall thicknesses.
   std::optional<double> m_per_px;
+  /// The wall model that decides; empty: the rules, and the shipped model where they find no wall.
+  std::filesystem::path model;
   bool keep_furniture = false;    ///< furniture, machines and stairs stay walls
   bool keep_dashed = false;       ///< dashed and dash-dot lines stay walls
   bool keep_dimensions = false;   ///< dimension, leader and extension lines stay walls

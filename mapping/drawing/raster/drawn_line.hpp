@@ -10,6 +10,8 @@
 
 namespace madori::mapping {
 
+constexpr double kWallFrom = 0.5;  // probability: what is at least that is taken for a wall
+
 /// A straight line of the drawing with what is known about it.
 struct DrawnLine {
   PixelSegment segment;
@@ -18,6 +20,8 @@ struct DrawnLine {
   double residual_px = 0;   ///< root mean square distance of its pixels
   int chain = -1;           ///< the bent line it is a piece of; -1 = straight from the Hough transform
   std::optional<RejectReason> rejected;  ///< set by the first stage that knows it is no wall
+  double probability = 1;  ///< that it is a wall
+  bool pale = false;       ///< an edge in which no ink was found
 
   [[nodiscard]] double length_px() const { return segment.length_px(); }
   /// Direction, [0, pi): lines have no sense.

@@ -15,9 +15,17 @@ TEST(Walls, SurviveSavingAndLoading) {
   EXPECT_EQ(load_walls(folder.write("walls.csv", walls_csv(walls))), walls);
 }
 
+TEST(Walls, MayHaveAProbability) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("walls.csv", "id,x1,y1,x2,y2,probability\n3,0,0,1,1,0.75\n4,0,1,1,1,1\n");
+  const Walls walls = load_walls(file);
+  ASSERT_EQ(walls.size(), 2U);
+  EXPECT_EQ(walls.front().id, 3);
+}
+
 TEST(Walls, RefuseABadRowWithItsLine) {
   const test::TemporaryFolder folder;
-  for (const char* row : {"1,2,3,4", "1,2,3,4,nan", "1,2,3,4,5,6", "a,2,3,4,5", "1,2,3,4,5x"}) {
+  for (const char* row : {"1,2,3,4", "1,2,3,4,nan", "1,2,3,4,5,6", "1,2,3,4,5,0.5,1", "a,2,3,4,5", "1,2,3,4,5x"}) {
     const auto file = folder.write("walls.csv", std::string("id,x1,y1,x2,y2\n0,0,0,1,1\n") + row + "\n");
     try {
       (void)load_walls(file);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "mapping/drawing/labelling/edge_network.hpp"
+#include "mapping/drawing/labelling/edge_rays.hpp"
+#include "mapping/drawing/labelling/edge_regions.hpp"
+#include "mapping/drawing/labelling/edge_sheet.hpp"
+#include "mapping/drawing/labelling/feature_table.hpp"
+
+namespace madori::mapping {
+
+/// What is measured of a sheet's edges, before it is made relative to the sheet.
+struct EdgeMeasures {
+  std::vector<EdgeViews> views;
+  std::vector<EdgeLinks> links;
+  std::vector<EdgeRegions> regions;
+};
+
+[[nodiscard]] EdgeMeasures measure_edges(const EdgeSheet& sheet);
+
+/// The features that the wall model knows, one row an edge.
+[[nodiscard]] FeatureTable edge_features(const EdgeSheet& sheet, const EdgeMeasures& measures);
+
+}  // namespace madori::mapping

@@ -1,0 +1,163 @@
+#include "mapping/drawing/labelling/edge_rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/median.hpp"
+
+namespace madori::mapping {
+namespace {
+
+constexpr double kParallelSine = 0.15;  // two edges within 9 degrees are parallel
+constexpr double kReach = 0.05;         // of the sheet: further apart are no two faces of a wall
+constexpr double kFar = 0.3;            // of the sheet: free beyond is free
+constexpr double kStep = 0.7;           // pixels: no 8-connected line is stepped over
+constexpr int kEvents = 5;
+
+struct Event {
+  double distance = 0;
+  int edge = -1;
+  bool parallel = false, opposite = false;
+};
+
+struct Ray {
+  std::array<Event, kEvents> events;
+  int count = 0;
+  bool border = false;
+  double near_grey = 0, fill_grey = 0, fill_square = 0;
+};
+
+class Looker {
+ public:
+  explicit Looker(const EdgeSheet& sheet) : sheet_(sheet) {}
+
+  [[nodiscard]] SideView look(std::size_t edge, double side) const {
+    const Edge& e = sheet_.edges[edge];
+    const int places = std::clamp(static_cast<int>(e.length_px / 4), 3, 15);
+    std::vector<Ray> rays;
+    for (int k = 0; k < places; ++k) rays.push_back(cast(edge, side, (k + 0.5) / places));
+    return summary(rays);
+  }
+
+ private:
+  [[nodiscard]] Ray cast(std::size_t from, double side, double t) const {
+    const Edge& e = sheet_.edges[from];
+    const double u0 = std::lerp(e.segment.u1, e.segment.u2, t), v0 = std::lerp(e.segment.v1, e.segment.v2, t);
+    const double nu = side * e.normal_u, nv = side * e.normal_v;
+    const double far = kFar * sheet_.size_px, reach = kReach * sheet_.size_px;
+    Ray ray;
+    double sum = 0, square = 0;
+    int filled = 0, near = 0;
+    int last = static_cast<int>(from);
+    for (double d = kStep; d < far && ray.count < kEvents;) {
+      const double u = u0 + d * nu, v = v0 + d * nv;
+      if (!sheet_.inside(u, v)) {
+        ray.border = true;
+        break;
+      }
+      const std::size_t pixel = sheet_.pixel(u, v);
+      const double grey = sheet_.grey.pixels[pixel];
+      if (d > 1 && d < 3.2) {
+        ray.near_grey += grey;
+        ++near;
+      }
+      if (ray.count == 0 && d < reach && d > 1) {
+        sum += grey;
+        square += grey * grey;
+        ++filled;
+      }
+      const int met = sheet_.edge_at[pixel];
+      if (met >= 0 && met != last && met != static_cast<int>(from)) {
+        add(ray, e, met, d);
+        last = met;
+      }
+      d += std::max(kStep, sheet_.clear_px[pixel] - 1.5);
+    }
+    if (near > 0) ray.near_grey /= near;
+    if (filled > 0) {
+      ray.fill_grey = sum / filled;
+      ray.fill_square = square / filled;
+    } else {
+      ray.fill_grey = ray.near_grey;
+      ray.fill_square = ray.near_grey * ray.near_grey;
+    }
+    return ray;
+  }
+
+  void add(Ray& ray, const Edge& from, int met, double distance) const {
+    const Edge& other = sheet_.edges[static_cast<std::size_t>(met)];
+    const double sine = from.normal_u * other.normal_v - from.normal_v * other.normal_u;
+    const bool parallel = std::abs(sine) < kParallelSine;
+    const bool opposite = from.normal_u * other.normal_u + from.normal_v * other.normal_v < 0;
+    if (ray.count > 0) {  // the next piece of the edge that was just met
+      const Event& before = ray.events[static_cast<std::size_t>(ray.count - 1)];
+      if (parallel && before.parallel && before.opposite == opposite && distance - before.distance < 1.5)
+        return;
+    }
+    ray.events[static_cast<std::size_t>(ray.count++)] = {distance, met, parallel, opposite};
+  }
+
+  [[nodiscard]] SideView summary(const std::vector<Ray>& rays) const {
+    SideView view;
+    const double far = kFar * sheet_.size_px;
+    std::vector<double> free, near, fill, spread;
+    for (const Ray& ray : rays) {
+      free.push_back(ray.count > 0 ? ray.events[0].distance : far);
+      near.push_back(ray.near_grey);
+      fill.push_back(ray.fill_grey);
+      spread.push_back(std::sqrt(std::max(0.0, ray.fill_square - ray.fill_grey * ray.fill_grey)));
+      view.open += ray.count == 0 && ray.border ? 1.0 / static_cast<double>(rays.size()) : 0.0;
+    }
+    view.free_most_px = *std::max_element(free.begin(), free.end());
+    view.free_px = median_of(free);
+    view.near_grey = median_of(near);
+    view.fill_grey = median_of(fill);
+    view.fill_spread = median_of(spread);
+    for (int h = 0; h < SideView::kHits; ++h) view.hits[static_cast<std::size_t>(h)] = parallel_hit(rays, h);
+    return view;
+  }
+
+  [[nodiscard]] SideView::ParallelHit parallel_hit(const std::vector<Ray>& rays, int wanted) const {
+    const double far = kFar * sheet_.size_px, reach = kReach * sheet_.size_px;
+    std::vector<double> distances, after;
+    std::map<int, int> votes;
+    int opposite = 0;
+    for (const Ray& ray : rays) {
+      int parallel = 0;
+      for (int k = 0; k < ray.count; ++k) {
+        const Event& event = ray.events[static_cast<std::size_t>(k)];
+        if (!event.parallel || event.distance > reach || parallel++ != wanted) continue;
+        distances.push_back(event.distance);
+        after.push_back(
+            k + 1 < ray.count ? ray.events[static_cast<std::size_t>(k + 1)].distance - event.distance : far);
+        opposite += event.opposite ? 1 : 0;
+        ++votes[event.edge];
+      }
+    }
+    SideView::ParallelHit hit;
+    if (3 * distances.size() < rays.size() || distances.empty()) return hit;
+    const auto count = static_cast<double>(distances.size());
+    hit.share = count / static_cast<double>(rays.size());
+    hit.opposite = opposite / count;
+    hit.distance_px = median_of(distances);
+    hit.free_after_px = median_of(after);
+    hit.edge = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
+                 return a.second < b.second;
+               })->first;
+    return hit;
+  }
+
+  const EdgeSheet& sheet_;
+};
+
+}  // namespace
+
+std::vector<EdgeViews> look_across(const EdgeSheet& sheet) {
+  const Looker looker(sheet);
+  std::vector<EdgeViews> views(sheet.edges.size());
+  for (std::size_t i = 0; i < views.size(); ++i) views[i] = {looker.look(i, 1), looker.look(i, -1)};
+  return views;
+}
+
+}  // namespace madori::mapping

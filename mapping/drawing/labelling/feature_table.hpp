@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace madori::mapping {
+
+/// What is known of every line of a drawing, a named column a feature. All are relative to the drawing's own
+/// size, pen and greys, so that they mean the same on every sheet.
+class FeatureTable {
+ public:
+  explicit FeatureTable(std::size_t rows) : rows_(rows) {}
+
+  void add(std::string name, std::vector<float> column) {
+    names_.push_back(std::move(name));
+    columns_.push_back(std::move(column));
+  }
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  [[nodiscard]] float at(std::size_t row, std::size_t column) const { return columns_[column][row]; }
+  /// The values of one line, in the order of names().
+  [[nodiscard]] std::vector<float> row(std::size_t row) const {
+    std::vector<float> values;
+    values.reserve(columns_.size());
+    for (const auto& column : columns_) values.push_back(column[row]);
+    return values;
+  }
+
+ private:
+  std::size_t rows_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<float>> columns_;
+};
+
+}  // namespace madori::mapping

@@ -1,0 +1,88 @@
+#include "mapping/drawing/labelling/wall_model.hpp"
+
+#include <xgboost/c_api.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "core/result.hpp"
+
+// The model file becomes read-only data of the library.
+asm(".pushsection .rodata\n"
+    ".balign 16\n"
+    "madori_wall_model: .incbin \"" MADORI_WALL_MODEL
+    "\"\n"
+    "madori_wall_model_end: .byte 0\n"
+    ".popsection\n");
+extern "C" const char madori_wall_model[];
+extern "C" const char madori_wall_model_end[];
+
+namespace madori::mapping {
+namespace {
+
+void check(int status, const std::string& name) {
+  if (status != 0) throw Error(name, XGBGetLastError(), "train it again: train_walls");
+}
+
+}  // namespace
+
+struct WallModel::Trees {
+  Trees() = default;
+  Trees(const Trees&) = delete;
+  Trees& operator=(const Trees&) = delete;
+  ~Trees() { XGBoosterFree(booster); }
+  std::string name;
+  BoosterHandle booster = nullptr;
+  std::vector<std::string> features;
+};
+
+WallModel WallModel::from_bytes(const std::string& name, const void* bytes, std::size_t size) {
+  auto trees = std::make_shared<Trees>();
+  trees->name = name;
+  check(XGBoosterCreate(nullptr, 0, &trees->booster), name);
+  check(XGBoosterLoadModelFromBuffer(trees->booster, bytes, size), name);
+  check(XGBoosterSetParam(trees->booster, "nthread", "1"), name);  // the same sums in the same order
+  bst_ulong count = 0;
+  const char** names = nullptr;
+  check(XGBoosterGetStrFeatureInfo(trees->booster, "feature_name", &count, &names), name);
+  trees->features.assign(names, names + count);
+  return WallModel(std::move(trees));
+}
+
+WallModel WallModel::load(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw Error(file.string(), "cannot be opened", "name a model that train_walls wrote");
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  return from_bytes(file.string(), bytes.data(), bytes.size());
+}
+
+const WallModel& WallModel::shipped() {
+  // Never destroyed: at the end of the program xgboost's own statics are gone before it.
+  static const WallModel& model =
+      *new WallModel(from_bytes("the wall model", madori_wall_model,
+                                static_cast<std::size_t>(madori_wall_model_end - madori_wall_model)));
+  return model;
+}
+
+std::vector<float> WallModel::probabilities(const FeatureTable& features) const {
+  if (features.names() != trees_->features)
+    throw Error(trees_->name, "was trained on other features than this version measures",
+                "train it again: train_walls");
+  if (features.rows() == 0) return {};
+  std::vector<float> values;
+  for (std::size_t i = 0; i < features.rows(); ++i) {
+    const auto row = features.row(i);
+    values.insert(values.end(), row.begin(), row.end());
+  }
+  DMatrixHandle matrix = nullptr;
+  check(XGDMatrixCreateFromMat(values.data(), features.rows(), features.names().size(), -1e9F, &matrix),
+        trees_->name);
+  const std::unique_ptr<void, int (*)(DMatrixHandle)> owner(matrix, XGDMatrixFree);
+  bst_ulong count = 0;
+  const float* result = nullptr;
+  check(XGBoosterPredict(trees_->booster, matrix, 0, 0, 0, &count, &result), trees_->name);
+  return {result, result + count};
+}
+
+}  // namespace madori::mapping
