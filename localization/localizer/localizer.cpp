@@ -24,15 +24,47 @@ std::vector<Point2<Base>> to_points(const ScanPoints& points) {
 
 Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPose>& initial,
                      const LocalizerOptions& options)
-    : options_(options), model_(options.odometry) {
-  map_.memory = Memory(options.memory);
-  map_.start = initial.value_or(InitialPose{});
-  map_.evidence.has_drawing = !walls.empty();
-  anchor_ = map_.start.map_from_base;
-  if (!walls.empty()) {
-    map_.drawing.emplace(walls);
-    map_.evidence.searching = !initial;
-  }
+    : options_(options), model_(options.odometry), surroundings_(options.surroundings) {
+  if (!walls.empty()) map_.drawing.emplace(walls);
+  begin_anew(initial);
+}
+
+/// What was remembered lies elsewhere, or nobody knows where: a fresh memory, from the next scan on.
+void Localizer::begin_anew(const std::optional<StartPrior>& told) {
+  worker_.discard();
+  map_.memory = Memory(options_.memory);
+  if (map_.drawing) map_.drawing->belief.forget();
+  map_.evidence = {};
+  map_.evidence.has_drawing = map_.drawing.has_value();
+  map_.told = told;
+  map_.placed = told.has_value();
+  map_.next_survey_walls = 0.0;
+  if (told) anchor_ = told->map_from_base;
+  const StartPrior sigma = told.value_or(StartPrior{{}, 1e2, kPi});
+  covariance_ = Eigen::Vector3d(sigma.sigma_m * sigma.sigma_m, sigma.sigma_m * sigma.sigma_m,
+                                sigma.sigma_rad * sigma.sigma_rad)
+                    .asDiagonal();
+  late_anchor_.reset();
+  since_scan_ = {};
+  if (!track_.empty()) anchor_stamp_ = track_.newest().stamp;
+  started_ = false;
+}
+
+void Localizer::set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) {
+  begin_anew(StartPrior{map_from_base, sigma.position_m, sigma.yaw_rad});
+}
+
+void Localizer::search_anew() {
+  begin_anew(std::nullopt);
+}
+
+std::vector<PoseHypothesis> Localizer::hypotheses() const {
+  std::vector<PoseHypothesis> all;
+  if (!map_.drawing) return all;
+  const Transform2<Map, Base> here = anchor_ * since_scan_.motion;
+  for (const Placement& p : map_.drawing->belief.placements())
+    if (!p.mirrored) all.push_back({p.correction * here, p.probability, p.explained});
+  return all;
 }
 
 PoseEstimate Localizer::estimate(Stamp stamp, const Transform2<Map, Base>& map_from_base) const {
@@ -70,12 +102,14 @@ ScanMatch Localizer::match(const SurfaceScan& scan, const OdometryStep& step) co
 }
 
 void Localizer::recall(Memory memory) {
-  if (started_ || map_.evidence.searching || memory.empty()) return;
+  if (started_ || !map_.told || memory.empty()) return;
   map_.memory = std::move(memory);
 }
 
 void Localizer::start(SurfaceScan scan) {
-  anchor_stamp_ = scan.stamp;
+  if (!track_.empty() && anchor_stamp_ < scan.stamp)
+    anchor_ = anchor_ * track_.between(anchor_stamp_, scan.stamp, model_).motion;
+  anchor_stamp_ = begun_ = scan.stamp;
   agreement_.begin(scan.stamp);
   double way_m = 0.0;
   if (!map_.memory.empty()) {
@@ -83,8 +117,8 @@ void Localizer::start(SurfaceScan scan) {
     recalled_ = place.has_value();
     if (place) {
       anchor_ = *place;
-      map_.start = {map_.memory.poses().front(), 0.3, 0.1};  // the first keyframe is tied to it
-      way_m = options_.memory.break_open_m;                  // unknown; the old keyframes are not recent
+      map_.told = StartPrior{map_.memory.poses().front(), options_.tie_m, options_.tie_rad};
+      way_m = options_.memory.break_open_m;  // unknown; the old keyframes are not recent
     } else {
       map_.memory = Memory(options_.memory);
     }
@@ -138,41 +172,44 @@ Memory Localizer::finished_memory() {
   return std::move(state.memory);
 }
 
-/// After being moved by hand: what was remembered lies elsewhere; the place is sought with a fresh memory.
-void Localizer::search_from_here(SurfaceScan scan) {
-  worker_.discard();
-  map_.memory = Memory(options_.memory);
-  map_.evidence = {};
-  map_.evidence.searching = true;
-  map_.next_survey_walls = 0.0;
-  start(std::move(scan));
-}
-
 PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
   SurfaceScan scan = make_surface_scan(stamp, sensor, to_points(points), options_.scan);
-  if (!started_) {
-    if (!scan.points.empty()) {
-      start(std::move(scan));
-      think_if_due(stamp);
-    }
-    return estimate(stamp, anchor_);
-  }
   take_in_thoughts(stamp);
-  if (stamp < anchor_stamp_) return on_late_scan(stamp, scan);
-  follow(scan, track_.between(anchor_stamp_, stamp, model_));
-  anchor_stamp_ = stamp;
-  since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
-  if (gives_up(stamp)) {
-    search_from_here(std::move(scan));
-    return estimate(stamp, anchor_);
+  if (started_ && stamp < anchor_stamp_) return on_late_scan(stamp, scan);
+  if (started_) {
+    const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
+    const Transform2<Map, Base> before = anchor_;
+    follow(scan, step);
+    if (getenv("DBG")) fprintf(stderr, "scan %.3f kf %zu at %.2f %.2f %.0f inl %.2f rec %.2f blind %d walls %.2f\n", to_seconds(stamp.time_since_epoch()), map_.memory.size(), anchor_.x_m(), anchor_.y_m(), to_deg(anchor_.yaw_rad()), map_.evidence.on_memory, agreement_.usual_inliers(), map_.evidence.blind_scans, map_.evidence.on_walls);
+    if (was_carried(stamp, points, step, before) || gives_up(stamp) || wants_another_look(stamp)) {
+      if (getenv("DBG")) fprintf(stderr, "ANEW blind %d placed %d\n", map_.evidence.blind_scans, map_.placed);
+      begin_anew(std::nullopt);
+    }
+  } else {
+    surroundings_.take(stamp, points);
   }
+  anchor_stamp_ = started_ ? stamp : anchor_stamp_;
+  if (!started_ && !scan.points.empty())
+    start(std::move(scan));
+  else if (started_)
+    remember_if_new(std::move(scan));
+  since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
+  if (started_) think_if_due(stamp);
+  return estimate(stamp, anchor_);
+}
+
+void Localizer::remember_if_new(SurfaceScan scan) {
   const Transform2<Base, Base> moved = map_.memory.poses().back().inverse() * anchor_;
   if (std::hypot(moved.x_m(), moved.y_m()) > options_.keyframe_m ||
-      std::abs(moved.yaw_rad()) > options_.keyframe_rad) {
+      std::abs(moved.yaw_rad()) > options_.keyframe_rad)
     remember(std::move(scan));
-  }
-  think_if_due(stamp);
-  return estimate(stamp, anchor_);
+}
+
+/// Does the lidar see other surroundings than a moment ago, wherever the vehicle is laid?
+bool Localizer::was_carried(Stamp stamp, const ScanPoints& points, const OdometryStep& step,
+                            const Transform2<Map, Base>& before) {
+  surroundings_.take(stamp, points);
+  return surroundings_.compare(step.motion, before.inverse() * anchor_) == Surroundings::Others;
 }
 
 /// Which of the two clocks is right shows next.
@@ -197,14 +234,18 @@ void Localizer::follow(const SurfaceScan& scan, const OdometryStep& step) {
   covariance_ = matched_covariance(matched, map_);
 }
 
-/// Was the vehicle moved by hand, so that what is remembered lies elsewhere? Only an exact drawing that had
-/// fitted is better than the memory.
+/// Has nothing agreed for so long that what is remembered must lie elsewhere?
 bool Localizer::gives_up(Stamp stamp) const {
-  return map_.drawing_is_exact(options_) && !map_.evidence.searching &&
-         map_.evidence.blind_scans >= options_.restart_scans &&
+  return map_.drawing && map_.evidence.blind_scans >= options_.restart_scans &&
          judge(agreement_.evidence_at(stamp, map_.evidence), options_.health).state ==
-             LocalizationState::Lost &&
-         map_.drawing_fits(options_.health);
+             LocalizationState::Lost;
+}
+
+/// A vehicle that stands and does not know where sees the same for ever, but for what moves before its lidar:
+/// now and then one scan takes the place of the other. They are not independent and never add up.
+bool Localizer::wants_another_look(Stamp stamp) const {
+  return map_.drawing && !map_.placed && map_.evidence.looked && !worker_.busy() && map_.memory.size() == 1 &&
+         to_seconds(stamp - begun_) > options_.another_look_s;
 }
 
 }  // namespace madori::localization

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "core/odometry.hpp"
 #include "core/pose_estimate.hpp"
+#include "core/pose_hypothesis.hpp"
 #include "localization/localizer/keyframe_motion.hpp"
 #include "localization/localizer/map_state.hpp"
 #include "localization/localizer/map_worker.hpp"
@@ -13,18 +15,28 @@
 #include "localization/localizer/scan_matcher.hpp"
 #include "localization/motion_model/odometry_track.hpp"
 #include "localization/scan_points.hpp"
+#include "localization/surroundings/surroundings.hpp"
 #include "mapping/wall_map/wall.hpp"
 
 namespace madori::localization {
 
-/// The policy: odometry, scans and the drawing become map_from_base. Deterministic: the same readings in the
-/// same order give the same poses bit for bit, though the map is thought over in a thread beside. Causal: an
-/// estimate uses what was handed in before it.
+/// Odometry, scans and the drawing become map_from_base: the one localizer, for logs and for driving, for 2D
+/// scans and for the wall points of a 3D lidar. Deterministic: the same readings in the same order give the
+/// same poses bit for bit, though the map is worked on in a thread beside. Causal: an estimate uses what was
+/// handed in before it.
 class Localizer {
  public:
   /// Without `initial` the place is sought on the whole drawing from what is seen (global localization).
   Localizer(const mapping::Walls& walls, const std::optional<InitialPose>& initial,
             const LocalizerOptions& options = {});
+
+  /// A person says that the vehicle stands there at the newest reading, so exactly: what is seen from here on
+  /// is laid there, and weighed against it.
+  void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma);
+  /// Forgets the place: it is sought on the whole drawing from what is seen from here on.
+  void search_anew();
+  /// Where the vehicle may be at the newest reading, likeliest first.
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const;
 
   /// Before the first scan: what an earlier drive remembered of this drawing. It is used where the first scan
   /// fits into it near the start pose, and dropped otherwise.
@@ -40,6 +52,8 @@ class Localizer {
   /// At the end of a log: the memory after a last thorough look at all of it. Waits for it.
   [[nodiscard]] Memory finished_memory();
   [[nodiscard]] const HealthEvidence& evidence() const { return map_.evidence; }
+  /// Share of the surfaces that the newest two scans have in common; 1 where they cannot be compared.
+  [[nodiscard]] double kept() const { return surroundings_.kept(); }
   [[nodiscard]] const OdometryModel& odometry_model() const { return model_; }
 
  private:
@@ -48,12 +62,16 @@ class Localizer {
   void follow(const SurfaceScan& scan, const OdometryStep& step);
   [[nodiscard]] ScanMatch match(const SurfaceScan& scan, const OdometryStep& step) const;
   void start(SurfaceScan scan);
+  void remember_if_new(SurfaceScan scan);
   void remember(SurfaceScan scan);
   void go_on(const MatchResult& recent, const OdometryStep& step);
   void think_if_due(Stamp stamp);
   void take_in_thoughts(Stamp stamp);
+  [[nodiscard]] bool was_carried(Stamp stamp, const ScanPoints& points, const OdometryStep& step,
+                                 const Transform2<Map, Base>& before);
   [[nodiscard]] bool gives_up(Stamp stamp) const;
-  void search_from_here(SurfaceScan scan);
+  [[nodiscard]] bool wants_another_look(Stamp stamp) const;
+  void begin_anew(const std::optional<StartPrior>& told);
 
   LocalizerOptions options_;
   OdometryModel model_;
@@ -68,6 +86,8 @@ class Localizer {
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
   KeyframeMotion since_keyframe_;
   ScanAgreement agreement_;
+  SurroundingsCheck surroundings_;
+  Stamp begun_{};  ///< the memory, with its first scan
   int keyframes_since_thinking_ = 0;
   MapWorker worker_;  ///< last: it ends first
 };

@@ -4,21 +4,16 @@
 #include <cmath>
 #include <utility>
 
-#include "localization/drawing_fit/survey.hpp"
-
 namespace madori::localization {
 
 void MapState::think(const LocalizerOptions& options) {
   if (memory.empty()) return;
   memory.close_loops();
   memory.fuse();
-  if (drawing && evidence.searching) {
-    look_everywhere(options);
-  } else if (drawing) {
-    consult_drawing(options);
-  } else if (memory.loops() > 0) {
+  if (drawing)
+    place(options);
+  else if (memory.loops() > 0)
     memory.optimise({});
-  }
 }
 
 Transform2<Map, Map> MapState::take_in(MapState thought, std::size_t known) {
@@ -32,84 +27,75 @@ Transform2<Map, Map> MapState::take_in(MapState thought, std::size_t known) {
   return by;
 }
 
-bool MapState::drawing_fits(const HealthLimits& limits) const {
-  return evidence.fit_nats > (evidence.verified ? limits.doubted_nats : limits.verified_nats) &&
-         evidence.fit_nats > limits.good_nats_a_wall * evidence.walls_seen;
+bool MapState::drawing_fits(const LocalizerOptions& options) const {
+  return drawing && placed && evidence.here > options.health.believed;
 }
 
 bool MapState::drawing_is_exact(const LocalizerOptions& options) const {
-  return drawing && drawing->model().sigma_m < options.exact_drawing_m;
+  return drawing && drawing->fit.model().sigma_m < options.exact_drawing_m;
 }
 
-/// How far off the believed start the first keyframe lies, nats.
-double MapState::surprise(const Transform2<Map, Base>& first) const {
-  const double d = distance_m(first.translation(), start.map_from_base.translation()) / start.sigma_m;
-  const double a = wrap_angle(first.yaw_rad() - start.map_from_base.yaw_rad()) / start.sigma_rad;
-  return 0.5 * (d * d + a * a);
+void MapState::move(const Transform2<Map, Map>& by) {
+  memory.move(by);
+  drawing->belief.moved(by);
 }
 
-void MapState::consult_drawing(const LocalizerOptions& options) {
+void MapState::place(const LocalizerOptions& options) {
   MemoryCloud cloud = memory_cloud(memory);
-  const Alignment found = drawing->align(cloud, {});
-  const Transform2<Map, Base>& first = memory.poses().front();
-  const double gain = found.gain - surprise(found.correction * first) + surprise(first);
-  if (gain > options.move_gain) {
-    memory.move(found.correction);
-    cloud = memory_cloud(memory);
-  }
-  drawing->learn(cloud);
   evidence.walls_seen = DrawingFit::walls_seen(cloud);
-  if (evidence.walls_seen > next_survey_walls) {
-    survey_drawing(cloud, options);
+  weigh_places(cloud, options);
+  if (placed) lay_on_drawing(cloud, options);
+  const Transform2<Map, Base>& at = memory.poses().back();
+  evidence.here = placed ? drawing->belief.probability_here(at) : 0.0;
+  evidence.rival = drawing->belief.probability_elsewhere(at);
+  evidence.mirrored = drawing->belief.probability_mirrored();
+}
+
+/// All places are compared while it is not sure which one it is, and now and then afterwards. The memory goes
+/// where most of the belief is; once it lies somewhere, it stays until hardly any belief is left there.
+void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options) {
+  const bool unsure = !placed || evidence.here < options.health.localized;
+  const bool everywhere = !evidence.looked || evidence.walls_seen > next_survey_walls;
+  drawing->belief.weigh(drawing->fit, memory, cloud, told, memory.poses().back(), everywhere);
+  if (everywhere) {
+    evidence.looked = true;
+    next_survey_walls = evidence.walls_seen * (unsure ? options.survey_growth_unsure : options.survey_growth);
+  }
+  const auto best = drawing->belief.best();
+  if (!best) return;
+  const double here = drawing->belief.probability_here(memory.poses().back());
+  const bool clear = best->probability * best->near > options.health.believed;
+  if (!placed || (clear && here < options.given_up)) move(best->correction);
+  placed = placed || clear || told.has_value();
+}
+
+/// The memory as a whole settles on the drawing, and the drawing pulls on its keyframes.
+void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options) {
+  DrawingFit& fit = drawing->fit;
+  cloud = memory_cloud(memory);
+  const Alignment found = fit.align(cloud, {});
+  const Transform2<Map, Base>& first = memory.poses().front();
+  const double area_m2 = drawing->belief.area_m2();
+  const double told_so =
+      told ? log_prior(*told, found.correction * first, area_m2) - log_prior(*told, first, area_m2) : 0.0;
+  if (found.gain + told_so > options.move_gain) {
+    move(found.correction);
     cloud = memory_cloud(memory);
   }
-  evidence.fit_nats = drawing->likelihood(cloud, {}, std::max(0.1, drawing->model().sigma_m));
-  evidence.verified = evidence.verified || evidence.fit_nats > options.health.verified_nats;
-  evidence.inliers = drawing->model().inliers;
-  evidence.sigma_m = drawing->model().sigma_m;
-  if (correct_recent_drift(options)) {
-    cloud = memory_cloud(memory);
-  }
-  std::vector<UnaryFactor> unary = drawing->pulls(cloud, memory.poses());
+  fit.learn(cloud);
+  evidence.inliers = fit.model().inliers;
+  evidence.sigma_m = fit.model().sigma_m;
+  evidence.nats_a_wall =
+      fit.likelihood(cloud, {}, std::max(0.1, evidence.sigma_m)) / std::max(1.0, evidence.walls_seen);
+  if (correct_recent_drift(options)) cloud = memory_cloud(memory);
+  std::vector<UnaryFactor> unary = fit.pulls(cloud, memory.poses());
   UnaryFactor tie;
+  const StartPrior start = told.value_or(StartPrior{memory.poses().front(), options.tie_m, options.tie_rad});
+  const double m2 = start.sigma_m * start.sigma_m;
   tie.at = start.map_from_base;
-  tie.hessian = Eigen::Vector3d(1.0 / (start.sigma_m * start.sigma_m), 1.0 / (start.sigma_m * start.sigma_m),
-                                1.0 / (start.sigma_rad * start.sigma_rad))
-                    .asDiagonal();
+  tie.hessian = Eigen::Vector3d(1.0 / m2, 1.0 / m2, 1.0 / (start.sigma_rad * start.sigma_rad)).asDiagonal();
   unary.push_back(tie);
   memory.optimise(unary);
-}
-
-/// Seldom: is there a better place, or does the mirror image fit better? A start pose that an operator gave
-/// is never thrown away silently: the contradiction is reported.
-void MapState::survey_drawing(const MemoryCloud& cloud, const LocalizerOptions& options) {
-  const Survey found = survey(*drawing, cloud);
-  evidence.mirrored_nats = found.mirrored_nats - found.here_nats;
-  evidence.elsewhere_nats = found.elsewhere_nats - found.here_nats;
-  const bool in_doubt = evidence.elsewhere_nats > options.health.rival_nats || !drawing_fits(options.health);
-  next_survey_walls = evidence.walls_seen * (in_doubt ? 1.3 : 2.0);
-}
-
-/// Global localization: the memory built so far is laid on all places of the drawing. Taken is a place that
-/// explains it well and leads all others.
-void MapState::look_everywhere(const LocalizerOptions& options) {
-  MemoryCloud cloud = memory_cloud(memory);
-  evidence.walls_seen = DrawingFit::walls_seen(cloud);
-  if (evidence.walls_seen < std::max(options.search_walls, next_survey_walls)) {
-    return;
-  }
-  next_survey_walls = 1.3 * evidence.walls_seen;
-  const Transform2<Map, Map> place = best_place_of_all(*drawing, cloud);
-  const Survey found = survey(*drawing, moved(cloud, place));
-  if (found.elsewhere_nats - found.here_nats > -options.found_nats ||
-      found.here_nats < options.health.good_nats_a_wall * evidence.walls_seen) {
-    return;
-  }
-  memory.move(place);
-  start = {memory.poses().front(), 0.3, 0.1};
-  evidence.searching = false;
-  next_survey_walls = std::max(30.0, 1.3 * evidence.walls_seen);
-  consult_drawing(options);
 }
 
 /// How far beside its place the newest stretch is sought. What fits the drawing poorly though every scan
@@ -119,14 +105,14 @@ void MapState::look_everywhere(const LocalizerOptions& options) {
 AlignmentWindow MapState::drift_window(const MemoryCloud& recent, std::size_t first,
                                        const LocalizerOptions& options) const {
   const double walls = DrawingFit::walls_seen(recent);
-  const double nats = drawing->likelihood(recent, {}, std::max(0.1, drawing->model().sigma_m));
-  const double usual = evidence.fit_nats / std::max(1.0, evidence.walls_seen);
+  const double nats = drawing->fit.likelihood(recent, {}, std::max(0.1, drawing->fit.model().sigma_m));
+  const double usual = evidence.nats_a_wall;
   if (walls > options.drift_walls && nats < options.drift_share * usual * walls &&
       memory.weakest_agreement(first) < options.drift_agreement) {
     return {options.drift_half_m, options.drift_half_rad, 250};
   }
-  return drawing->model().sigma_m > options.exact_drawing_m ? AlignmentWindow{0.0, 0.0}
-                                                            : AlignmentWindow{0.8, 0.09};
+  return drawing->fit.model().sigma_m > options.exact_drawing_m ? AlignmentWindow{0.0, 0.0}
+                                                                : AlignmentWindow{0.8, 0.09};
 }
 
 /// A stretch that lies beside the drawing, where it fits much better another way, has drifted: it is laid on
@@ -142,14 +128,14 @@ bool MapState::correct_recent_drift(const LocalizerOptions& options) {
   if (window.half_m <= 0.0) {
     return false;
   }
-  const Alignment found = drawing->align(recent, window);
+  const Alignment found = drawing->fit.align(recent, window);
   const Point2<Map> here = memory.poses().back().translation();
   const double metres = distance_m(found.correction * here, here);
   const double turns = std::abs(found.correction.yaw_rad());
   const double far = 0.75 * std::log1p(16.0 * metres * metres + 400.0 * turns * turns);
   const bool exact =
-      drawing->model().sigma_m < options.exact_drawing_m && window.half_m < options.drift_half_m;
-  const bool clear = exact ? metres > 3.0 * drawing->model().sigma_m
+      drawing->fit.model().sigma_m < options.exact_drawing_m && window.half_m < options.drift_half_m;
+  const bool clear = exact ? metres > 3.0 * drawing->fit.model().sigma_m
                            : metres > options.drift_least_m || turns > options.drift_least_rad;
   const double against = std::max(0.0, memory.loops_against(found.correction, first));
   if (!clear || found.gain < 2.0 * options.move_gain + far + against) {

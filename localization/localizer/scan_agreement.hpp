@@ -21,6 +21,7 @@ class ScanAgreement {
 
   /// Whether the last scan lies beside the drawn walls: the newest stretch may have drifted.
   [[nodiscard]] bool is_beside_walls() const { return beside_walls_; }
+  [[nodiscard]] double usual_inliers() const { return usual_inliers_; }
   /// The map's evidence, and how long no scan has agreed.
   [[nodiscard]] HealthEvidence evidence_at(Stamp stamp, const HealthEvidence& evidence) const;
 

@@ -33,8 +33,8 @@ SearchWindow far_window(SearchWindow window, double path_m) {
 
 ExtraPull drawing_pull(const SurfaceScan& scan, const MapState& map, const LocalizerOptions& options) {
   if (!map.drawing_is_exact(options)) return {};
-  return [&scan, &drawing = *map.drawing](const Pose& pose, Eigen::Matrix3d& hessian,
-                                          Eigen::Vector3d& gradient) {
+  return [&scan, &drawing = map.drawing->fit](const Pose& pose, Eigen::Matrix3d& hessian,
+                                              Eigen::Vector3d& gradient) {
     drawing.pull(scan, pose, hessian, gradient);
   };
 }
@@ -58,7 +58,12 @@ ScanMatch match_scan(const SurfaceScan& scan, const Pose& from, const OdometrySt
   const MatchPrior prior{prediction, covariance.inverse()};
   const SearchWindow window = near_window(covariance, step.path_m);
   const ExtraPull pull = drawing_pull(scan, map, options);
-  const MatchResult near = search_and_refine(map.memory.recent_map(here), scan, window, prior, pull);
+  const auto recent = map.memory.recent_map(here);
+  if (window.sigma_m < options.sure_step_m && window.sigma_rad < options.sure_step_rad) {
+    const MatchResult at_once = recent->refine(scan, prediction, prior, pull);
+    if (at_once.inlier_share > options.sure_inliers) return {at_once, at_once};
+  }
+  const MatchResult near = search_and_refine(*recent, scan, window, prior, pull);
   if (near.inlier_share > options.sure_inliers) return {near, near};
   const MatchResult far =
       search_and_refine(map.memory.whole_map(here), scan, far_window(window, step.path_m), prior, pull);
@@ -68,7 +73,7 @@ ScanMatch match_scan(const SurfaceScan& scan, const Pose& from, const OdometrySt
 
 std::optional<Pose> place_in_memory(const SurfaceScan& scan, const MapState& map,
                                     const LocalizerOptions& options) {
-  const InitialPose& start = map.start;
+  const StartPrior start = *map.told;  // recalled only where a start was given
   const LocalMap whole = map.memory.whole_map(start.map_from_base.translation());
   const SearchWindow window{2.0 * start.sigma_m, 2.0 * start.sigma_rad, start.sigma_m, start.sigma_rad};
   const MatchResult found =

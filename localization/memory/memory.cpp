@@ -37,12 +37,16 @@ double Memory::weakest_agreement(std::size_t first) const {
   return weakest;
 }
 
-LocalMap Memory::recent_map(const Point2<Map>& centre) const {
+std::shared_ptr<const LocalMap> Memory::recent_map(const Point2<Map>& centre) const {
+  constexpr double kSameCentreM = 2.0;
+  if (recent_ && distance_m(centre, recent_centre_) < kSameCentreM) return recent_;
   std::vector<LocalMap::Piece> pieces;
   for (std::size_t i = window_begin(); i < keyframes_.size(); ++i) {
     pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }
-  return {pieces, centre, options_.map_radius_m};
+  recent_centre_ = centre;
+  recent_ = std::make_shared<const LocalMap>(pieces, centre, options_.map_radius_m);
+  return recent_;
 }
 
 LocalMap Memory::whole_map(const Point2<Map>& centre, double until_path_m) const {
@@ -89,6 +93,7 @@ void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& m
   keyframes_.push_back(
       {std::make_shared<const SurfaceScan>(std::move(scan)), path, broken_, motion.agreement});
   poses_.push_back(map_from_base);
+  recent_.reset();
   broken_ = false;
 }
 
@@ -119,10 +124,12 @@ int Memory::close_loops() {
 /// The recent ones stay: they are matched against.
 int Memory::fuse() {
   const std::size_t before = size();
-  const std::vector<char> gone = thin_out(poses_, factors_, std::min(window_begin(), looked_back_), options_);
+  const std::vector<char> gone =
+      thin_out(keyframes_, poses_, factors_, std::min(window_begin(), looked_back_), options_);
   const auto fused = std::count(gone.begin(), gone.end(), 1);
   if (fused > 0) compact(gone, keyframes_, poses_, factors_);
   looked_back_ -= before - size();
+  recent_.reset();
   return static_cast<int>(fused);
 }
 
@@ -147,11 +154,13 @@ Transform2<Map, Map> Memory::take_in(Memory other, std::size_t known) {
     }
   }
   other.broken_ = broken_;
+  other.recent_.reset();
   *this = std::move(other);
   return by;
 }
 
 bool Memory::optimise(const std::vector<UnaryFactor>& unary) {
+  recent_.reset();
   return optimise_graph(poses_, factors_, unary);
 }
 
@@ -160,6 +169,7 @@ double Memory::loops_against(const Transform2<Map, Map>& by, std::size_t first) 
 }
 
 void Memory::move(const Transform2<Map, Map>& by, std::size_t first) {
+  recent_.reset();
   for (std::size_t i = first; i < poses_.size(); ++i) {
     poses_[i] = by * poses_[i];
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "localization/memory/keyframe.hpp"
@@ -30,8 +31,8 @@ class Memory {
   [[nodiscard]] std::size_t window_begin() const { return empty() ? 0 : window_begin(size() - 1); }
   /// The weakest agreement between the keyframes from `first` on: where all are strong, nothing has drifted.
   [[nodiscard]] double weakest_agreement(std::size_t first) const;
-  /// The recent surfaces around a place.
-  [[nodiscard]] LocalMap recent_map(const Point2<Map>& centre) const;
+  /// The recent surfaces around a place; made anew only where the memory has changed, or the place by metres.
+  [[nodiscard]] std::shared_ptr<const LocalMap> recent_map(const Point2<Map>& centre) const;
   /// These, and what older keyframes near the place saw; none that was added after so much driving.
   [[nodiscard]] LocalMap whole_map(const Point2<Map>& centre, double until_path_m = 1e12) const;
   /// The chain of motions may be broken here: loops are sought in a wide window until one is closed.
@@ -73,6 +74,8 @@ class Memory {
   std::size_t looked_back_ = 0;  ///< keyframes for which loops were sought
   double last_loop_path_m_ = 0.0;
   double extra_open_m_ = 0.0;
+  mutable std::shared_ptr<const LocalMap> recent_;  ///< of the last question, until the memory changes
+  mutable Point2<Map> recent_centre_;
 };
 
 }  // namespace madori::localization

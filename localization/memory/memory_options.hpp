@@ -15,11 +15,10 @@ struct MemoryOptions {
   double break_open_m = 60.0;   ///< a break in the chain counts as so much driving
   double drift_per_m = 0.015;   ///< growth of the uncertainty between loops, metres a metre
   double drift_rad_per_m = 0.004;
-  double chain_m = 0.02;      ///< error of the motion between keyframes, metres a root-metre:
-  double chain_rad = 0.006;   ///< what the match of a scan cannot know of itself
-  double place_m = 0.6;       ///< keyframes this near to each other,
-  double place_rad = 0.35;    ///< looking the same way, are of the same place
-  int keyframes_a_place = 1;  ///< that stay when more recent ones come
+  double chain_m = 0.02;     ///< error of the motion between keyframes, metres a root-metre:
+  double chain_rad = 0.006;  ///< what the match of a scan cannot know of itself
+  double place_m = 0.6;      ///< keyframes this near to each other,
+  double place_rad = 0.35;   ///< looking the same way, are of the same place
 };
 
 }  // namespace madori::localization

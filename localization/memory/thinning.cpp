@@ -8,27 +8,38 @@
 namespace madori::localization {
 namespace {
 
-/// Enough of the newer poses that stay are of the same place and look the same way.
-bool is_crowded(std::size_t k, const std::vector<Transform2<Map, Base>>& poses, const std::vector<char>& gone,
+bool same_place(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b,
                 const MemoryOptions& options) {
-  int beside = 0;
-  for (std::size_t i = k + 1; i < poses.size() && beside < options.keyframes_a_place; ++i) {
-    beside += gone[i] == 0 && distance_m(poses[i].translation(), poses[k].translation()) < options.place_m &&
-                      std::abs(wrap_angle(poses[i].yaw_rad() - poses[k].yaw_rad())) < options.place_rad
-                  ? 1
-                  : 0;
-  }
-  return beside >= options.keyframes_a_place;
+  return distance_m(a.translation(), b.translation()) < options.place_m &&
+         std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < options.place_rad;
 }
 
 }  // namespace
 
-std::vector<char> thin_out(const std::vector<Transform2<Map, Base>>& poses,
+/// Only what stays covers a place: a keyframe is taken out for one that survives, never for one that is about
+/// to be taken out itself. Of one visit the first at a place stays, else each new one would erase its
+/// forerunner; of two visits the newer one stays.
+std::vector<char> thin_out(const std::vector<Keyframe>& keyframes,
+                           const std::vector<Transform2<Map, Base>>& poses,
                            std::vector<RelativeFactor>& factors, std::size_t end,
                            const MemoryOptions& options) {
   std::vector<char> gone(poses.size(), 0);
+  const auto leave = [&](std::size_t k) {
+    if (take_out(static_cast<int>(k), poses, factors)) gone[k] = 1;
+  };
   for (std::size_t k = 1; k < end; ++k) {
-    if (is_crowded(k, poses, gone, options) && take_out(static_cast<int>(k), poses, factors)) gone[k] = 1;
+    std::vector<std::size_t> older;
+    bool covered = false;
+    for (std::size_t i = 0; i < k && !covered; ++i) {
+      if (gone[i] != 0 || !same_place(poses[i], poses[k], options)) continue;
+      covered = keyframes[k].path_m - keyframes[i].path_m < options.window_path_m;
+      if (i > 0) older.push_back(i);  // the first stays: the start pose is tied to it
+    }
+    if (covered) {
+      leave(k);
+    } else {
+      for (const std::size_t i : older) leave(i);
+    }
   }
   return gone;
 }

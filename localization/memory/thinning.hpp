@@ -9,10 +9,11 @@
 
 namespace madori::localization {
 
-/// Takes poses before `end` out of the graph where newer ones are of the same place, and says for each pose
-/// whether it is gone (1) or stays (0). The first stays: the start pose is tied to it. Poses keep their
+/// Takes keyframes before `end` out of the graph where others that stay saw the same place, and says for each
+/// whether it is gone (1) or stays (0). The first stays: the start pose is tied to it. Keyframes keep their
 /// numbers until compact().
-[[nodiscard]] std::vector<char> thin_out(const std::vector<Transform2<Map, Base>>& poses,
+[[nodiscard]] std::vector<char> thin_out(const std::vector<Keyframe>& keyframes,
+                                         const std::vector<Transform2<Map, Base>>& poses,
                                          std::vector<RelativeFactor>& factors, std::size_t end,
                                          const MemoryOptions& options);
 

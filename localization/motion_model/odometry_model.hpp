@@ -22,6 +22,20 @@ struct OdometryNoise {
   double walk_per_m = 0.002;           ///< how fast the systematic errors may change
 };
 
+/// Of driven wheels with encoders on a hall's floor; their systematic errors are learned.
+[[nodiscard]] constexpr OdometryNoise driven_wheels() {
+  return {.distance_per_m = 0.01,
+          .sideways_per_m = 0.005,
+          .heading_per_m = 0.005,
+          .heading_per_rad = 0.02,
+          .standing_m = 0.001,
+          .standing_rad = 0.0005,
+          .prior_distance_scale = 0.02,
+          .prior_heading_per_m = 0.02,
+          .prior_heading_scale = 0.03,
+          .walk_per_m = 0.002};
+}
+
 /// A stretch of dead reckoning after the correction of the systematic errors.
 struct OdometryStep {
   Transform2<Base, Base> motion;                         ///< the pose at its end seen from its start

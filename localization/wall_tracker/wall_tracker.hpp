@@ -9,12 +9,12 @@
 #include "core/pose_hypothesis.hpp"
 #include "localization/global/global_localizer.hpp"
 #include "localization/motion_model/odometry_track.hpp"
+#include "localization/surroundings/surroundings.hpp"
 #include "localization/wall_tracker/distant_rival.hpp"
 #include "localization/wall_tracker/nearby_rival.hpp"
 #include "localization/wall_tracker/place_search.hpp"
 #include "localization/wall_tracker/pose_filter.hpp"
 #include "localization/wall_tracker/scale_bank.hpp"
-#include "localization/wall_tracker/surroundings.hpp"
 #include "localization/wall_tracker/tracker_evidence.hpp"
 #include "mapping/wall_map/wall.hpp"
 

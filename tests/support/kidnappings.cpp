@@ -102,7 +102,7 @@ std::pair<Transform2<Map, Base>, Transform2<Map, Base>> Kidnapper::choose(int ki
 /// Puts the vehicle there, lets it find itself and be for a while; false where it does not.
 bool Kidnapper::settle(const Pose& at, bool drives) {
   trial_.kidnap(at);
-  trial_.tracker().search_anew();
+  trial_.localizer().search_anew();
   double good_s = 0.0;
   for (double t = 0.0; t < 20.0 && good_s < kSettle_s; t += LocalizationTrial::kStep_s) {
     trial_.step(drives && good_s > 0.5);
@@ -117,7 +117,7 @@ void Kidnapper::watch(Kidnapping& k) {
     trial_.step(k.drives);
     const LocalizationState state = trial_.pose().health.state;
     const bool sure = state == LocalizationState::Localized;
-    if (t < 0.5) k.kept = std::min(k.kept, trial_.tracker().evidence().kept);
+    if (t < 0.5) k.kept = std::min(k.kept, trial_.localizer().kept());
     if (state == LocalizationState::Lost && k.lost_after_s < 0.0) k.lost_after_s = t;
     if (sure && trial_.error_m() > 0.5) k.believed_wrong_s += LocalizationTrial::kStep_s;
     if (sure && trial_.error_m() < 0.2 && k.lost_after_s >= 0.0) {

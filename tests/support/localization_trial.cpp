@@ -62,12 +62,12 @@ void change_building(TrialSetup& setup) {
 }
 
 LocalizationTrial::LocalizationTrial(const TrialSetup& setup, std::uint64_t seed,
-                                     const localization::WallTrackerOptions& options)
+                                     const localization::LocalizerOptions& options)
     : routes_(setup.routes),
       floor_(setup.walls, setup.scenario, seed),
       driver_(routes_, seed),
       odometry_(control::OdometryOptions{wheels()}),
-      tracker_(setup.drawing, options),
+      localizer_(setup.drawing, std::nullopt, options),
       drawing_scale_(setup.drawing_scale) {
   pose_.health = {LocalizationState::Lost, "no scan yet"};
 }
@@ -80,16 +80,16 @@ void LocalizationTrial::step(bool drives) {
     const auto age = std::chrono::microseconds(input.drive.back().time_us - status.time_us);
     odometry_.update(status, input.now - age);
     (void)track_.add(odometry_.reading());
-    pose_ = tracker_.on_odometry(odometry_.reading());
+    pose_ = localizer_.on_odometry(odometry_.reading());
   }
   for (const auto& cloud : input.clouds) {
     const mapping::SensorRecord& lidar = floor_.lidar();
     const auto base =
         localization::cloud_in_base(cloud, {lidar.x_m, lidar.y_m, to_rad(lidar.yaw_deg)}, lidar.z_m, track_);
     const auto points = localization::extract_walls(base, walls);
-    const PoseEstimate at_scan = tracker_.on_scan(base.stamp, points);
+    const PoseEstimate at_scan = localizer_.on_scan(base.stamp, points, {lidar.x_m, lidar.y_m});
     if (learner != nullptr) learner->observe(points, {lidar.x_m, lidar.y_m}, at_scan);
-    pose_ = tracker_.on_odometry(odometry_.reading());
+    pose_ = localizer_.on_odometry(odometry_.reading());
   }
   watch();
 }

@@ -7,7 +7,7 @@
 #include "core/pose_estimate.hpp"
 #include "localization/drawing_learner/drawing_learner.hpp"
 #include "localization/wall_extraction/wall_extraction.hpp"
-#include "localization/wall_tracker/wall_tracker.hpp"
+#include "localization/localizer/localizer.hpp"
 #include "mapping/wall_map/wall.hpp"
 #include "tests/support/virtual_floor.hpp"
 
@@ -48,14 +48,14 @@ struct TrialFigures {
   }
 };
 
-/// One vehicle on one day: the driver drives by the truth, the wall tracker is watched. Drive statuses and
+/// One vehicle on one day: the driver drives by the truth, the localizer is watched. Drive statuses and
 /// packets take the way they take in the cycle.
 class LocalizationTrial {
  public:
   static constexpr double kStep_s = 0.02;
 
   LocalizationTrial(const TrialSetup& setup, std::uint64_t seed,
-                    const localization::WallTrackerOptions& options = {});
+                    const localization::LocalizerOptions& options = localization::driving_options());
   LocalizationTrial(const LocalizationTrial&) = delete;
   LocalizationTrial& operator=(const LocalizationTrial&) = delete;
 
@@ -69,7 +69,7 @@ class LocalizationTrial {
   [[nodiscard]] const VirtualFloor& floor() const { return floor_; }
   [[nodiscard]] const planning::RouteGraph& routes() const { return routes_; }
   [[nodiscard]] const TrialFigures& figures() const { return figures_; }
-  [[nodiscard]] localization::WallTracker& tracker() { return tracker_; }
+  [[nodiscard]] localization::Localizer& localizer() { return localizer_; }
   [[nodiscard]] double error_m() const;
   [[nodiscard]] double error_rad() const;
 
@@ -84,7 +84,7 @@ class LocalizationTrial {
   TrueDriver driver_;
   control::DiffDriveOdometry odometry_;
   localization::OdometryTrack track_;
-  localization::WallTracker tracker_;
+  localization::Localizer localizer_;
   PoseEstimate pose_;
   double drawing_scale_;
   TrialFigures figures_;

@@ -5,9 +5,8 @@
 namespace madori::bench {
 namespace {
 
-Case coarse_laps(int keyframes_a_place, double place_m, double place_rad) {
+Case coarse_laps(double place_m, double place_rad) {
   Case c{.name = "laps " + std::to_string(place_m).substr(0, 3), .laps = 4};
-  c.options.memory.keyframes_a_place = keyframes_a_place;
   c.options.memory.place_m = place_m;
   c.options.memory.place_rad = place_rad;
   return c;
@@ -32,8 +31,8 @@ std::vector<Case> log_harms() {
           {.name = "bias 3 deg/m", .log = {.bias_rad_per_m = 0.052}},
           {.name = "noisy wheels", .log = {.noise = 0.15}},
           {.name = "laps", .laps = 4},
-          coarse_laps(1, 0.6, 0.35),
-          coarse_laps(1, 1.0, 0.6)};
+          coarse_laps(0.6, 0.35),
+          coarse_laps(1.0, 0.6)};
 }
 
 std::vector<Case> ten_starts() {

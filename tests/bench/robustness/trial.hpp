@@ -19,7 +19,7 @@ struct Outcome {
   double p50_ms = 0.0, p99_ms = 0.0;
   std::string scans =  ///< a line of CSV a scan: errors, and what it was judged by
       "time_s,x_m,y_m,error_x_m,error_y_m,error_deg,on_walls,on_memory,sigma_m,nats_a_wall,drawing_sigma_m,"
-      "elsewhere_nats,state,reason\n";
+      "here,rival,state,reason\n";
 };
 
 /// The building's reference where the case's drawing and log have it.

@@ -1,4 +1,4 @@
-#include "localization/wall_tracker/recent_view.hpp"
+#include "localization/surroundings/recent_view.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "localization/wall_tracker/surroundings.hpp"
+#include "localization/surroundings/surroundings.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "localization/wall_tracker/recent_view.hpp"
+#include "localization/surroundings/recent_view.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kCellM = 0.5;  // at least the longest reach
 constexpr std::size_t kFewestPoints = 20;
+constexpr std::size_t kSectors = RecentView::kSectors;
 
 std::uint64_t cell_at(double x_m, double y_m) {
   constexpr std::int64_t kMiddle = 1 << 20;  // negative places sort among the others
@@ -20,6 +21,11 @@ std::uint64_t cell_at(double x_m, double y_m) {
 /// Within which a surface counts as the same: voxel and noise, and half the gap between two beams.
 double reach_at(const Point2<Base>& p) {
   return std::min(0.15 + 0.01 * std::hypot(p.x_m, p.y_m), kCellM);
+}
+
+std::size_t sector_of(const Point2<Base>& p) {
+  const double turn = (std::atan2(p.y_m, p.x_m) + kPi) / (2.0 * kPi);
+  return std::min(static_cast<std::size_t>(turn * kSectors), kSectors - 1);
 }
 
 }  // namespace
@@ -35,26 +41,38 @@ bool RecentView::Surfaces::has_near(const Point2<Base>& p, double reach_m) const
   return false;
 }
 
+bool RecentView::Surfaces::looks_towards(const Point2<Base>& p) const {
+  const std::size_t sector = sector_of(p);
+  return looked[sector] || looked[(sector + 1) % kSectors] || looked[(sector + kSectors - 1) % kSectors];
+}
+
+/// What lies outside the field of view of this one says nothing: a scanner that looks forward turned.
 double RecentView::Surfaces::share_of(const Surfaces& others,
                                       const Transform2<Base, Base>& this_from_others) const {
   double total = 0.0;
   double near = 0.0;
+  std::size_t comparable = 0;
   for (const Point& other : others.points) {
     const Point2<Base> p{other.x_m, other.y_m};
+    const Point2<Base> here = this_from_others * p;
+    if (!looks_towards(here)) continue;
+    ++comparable;
     total += other.weight;
-    if (has_near(this_from_others * p, reach_at(p))) near += other.weight;
+    if (has_near(here, reach_at(p))) near += other.weight;
   }
-  return total > 0.0 ? near / total : 1.0;
+  return comparable >= kFewestPoints && total > 0.0 ? near / total : 1.0;
 }
 
 void RecentView::take(Stamp stamp, const ScanPoints& points) {
   std::swap(before_, now_);
   now_.stamp = stamp;
   now_.points.clear();
+  now_.looked.fill(false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point2<Base> p = points.point(i);
-    if (std::isfinite(p.x_m) && std::isfinite(p.y_m))
-      now_.points.push_back({cell_at(p.x_m, p.y_m), p.x_m, p.y_m, points.weight_of(i)});
+    if (!std::isfinite(p.x_m) || !std::isfinite(p.y_m)) continue;
+    now_.points.push_back({cell_at(p.x_m, p.y_m), p.x_m, p.y_m, points.weight_of(i)});
+    now_.looked[sector_of(p)] = true;
   }
   std::sort(now_.points.begin(), now_.points.end(),
             [](const Surfaces::Point& a, const Surfaces::Point& b) { return a.cell < b.cell; });

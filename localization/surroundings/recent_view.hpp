@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,6 +19,9 @@ class RecentView {
  public:
   /// Farther apart, two scans say nothing about each other.
   static constexpr Duration kRecent = std::chrono::milliseconds(500);
+
+  /// Into which the field of view is divided.
+  static constexpr std::size_t kSectors = 90;
 
   /// A scan, Base frame at `stamp`; the one before it becomes the one that it is compared with.
   void take(Stamp stamp, const ScanPoints& points);
@@ -43,6 +47,8 @@ class RecentView {
     };
     Stamp stamp{};
     std::vector<Point> points;
+    std::array<bool, kSectors> looked{};  ///< directions from which something came back
+    [[nodiscard]] bool looks_towards(const Point2<Base>& p) const;
     [[nodiscard]] bool has_near(const Point2<Base>& p, double reach_m) const;
     /// Share of the weight of `others` that lies where this one has a surface.
     [[nodiscard]] double share_of(const Surfaces& others,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "localization/wall_tracker/recent_view.hpp"
+#include "localization/surroundings/recent_view.hpp"
 
 namespace madori::localization {
 

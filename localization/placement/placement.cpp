@@ -1,0 +1,236 @@
+#include "localization/placement/placement.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "localization/drawing_fit/wall_hits.hpp"
+#include "localization/placement/survey.hpp"
+
+namespace madori::localization {
+namespace {
+
+/// Errors that drawings have, averaged over: drawn by CAD, drawn from plans, drawn as a sketch.
+constexpr std::array kDrawingSigmasM{0.05, 0.15, 0.4};
+/// Drawn walls that are not there; ln of it is what crossing one costs.
+constexpr double kMissingWalls = 0.15;
+/// A drawing that was imported the wrong way round, before anything is seen.
+constexpr double kMirroredDrawings = 0.02;
+/// Poses that are given and wrong altogether: the wrong vehicle, site or button.
+constexpr double kWrongPriors = 0.02;
+/// What an observation is worth: rooms and aisles repeat, and so do the errors of a drawing.
+constexpr double kTrust = 0.4;
+constexpr std::size_t kSurveyed = 30;  // places that are refined, and half as many of the mirror image
+constexpr std::size_t kKept = 64;
+constexpr double kForgotten = 1e-6;      // a hypothesis of less comes back with the next survey, if at all
+constexpr std::size_t kSurfaces = 1500;  // of a large memory, so many tell as much as all
+constexpr double kSameM = 0.5;           // nearer than this, and turned by less, two hypotheses are one
+constexpr double kSameRad = to_rad(8.0);
+constexpr double kAnyPlace = 0.1;  // who may be anywhere around a place is not at that place
+constexpr double kNearM = 0.5;     // what an answer may be off by and still be right
+constexpr double kNearRad = to_rad(10.0);
+
+double log_mean_exp(const std::array<double, kDrawingSigmasM.size()>& nats) {
+  const double most = *std::max_element(nats.begin(), nats.end());
+  double sum = 0.0;
+  for (const double n : nats) sum += std::exp(n - most);
+  return most + std::log(sum / static_cast<double>(nats.size()));
+}
+
+FreeWays mirror_image(FreeWays ways) {
+  for (auto* some : {&ways.beams, &ways.driven})
+    for (Segment2<Map>& s : *some) s.a.x_m = -s.a.x_m, s.b.x_m = -s.b.x_m;
+  return ways;
+}
+
+Transform2<Map, Base> mirror_image(const Transform2<Map, Base>& at) {
+  return {-at.x_m(), at.y_m(), kPi - at.yaw_rad()};
+}
+
+/// Chance that a normal variable of this sigma lies within +-limit.
+double within(double limit, double sigma) {
+  return std::erf(limit / (sigma * std::sqrt(2.0)));
+}
+
+/// Every n-th surface, each standing for n.
+MemoryCloud sampled(const MemoryCloud& cloud, std::size_t most) {
+  const std::size_t stride = cloud.size() / most + 1;
+  MemoryCloud sample;
+  for (std::size_t i = 0; i < cloud.size(); i += stride) {
+    sample.push_back(cloud[i]);
+    sample.back().weight *= static_cast<double>(stride);
+  }
+  return sample;
+}
+
+/// Share of the cloud's weight on drawn walls.
+double share_explained(const WallIndex& index, const MemoryCloud& cloud,
+                       const Transform2<Map, Map>& correction, const WallMixture& mixture) {
+  double all = 1e-9;
+  double on_walls = 0.0;
+  for (const CloudSurface& p : cloud) all += p.weight;
+  for_each_hit(index, cloud, correction, [&](const CloudSurface& p, const auto&, const auto& hit) {
+    on_walls += p.weight * mixture.is_wall(hit.distance_m);
+  });
+  return on_walls / all;
+}
+
+/// How well the cloud holds the vehicle's pose (x, y, yaw) where a placement puts it: its Hessian.
+Eigen::Matrix3d hold_of(const WallIndex& index, const MemoryCloud& cloud,
+                        const Transform2<Map, Map>& correction, const Point2<Map>& vehicle,
+                        const WallMixture& mixture, double sigma_m) {
+  Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+  for_each_hit(index, cloud, correction, [&](const CloudSurface& p, const auto& q, const auto& hit) {
+    const double information = p.weight * kShareOfObservation * mixture.is_wall(hit.distance_m);
+    const Eigen::Vector3d j = jacobian(hit, q, vehicle);
+    h += kTrust * information / (sigma_m * sigma_m) * j * j.transpose();
+  });
+  return h;
+}
+
+/// Chance that the vehicle is within kNearM and kNearRad of where a placement puts it.
+double share_near(const Eigen::Matrix3d& hold) {
+  const Eigen::Matrix3d covariance = hold.inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>());
+  return within(kNearM, std::sqrt(axes.eigenvalues()[1])) * within(kNearRad, std::sqrt(covariance(2, 2)));
+}
+
+}  // namespace
+
+double log_prior(const StartPrior& prior, const Transform2<Map, Base>& first, double area_m2) {
+  const double d = distance_m(first.translation(), prior.map_from_base.translation()) / prior.sigma_m;
+  const double a = wrap_angle(first.yaw_rad() - prior.map_from_base.yaw_rad()) / prior.sigma_rad;
+  const double peak = 1.0 / (std::pow(2.0 * kPi, 1.5) * prior.sigma_m * prior.sigma_m * prior.sigma_rad);
+  const double anywhere = 1.0 / (2.0 * kPi * area_m2);
+  return std::log((1.0 - kWrongPriors) * peak * std::exp(-0.5 * (d * d + a * a)) + kWrongPriors * anywhere);
+}
+
+PlaceBelief::PlaceBelief(const mapping::Walls& walls)
+    : walls_(std::make_shared<const mapping::DistanceField>(walls)) {
+  const mapping::GridFrame& frame = walls_->frame();
+  area_m2_ = frame.width * frame.cell_m * (frame.height * frame.cell_m);
+}
+
+void PlaceBelief::judge(const DrawingFit& fit, const MemoryCloud& cloud, const FreeWays& ways,
+                        const Transform2<Map, Base>& at, const std::optional<StartPrior>& prior,
+                        Placement& placement) const {
+  std::array<double, kDrawingSigmasM.size()> nats{};
+  const DrawingModel plain;
+  for (std::size_t i = 0; i < nats.size(); ++i)
+    nats[i] =
+        log_likelihood(fit.index(), cloud, placement.correction, WallMixture(plain, kDrawingSigmasM[i]));
+  const auto best = static_cast<std::size_t>(std::max_element(nats.begin(), nats.end()) - nats.begin());
+  const double sigma = kDrawingSigmasM[best];
+  const WallMixture mixture(plain, sigma);
+  placement.explained = share_explained(fit.index(), cloud, placement.correction, mixture);
+  Eigen::Matrix3d hold = hold_of(fit.index(), cloud, placement.correction,
+                                 placement.correction * at.translation(), mixture, sigma);
+  hold.diagonal() += Eigen::Vector3d(1.0 / area_m2_, 1.0 / area_m2_, 0.1);  // the drawing is finite
+  if (prior)
+    hold.diagonal() +=
+        Eigen::Vector3d(1.0 / (prior->sigma_m * prior->sigma_m), 1.0 / (prior->sigma_m * prior->sigma_m),
+                        1.0 / (prior->sigma_rad * prior->sigma_rad));
+  placement.near = share_near(hold);
+  // The posterior's mass at the peak: a place that fits exactly fits in few poses, and among many places some
+  // fit by chance.
+  placement.nats = kTrust * (log_mean_exp(nats) +
+                             std::log(kMissingWalls) * walls_crossed(ways, placement.correction, *walls_)) -
+                   0.5 * std::log(hold.determinant());
+}
+
+void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const MemoryCloud& all,
+                        const std::optional<StartPrior>& prior, const Transform2<Map, Base>& at,
+                        bool everywhere) {
+  const FreeWays ways = free_ways(memory);
+  const MemoryCloud cloud = sampled(all, kSurfaces);
+  std::vector<Placement> found{{}};
+  for (const Placement& p : placements_)
+    if (p.probability > kForgotten) found.push_back(p);
+  const MemoryCloud mirrored_cloud = mirror_image(cloud);
+  const FreeWays mirrored_ways = mirror_image(ways);
+  const Transform2<Map, Base> mirrored_at = mirror_image(at);
+  if (everywhere) {
+    for (const auto& correction : survey(fit.index(), cloud, at, kSurveyed)) found.push_back({correction});
+    for (const auto& correction : survey(fit.index(), mirrored_cloud, mirrored_at, kSurveyed / 2)) {
+      found.push_back({correction});
+      found.back().mirrored = true;
+    }
+  }
+  for (Placement& p : found) {
+    const MemoryCloud& seen = p.mirrored ? mirrored_cloud : cloud;
+    p.correction = fit.settle(seen, p.correction).correction;
+    judge(fit, seen, p.mirrored ? mirrored_ways : ways, p.mirrored ? mirrored_at : at,
+          p.mirrored ? std::nullopt : prior, p);
+    const double anywhere = -std::log(2.0 * kPi * area_m2_);
+    if (p.mirrored)
+      p.nats += std::log(kMirroredDrawings) + anywhere;
+    else
+      p.nats += prior ? log_prior(*prior, p.correction * memory.poses().front(), area_m2_) : anywhere;
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.nats > b.nats; });
+  placements_.clear();
+  double sum = 0.0;
+  for (const Placement& p : found) {
+    const Transform2<Map, Base> place = p.correction * (p.mirrored ? mirrored_at : at);
+    const bool known = std::any_of(placements_.begin(), placements_.end(), [&](const Placement& k) {
+      return k.mirrored == p.mirrored &&
+             is_same_place(place, k.correction * (k.mirrored ? mirrored_at : at), kSameM, kSameRad);
+    });
+    if (known || placements_.size() == kKept) continue;
+    placements_.push_back(p);
+    placements_.back().probability = std::exp(p.nats - found.front().nats);
+    sum += placements_.back().probability;
+  }
+  for (Placement& p : placements_) p.probability /= sum;
+  if (getenv("DBG")) {
+    fprintf(stderr, "weigh kf %zu walls %.0f every %d\n", memory.size(), DrawingFit::walls_seen(all),
+            everywhere);
+    for (std::size_t i = 0; i < placements_.size() && i < 4; ++i) {
+      const auto& p = placements_[i];
+      const auto c = p.correction * (p.mirrored ? mirrored_at : at);
+      std::array<double, 3> n{};
+      for (int k = 0; k < 3; ++k)
+        n[k] = log_likelihood(fit.index(), p.mirrored ? mirrored_cloud : cloud, p.correction,
+                              WallMixture(DrawingModel{}, kDrawingSigmasM[k]));
+      fprintf(stderr,
+              "   %s p %.4f near %.2f nats %.1f at %.1f %.1f %.0f (%.2f m from lain) LL %.1f %.1f %.1f "
+              "crossed %d expl %.2f\n",
+              p.mirrored ? "M" : " ", p.probability, p.near, p.nats, c.x_m(), c.y_m(), to_deg(c.yaw_rad()),
+              distance_m(c.translation(), at.translation()), n[0], n[1], n[2],
+              walls_crossed(p.mirrored ? mirrored_ways : ways, p.correction, *walls_), p.explained);
+    }
+  }
+}
+
+void PlaceBelief::moved(const Transform2<Map, Map>& by) {
+  for (Placement& p : placements_)
+    if (!p.mirrored) p.correction = p.correction * by.inverse();
+}
+
+double PlaceBelief::probability_here(const Transform2<Map, Base>& at) const {
+  double sum = 0.0;
+  for (const Placement& p : placements_)
+    if (!p.mirrored && is_same_place(p.correction * at, at, kNearM, kNearRad)) sum += p.probability * p.near;
+  return sum;
+}
+
+std::optional<Placement> PlaceBelief::best() const {
+  for (const Placement& p : placements_)
+    if (!p.mirrored && p.near > kAnyPlace) return p;
+  return std::nullopt;
+}
+
+double PlaceBelief::probability_elsewhere(const Transform2<Map, Base>& at) const {
+  for (const Placement& p : placements_)
+    if (!p.mirrored && !is_same_place(p.correction * at, at, kNearM, kNearRad)) return p.probability;
+  return 0.0;
+}
+
+double PlaceBelief::probability_mirrored() const {
+  double sum = 0.0;
+  for (const Placement& p : placements_) sum += p.mirrored ? p.probability : 0.0;
+  return sum;
+}
+
+}  // namespace madori::localization

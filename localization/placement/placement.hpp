@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "localization/drawing_fit/drawing_fit.hpp"
+#include "localization/placement/free_ways.hpp"
+
+namespace madori::localization {
+
+/// What is known of the start without looking: the pose of the memory's first keyframe.
+struct StartPrior {
+  Transform2<Map, Base> map_from_base;
+  double sigma_m = 0.5;
+  double sigma_rad = 0.17;
+};
+
+/// Log of the prior's density (1/(m^2 rad)) where the first keyframe is, on a drawing of `area_m2`; a pose
+/// that was given may be of another place altogether.
+[[nodiscard]] double log_prior(const StartPrior& prior, const Transform2<Map, Base>& first, double area_m2);
+
+/// One way in which the memory may lie on the drawing.
+struct Placement {
+  Transform2<Map, Map> correction;  ///< of the memory's poses
+  double nats = 0.0;                ///< log posterior, over clutter everywhere
+  double probability = 0.0;         ///< among all that are known
+  double explained = 0.0;           ///< share of what is remembered that lies on drawn walls there
+  double near = 1.0;                ///< of this probability, the share within 0.5 m and 10 degrees of it
+  bool mirrored = false;            ///< of the memory's mirror image: the drawing would be mirrored
+};
+
+/// The belief where the memory lies on the drawing: hypotheses, each weighed by everything that is remembered
+/// at once, so that what is seen again and again from one place counts once. Evidence for a place: surfaces
+/// on drawn walls, two metres of a wall being one observation, under the error of the drawing that suits the
+/// place best (drawings differ, and the likelihood is averaged over exact and rough ones). Evidence against
+/// it: beams and ways through drawn walls. Deterministic.
+class PlaceBelief {
+ public:
+  explicit PlaceBelief(const mapping::Walls& walls);
+
+  /// Weighs the hypotheses known so far and the memory as it lies; with `everywhere` all places and turns of
+  /// the drawing and its mirror image are looked at anew. `at` is the vehicle, in the memory's frame.
+  void weigh(const DrawingFit& fit, const Memory& memory, const MemoryCloud& cloud,
+             const std::optional<StartPrior>& prior, const Transform2<Map, Base>& at, bool everywhere);
+  /// The memory was moved: what leads to a place from there.
+  void moved(const Transform2<Map, Map>& by);
+  /// Nothing is known any more.
+  void forget() { placements_.clear(); }
+
+  [[nodiscard]] double area_m2() const { return area_m2_; }
+  /// Likeliest first.
+  [[nodiscard]] const std::vector<Placement>& placements() const { return placements_; }
+  /// The share of the belief within 0.5 m and 10 degrees of the memory as it lies, at the vehicle.
+  [[nodiscard]] double probability_here(const Transform2<Map, Base>& at) const;
+  /// The likeliest that does not need a mirror; nothing before the first weigh().
+  [[nodiscard]] std::optional<Placement> best() const;
+  /// Of the likeliest place but where the memory lies.
+  [[nodiscard]] double probability_elsewhere(const Transform2<Map, Base>& at) const;
+  /// Of the mirror image, all places together.
+  [[nodiscard]] double probability_mirrored() const;
+
+ private:
+  void judge(const DrawingFit& fit, const MemoryCloud& cloud, const FreeWays& ways,
+             const Transform2<Map, Base>& at, const std::optional<StartPrior>& prior,
+             Placement& placement) const;
+
+  std::shared_ptr<const mapping::DistanceField> walls_;
+  double area_m2_ = 1.0;  ///< of the drawing
+  std::vector<Placement> placements_;
+};
+
+}  // namespace madori::localization
