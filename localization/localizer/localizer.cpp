@@ -93,9 +93,11 @@ PoseEstimate Localizer::on_odometry(const OdometryReading& reading) {
 
 /// Once a scan's stamp ran backwards, the vehicle may be where that one put it, too.
 ScanMatch Localizer::match(const SurfaceScan& scan, const OdometryStep& step) const {
-  ScanMatch best = match_scan(scan, anchor_, step, map_, options_);
+  // Where much is new or moves, less than usual elsewhere is usual here.
+  const double enough = std::min(options_.sure_inliers, options_.known_share * agreement_.usual_inliers());
+  ScanMatch best = match_scan(scan, anchor_, step, enough, map_, options_);
   if (late_anchor_ && best.place.inlier_share < options_.sure_inliers) {
-    ScanMatch late = match_scan(scan, *late_anchor_, step, map_, options_);
+    ScanMatch late = match_scan(scan, *late_anchor_, step, enough, map_, options_);
     if (late.place.inlier_share > best.place.inlier_share) return late;
   }
   return best;
@@ -180,7 +182,11 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
     const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
     const Transform2<Map, Base> before = anchor_;
     follow(scan, step);
-    if (getenv("DBG")) fprintf(stderr, "scan %.3f kf %zu at %.2f %.2f %.0f inl %.2f rec %.2f blind %d walls %.2f\n", to_seconds(stamp.time_since_epoch()), map_.memory.size(), anchor_.x_m(), anchor_.y_m(), to_deg(anchor_.yaw_rad()), map_.evidence.on_memory, agreement_.usual_inliers(), map_.evidence.blind_scans, map_.evidence.on_walls);
+    if (getenv("DBG"))
+      fprintf(stderr, "scan %.3f kf %zu at %.2f %.2f %.0f inl %.2f rec %.2f blind %d walls %.2f\n",
+              to_seconds(stamp.time_since_epoch()), map_.memory.size(), anchor_.x_m(), anchor_.y_m(),
+              to_deg(anchor_.yaw_rad()), map_.evidence.on_memory, agreement_.usual_inliers(),
+              map_.evidence.blind_scans, map_.evidence.on_walls);
     if (was_carried(stamp, points, step, before) || gives_up(stamp) || wants_another_look(stamp)) {
       if (getenv("DBG")) fprintf(stderr, "ANEW blind %d placed %d\n", map_.evidence.blind_scans, map_.placed);
       begin_anew(std::nullopt);

@@ -8,7 +8,10 @@ namespace madori::localization {
 
 void MapState::think(const LocalizerOptions& options) {
   if (memory.empty()) return;
-  memory.close_loops();
+  if (placed && drawing_is_exact(options) && evidence.here > options.health.localized)
+    memory.skip_loops();  // an exact drawing ties every place already
+  else
+    memory.close_loops();
   memory.fuse();
   if (drawing)
     place(options);

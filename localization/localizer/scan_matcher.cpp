@@ -50,8 +50,8 @@ double far_margin(const Pose& prediction, const Pose& far, const SearchWindow& w
 
 }  // namespace
 
-ScanMatch match_scan(const SurfaceScan& scan, const Pose& from, const OdometryStep& step, const MapState& map,
-                     const LocalizerOptions& options) {
+ScanMatch match_scan(const SurfaceScan& scan, const Pose& from, const OdometryStep& step, double enough,
+                     const MapState& map, const LocalizerOptions& options) {
   const Pose prediction = from * step.motion;
   const Point2<Map> here = prediction.translation();
   const Eigen::Matrix3d covariance = with_floor(in_map_axes(step.covariance, from.yaw_rad()));
@@ -60,11 +60,11 @@ ScanMatch match_scan(const SurfaceScan& scan, const Pose& from, const OdometrySt
   const ExtraPull pull = drawing_pull(scan, map, options);
   const auto recent = map.memory.recent_map(here);
   if (window.sigma_m < options.sure_step_m && window.sigma_rad < options.sure_step_rad) {
-    const MatchResult at_once = recent->refine(scan, prediction, prior, pull);
-    if (at_once.inlier_share > options.sure_inliers) return {at_once, at_once};
+    const MatchResult at_once = recent->refine(scan, prediction, prior, pull, MatchStart::Near);
+    if (at_once.inlier_share > enough) return {at_once, at_once};
   }
   const MatchResult near = search_and_refine(*recent, scan, window, prior, pull);
-  if (near.inlier_share > options.sure_inliers) return {near, near};
+  if (near.inlier_share > enough) return {near, near};
   const MatchResult far =
       search_and_refine(map.memory.whole_map(here), scan, far_window(window, step.path_m), prior, pull);
   const double margin = far_margin(prediction, far.map_from_base, window);

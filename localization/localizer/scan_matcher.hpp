@@ -14,9 +14,10 @@ struct ScanMatch {
 };
 
 /// Matches a scan to the memory, `step` by the wheels after the pose `from`. An exact drawing pulls along.
-/// Where the recent keyframes do not explain the scan, all that was remembered nearby is searched, wider.
+/// Where the recent keyframes do not explain the share `enough` of the scan, all that was remembered nearby
+/// is searched, wider.
 [[nodiscard]] ScanMatch match_scan(const SurfaceScan& scan, const Transform2<Map, Base>& from,
-                                   const OdometryStep& step, const MapState& map,
+                                   const OdometryStep& step, double enough, const MapState& map,
                                    const LocalizerOptions& options);
 
 /// Where the first scan lies in a recalled memory, near the start pose; nothing where it does not fit in.

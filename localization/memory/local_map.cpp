@@ -157,16 +157,17 @@ Eigen::Vector3d difference(const Transform2<Map, Base>& a, const Transform2<Map,
 }  // namespace
 
 MatchResult LocalMap::refine(const SurfaceScan& scan, const Transform2<Map, Base>& start,
-                             const MatchPrior& prior, const ExtraPull& extra) const {
+                             const MatchPrior& prior, const ExtraPull& extra, MatchStart from) const {
   MatchResult result;
   result.map_from_base = start;
   if (empty() || scan.points.empty()) {
     return result;
   }
   constexpr int kMaxIterations = 20;
-  double mean_trust = 1.0;  // where nothing is confirmed yet, all of it counts alike
-  for (int i = 0; i < kMaxIterations; ++i) {
-    const double shrink = std::max(0.0, 1.0 - i / 6.0);
+  constexpr int kShrunk = 6;  // from here on reach and kernel are at their least
+  double mean_trust = 1.0;    // where nothing is confirmed yet, all of it counts alike
+  for (int i = from == MatchStart::Near ? kShrunk - 1 : 0; i < kMaxIterations; ++i) {
+    const double shrink = std::max(0.0, 1.0 - i / double{kShrunk});
     const double reach_m = 0.3 + 0.3 * shrink;
     const double kernel_m = 0.08 + 0.2 * shrink;
     NormalEquations sums;
@@ -204,7 +205,7 @@ MatchResult LocalMap::refine(const SurfaceScan& scan, const Transform2<Map, Base
     result.rms_m = sums.inliers > 0 ? std::sqrt(sums.squares / sums.inliers) : 0.0;
     result.map_from_base =
         Transform2<Map, Base>(pose.x_m() + step[0], pose.y_m() + step[1], pose.yaw_rad() + step[2]);
-    if (i >= 6 && step.head<2>().norm() < 1e-4 && std::abs(step[2]) < 1e-5) {
+    if (i >= kShrunk && step.head<2>().norm() < 1e-4 && std::abs(step[2]) < 1e-5) {
       result.converged = true;
       break;
     }

@@ -34,6 +34,9 @@ struct MatchPrior {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
 };
 
+/// How far off a match may start: within decimetres, or within some centimetres (and is quicker).
+enum class MatchStart { Rough, Near };
+
 /// The surfaces of some keyframes put together, for matching scans against. Immutable.
 class LocalMap {
  public:
@@ -50,7 +53,8 @@ class LocalMap {
                                     const SearchWindow& window) const;
   /// Gauss-Newton on the distances to the nearest surface's tangent, robust (Geman-McClure), from `start`.
   [[nodiscard]] MatchResult refine(const SurfaceScan& scan, const Transform2<Map, Base>& start,
-                                   const MatchPrior& prior, const ExtraPull& extra = {}) const;
+                                   const MatchPrior& prior, const ExtraPull& extra = {},
+                                   MatchStart from = MatchStart::Rough) const;
 
  private:
   /// A remembered point, and how far the other keyframes confirm it, 0..1.

@@ -47,6 +47,11 @@ class Memory {
   /// Looks for old keyframes near those added since the last time and ties them. Returns how many loops were
   /// closed.
   int close_loops();
+  /// No loops are looked for behind the keyframes so far: something else holds them in their places.
+  void skip_loops() {
+    looked_back_ = size();
+    if (!empty()) last_loop_path_m_ = keyframes_.back().path_m;
+  }
   /// Takes out old keyframes where newer ones saw the same place, so that the memory grows with the building
   /// and not with the way driven. Returns how many.
   int fuse();
