@@ -190,6 +190,7 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
     if (was_carried(stamp, points, step, before) || gives_up(stamp) || wants_another_look(stamp)) {
       if (getenv("DBG")) fprintf(stderr, "ANEW blind %d placed %d\n", map_.evidence.blind_scans, map_.placed);
       begin_anew(std::nullopt);
+      surroundings_.restart();
     }
   } else {
     surroundings_.take(stamp, points);
@@ -215,7 +216,9 @@ void Localizer::remember_if_new(SurfaceScan scan) {
 bool Localizer::was_carried(Stamp stamp, const ScanPoints& points, const OdometryStep& step,
                             const Transform2<Map, Base>& before) {
   surroundings_.take(stamp, points);
-  return surroundings_.compare(step.motion, before.inverse() * anchor_) == Surroundings::Others;
+  const auto x = surroundings_.compare(step.motion, before.inverse() * anchor_);
+  if (getenv("DBG")) fprintf(stderr, "kept %.2f points %zu inl %.2f usual %.2f verdict %d\n", surroundings_.kept(), points.size(), map_.evidence.on_memory, agreement_.usual_inliers(), static_cast<int>(x));
+  return x == Surroundings::Others;
 }
 
 /// Which of the two clocks is right shows next.
@@ -242,7 +245,7 @@ void Localizer::follow(const SurfaceScan& scan, const OdometryStep& step) {
 
 /// Has nothing agreed for so long that what is remembered must lie elsewhere?
 bool Localizer::gives_up(Stamp stamp) const {
-  return map_.drawing && map_.evidence.blind_scans >= options_.restart_scans &&
+  return map_.drawing && map_.placed && map_.evidence.blind_scans >= options_.restart_scans &&
          judge(agreement_.evidence_at(stamp, map_.evidence), options_.health).state ==
              LocalizationState::Lost;
 }

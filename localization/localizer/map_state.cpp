@@ -55,7 +55,7 @@ void MapState::place(const LocalizerOptions& options) {
 }
 
 /// All places are compared while it is not sure which one it is, and now and then afterwards. The memory goes
-/// where most of the belief is; once it lies somewhere, it stays until hardly any belief is left there.
+/// where most of the belief is.
 void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options) {
   const bool unsure = !placed || evidence.here < options.health.localized;
   const bool everywhere = !evidence.looked || evidence.walls_seen > next_survey_walls;
@@ -68,7 +68,7 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   if (!best) return;
   const double here = drawing->belief.probability_here(memory.poses().back());
   const bool clear = best->probability * best->near > options.health.believed;
-  if (!placed || (clear && here < options.given_up)) move(best->correction);
+  if (!placed || (clear && here < options.health.believed)) move(best->correction);
   placed = placed || clear || told.has_value();
 }
 
@@ -76,7 +76,7 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
 void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options) {
   DrawingFit& fit = drawing->fit;
   cloud = memory_cloud(memory);
-  const Alignment found = fit.align(cloud, {});
+  const Alignment found = fit.align(cloud, {options.settle_half_m, options.settle_half_rad});
   const Transform2<Map, Base>& first = memory.poses().front();
   const double area_m2 = drawing->belief.area_m2();
   const double told_so =

@@ -28,7 +28,8 @@ struct LocalizerOptions {
       0.1;  ///< a drawing more exact than this pulls on every scan, not only on the memory
   double survey_growth_unsure = 1.25;  ///< all places are compared again when so many more walls were seen,
   double survey_growth = 2.0;          ///< or so many where the place is sure
-  double given_up = 0.05;    ///< share of the belief below which the place is left for a likelier one
+  double settle_half_m = 0.4;  ///< the memory settles on the walls within this far; farther is another place
+  double settle_half_rad = 0.1;
   double tie_m = 0.3;        ///< by which the graph is held where it was placed, where nobody gave the start:
   double tie_rad = 0.1;      ///< the drawing's pulls decide
   double move_gain = 3.0;    ///< nats by which another place must explain the memory better

@@ -31,19 +31,21 @@ std::vector<Polar> sorted_by_bearing(const Point2<Base>& sensor, const std::vect
   return polar;
 }
 
-/// Total least squares line through points first..last; false where they are no line.
-bool fit_normal(const std::vector<Polar>& scan, std::size_t first, std::size_t last, SurfacePoint& out) {
-  const double n = static_cast<double>(last - first + 1);
+using Neighbours = std::vector<std::size_t>;
+
+/// Total least squares line through the points; false where they are no line.
+bool fit_normal(const std::vector<Polar>& scan, const Neighbours& of, SurfacePoint& out) {
+  const double n = static_cast<double>(of.size());
   double mean_x = 0.0;
   double mean_y = 0.0;
-  for (std::size_t i = first; i <= last; ++i) {
+  for (const std::size_t i : of) {
     mean_x += scan[i].point.x_m / n;
     mean_y += scan[i].point.y_m / n;
   }
   double xx = 0.0;
   double xy = 0.0;
   double yy = 0.0;
-  for (std::size_t i = first; i <= last; ++i) {
+  for (const std::size_t i : of) {
     const double dx = scan[i].point.x_m - mean_x;
     const double dy = scan[i].point.y_m - mean_y;
     xx += dx * dx;
@@ -62,29 +64,34 @@ bool fit_normal(const std::vector<Polar>& scan, std::size_t first, std::size_t l
   return true;
 }
 
-/// The run of neighbours around i that lie on the same surface, at most kReach to each side.
-std::pair<std::size_t, std::size_t> neighbourhood(const std::vector<Polar>& scan, std::size_t i) {
+/// The points around i that lie on the same surface, at most kReach to each side. A lidar that looks over
+/// things sees several surfaces in one direction: those of the others are passed over.
+Neighbours neighbourhood(const std::vector<Polar>& scan, std::size_t i) {
   constexpr std::size_t kReach = 4;
+  constexpr std::size_t kLook = 16;
   const double gap_m = std::max(0.15, 0.06 * scan[i].range_m);
   const double reach_m = std::max(0.25, 0.1 * scan[i].range_m);
-  std::size_t first = i;
-  std::size_t last = i;
-  while (first > 0 && i - first < kReach && distance_m(scan[first].point, scan[first - 1].point) < gap_m &&
-         distance_m(scan[i].point, scan[first - 1].point) < reach_m) {
-    --first;
+  Neighbours found{i};
+  for (const bool up : {false, true}) {
+    std::size_t last = i;
+    std::size_t taken = 0;
+    for (std::size_t step = 1; step <= kLook && taken < kReach; ++step) {
+      if (up ? i + step >= scan.size() : step > i) break;
+      const std::size_t k = up ? i + step : i - step;
+      if (distance_m(scan[last].point, scan[k].point) >= gap_m ||
+          distance_m(scan[i].point, scan[k].point) >= reach_m)
+        continue;
+      found.push_back(last = k);
+      ++taken;
+    }
   }
-  while (last + 1 < scan.size() && last - i < kReach &&
-         distance_m(scan[last].point, scan[last + 1].point) < gap_m &&
-         distance_m(scan[i].point, scan[last + 1].point) < reach_m) {
-    ++last;
-  }
-  return {first, last};
+  return found;
 }
 
 SurfacePoint surface_point(const std::vector<Polar>& scan, std::size_t i, const Point2<Base>& sensor) {
   SurfacePoint p{scan[i].point.x_m, scan[i].point.y_m};
-  const auto [first, last] = neighbourhood(scan, i);
-  if (last - first >= 2 && fit_normal(scan, first, last, p)) {
+  const Neighbours of = neighbourhood(scan, i);
+  if (of.size() >= 3 && fit_normal(scan, of, p)) {
     const double towards = (sensor.x_m - p.x_m) * p.normal_x + (sensor.y_m - p.y_m) * p.normal_y;
     if (towards < 0.0) {
       p.normal_x = -p.normal_x;

@@ -19,7 +19,7 @@ std::uint64_t cell_at(double x_m, double y_m) {
 }
 
 /// Within which a surface counts as the same: voxel and noise, and half the gap between two beams.
-double reach_at(const Point2<Base>& p) {
+double same_within_m(const Point2<Base>& p) {
   return std::min(0.15 + 0.01 * std::hypot(p.x_m, p.y_m), kCellM);
 }
 
@@ -30,23 +30,40 @@ std::size_t sector_of(const Point2<Base>& p) {
 
 }  // namespace
 
-bool RecentView::Surfaces::has_near(const Point2<Base>& p, double reach_m) const {
+bool RecentView::Surfaces::has_near(const Point2<Base>& p, double within_m) const {
   for (int row = -1; row <= 1; ++row) {
     const std::uint64_t first = cell_at(p.x_m - kCellM, p.y_m + row * kCellM);
     auto s = std::lower_bound(points.begin(), points.end(), first,
                               [](const Point& a, std::uint64_t cell) { return a.cell < cell; });
     for (; s != points.end() && s->cell <= first + 2; ++s)
-      if (distance_m({s->x_m, s->y_m}, p) < reach_m) return true;
+      if (distance_m({s->x_m, s->y_m}, p) < within_m) return true;
   }
   return false;
 }
 
-bool RecentView::Surfaces::looks_towards(const Point2<Base>& p) const {
-  const std::size_t sector = sector_of(p);
-  return looked[sector] || looked[(sector + 1) % kSectors] || looked[(sector + kSectors - 1) % kSectors];
+/// Whether nothing that this one saw stands before the place.
+bool RecentView::Surfaces::could_see(const Point2<Base>& p) const {
+  return std::hypot(p.x_m, p.y_m) < static_cast<double>(reach_m[sector_of(p)]) + same_within_m(p);
 }
 
-/// What lies outside the field of view of this one says nothing: a scanner that looks forward turned.
+/// Between two directions from which something came back lies what came back from the nearer one.
+void RecentView::Surfaces::fill_gaps() {
+  constexpr std::size_t kWidest = 6;  // sectors; wider ones lie outside the field of view
+  std::array<float, kSectors> filled = reach_m;
+  for (std::size_t i = 0; i < kSectors; ++i) {
+    if (reach_m[i] == 0.0F) continue;
+    for (std::size_t gap = 1; gap <= kWidest; ++gap) {
+      const float next = reach_m[(i + gap) % kSectors];
+      if (next == 0.0F) continue;
+      for (std::size_t k = 1; k < gap; ++k) filled[(i + k) % kSectors] = std::min(reach_m[i], next);
+      break;
+    }
+  }
+  reach_m = filled;
+}
+
+/// What lies outside the field of view of this one, or behind what it saw, says nothing: a scanner turned, or
+/// the vehicle came through a door.
 double RecentView::Surfaces::share_of(const Surfaces& others,
                                       const Transform2<Base, Base>& this_from_others) const {
   double total = 0.0;
@@ -55,10 +72,10 @@ double RecentView::Surfaces::share_of(const Surfaces& others,
   for (const Point& other : others.points) {
     const Point2<Base> p{other.x_m, other.y_m};
     const Point2<Base> here = this_from_others * p;
-    if (!looks_towards(here)) continue;
+    if (!could_see(here)) continue;
     ++comparable;
     total += other.weight;
-    if (has_near(here, reach_at(p))) near += other.weight;
+    if (has_near(here, same_within_m(p))) near += other.weight;
   }
   return comparable >= kFewestPoints && total > 0.0 ? near / total : 1.0;
 }
@@ -67,13 +84,15 @@ void RecentView::take(Stamp stamp, const ScanPoints& points) {
   std::swap(before_, now_);
   now_.stamp = stamp;
   now_.points.clear();
-  now_.looked.fill(false);
+  now_.reach_m.fill(0.0F);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point2<Base> p = points.point(i);
     if (!std::isfinite(p.x_m) || !std::isfinite(p.y_m)) continue;
     now_.points.push_back({cell_at(p.x_m, p.y_m), p.x_m, p.y_m, points.weight_of(i)});
-    now_.looked[sector_of(p)] = true;
+    float& reach = now_.reach_m[sector_of(p)];
+    reach = std::max(reach, static_cast<float>(std::hypot(p.x_m, p.y_m)));
   }
+  now_.fill_gaps();
   std::sort(now_.points.begin(), now_.points.end(),
             [](const Surfaces::Point& a, const Surfaces::Point& b) { return a.cell < b.cell; });
 }

@@ -21,7 +21,7 @@ class RecentView {
   static constexpr Duration kRecent = std::chrono::milliseconds(500);
 
   /// Into which the field of view is divided.
-  static constexpr std::size_t kSectors = 90;
+  static constexpr std::size_t kSectors = 360;
 
   /// A scan, Base frame at `stamp`; the one before it becomes the one that it is compared with.
   void take(Stamp stamp, const ScanPoints& points);
@@ -47,9 +47,10 @@ class RecentView {
     };
     Stamp stamp{};
     std::vector<Point> points;
-    std::array<bool, kSectors> looked{};  ///< directions from which something came back
-    [[nodiscard]] bool looks_towards(const Point2<Base>& p) const;
-    [[nodiscard]] bool has_near(const Point2<Base>& p, double reach_m) const;
+    std::array<float, kSectors> reach_m{};  ///< of the farthest return of each direction, 0 for none
+    [[nodiscard]] bool could_see(const Point2<Base>& p) const;
+    void fill_gaps();
+    [[nodiscard]] bool has_near(const Point2<Base>& p, double within_m) const;
     /// Share of the weight of `others` that lies where this one has a surface.
     [[nodiscard]] double share_of(const Surfaces& others,
                                   const Transform2<Base, Base>& this_from_others) const;

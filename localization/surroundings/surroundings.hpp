@@ -22,6 +22,8 @@ class SurroundingsCheck {
  public:
   explicit SurroundingsCheck(const SurroundingsOptions& options) : options_(options) {}
 
+  /// Other surroundings: what is usual is learned anew.
+  void restart() { view_ = {}; }
   /// A scan, Base frame at `stamp`; the one before it becomes the one that it is compared with.
   void take(Stamp stamp, const ScanPoints& points);
   /// Compares the two, the later one laid where the wheels or where the walls say that it was taken.

@@ -46,17 +46,43 @@ std::vector<Return> region_of_interest(const PointCloud<Base>& cloud, const Clou
   return sorted(inside, options.sectors);
 }
 
-/// Height of the part of a wall at `range_m` that the lasers cover within the region of interest, above the
-/// line of sight over what stands before it (its rise per metre).
-double coverable_m(double range_m, double sight_rise, const CloudWallOptions& o) {
+/// What of a wall the returns before it in its sector leave in sight: rises per metre from the lidar. What
+/// stands before it hides it from below, a ceiling, a beam or a lamp from above.
+struct Sight {
+  double from = -INFINITY;
+  double to = INFINITY;
+};
+
+double rise_of(const Return& r, const CloudWallOptions& options) {
+  return (static_cast<double>(r.z_m) - options.sensor_height_m) / static_cast<double>(r.range_m);
+}
+
+/// Of a surface between two rises, past the returns begin..end of its sector.
+Sight sight_past(const std::vector<Return>& returns, std::size_t begin, std::size_t end, double low_rise,
+                 double high_rise, const CloudWallOptions& options) {
+  Sight sight;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double rise = rise_of(returns[i], options);
+    if (rise <= low_rise)
+      sight.from = std::max(sight.from, rise);
+    else if (rise >= high_rise)
+      sight.to = std::min(sight.to, rise);
+  }
+  return sight;
+}
+
+/// Height of the part of a wall at `range_m` that the lasers cover within the region of interest and in
+/// sight.
+double coverable_m(double range_m, const Sight& sight, const CloudWallOptions& o) {
   const double rise = std::tan(o.max_elevation_rad);
-  const double top = std::min(o.max_height_m, o.sensor_height_m + range_m * rise);
-  const double bottom = std::max(o.min_height_m, o.sensor_height_m + range_m * std::max(-rise, sight_rise));
+  const double top = std::min(o.max_height_m, o.sensor_height_m + range_m * std::min(rise, sight.to));
+  const double bottom = std::max(o.min_height_m, o.sensor_height_m + range_m * std::max(-rise, sight.from));
   return std::max(top - bottom, 0.0);
 }
 
-/// How surely returns first..last of one sector, all about as far away, are of a wall: 0 = not.
-double wall_weight(const std::vector<Return>& returns, std::size_t first, std::size_t last, double sight_rise,
+/// How surely returns first..last of the sector that begins at `begin`, all about as far away, are of a wall:
+/// 0 = not.
+double wall_weight(const std::vector<Return>& returns, std::size_t begin, std::size_t first, std::size_t last,
                    const CloudWallOptions& options) {
   float low = returns[first].z_m;
   float high = low;
@@ -66,8 +92,10 @@ double wall_weight(const std::vector<Return>& returns, std::size_t first, std::s
   }
   const double range = returns[first].range_m;
   const double ring_m = range * options.ring_step_rad;
+  const Sight sight = sight_past(returns, begin, first, (low - options.sensor_height_m) / range,
+                                 (high - options.sensor_height_m) / range, options);
   const double possible =
-      coverable_m(range, sight_rise, options) - ring_m;  // the outer lasers miss up to a step in all
+      coverable_m(range, sight, options) - ring_m;  // the outer lasers miss up to a step in all
   const double extent = high - low;
   if (possible <= ring_m) return last > first ? 0.5 : 0.25;  // no more than two lasers could have met it
   if (last == first) return 0.0;
@@ -130,16 +158,14 @@ void add_normals(ScanPoints& points) {
 ScanPoints extract_walls(const PointCloud<Base>& cloud, const CloudWallOptions& options) {
   const std::vector<Return> returns = region_of_interest(cloud, options);
   ScanPoints points;
-  double sight_rise = -INFINITY;  // over the surfaces of the sector so far
+  std::size_t begin = 0;  // of the sector
   for (std::size_t first = 0; first < returns.size();) {
     std::size_t last = first;
     while (last + 1 < returns.size() && returns[last + 1].sector == returns[first].sector &&
            returns[last + 1].range_m - returns[last].range_m <= options.surface_gap_m)
       ++last;
-    if (first == 0 || returns[first].sector != returns[first - 1].sector) sight_rise = -INFINITY;
-    const double weight = wall_weight(returns, first, last, sight_rise, options);
-    for (std::size_t i = first; i <= last; ++i)
-      sight_rise = std::max(sight_rise, (returns[i].z_m - options.sensor_height_m) / returns[i].range_m);
+    if (returns[first].sector != returns[begin].sector) begin = first;
+    const double weight = wall_weight(returns, begin, first, last, options);
     if (weight > 0.0) {
       double x = 0.0, y = 0.0;
       for (std::size_t i = first; i <= last; ++i) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 
+#include "localization/localizer/localizer.hpp"
 #include "localization/wall_tracker/wall_tracker.hpp"
 
 namespace madori::bench {
@@ -31,10 +32,31 @@ class TrackerTrial final : public TrialLocalizer {
   localization::WallTracker tracker_;
 };
 
+class LocalizerTrial final : public TrialLocalizer {
+ public:
+  explicit LocalizerTrial(const mapping::Walls& drawing)
+      : localizer_(drawing, std::nullopt, localization::driving_options()) {}
+
+  PoseEstimate on_odometry(const OdometryReading& reading) override { return localizer_.on_odometry(reading); }
+  void on_scan(Stamp stamp, const localization::ScanPoints& points, const Point2<Base>& sensor) override {
+    (void)localizer_.on_scan(stamp, points, sensor);
+  }
+  void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) override {
+    localizer_.set_pose(map_from_base, sigma);
+  }
+  void search_anew() override { localizer_.search_anew(); }
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return localizer_.hypotheses(); }
+  [[nodiscard]] double said() const override { return localizer_.evidence().here; }
+
+ private:
+  localization::Localizer localizer_;
+};
+
 using Maker = std::function<std::unique_ptr<TrialLocalizer>(const mapping::Walls&)>;
 
 const std::map<std::string, Maker>& makers() {
   static const std::map<std::string, Maker> all{
+      {"localizer", [](const auto& drawing) { return std::make_unique<LocalizerTrial>(drawing); }},
       {"tracker", [](const auto& drawing) { return std::make_unique<TrackerTrial>(drawing); }},
   };
   return all;
