@@ -182,13 +182,7 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
     const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
     const Transform2<Map, Base> before = anchor_;
     follow(scan, step);
-    if (getenv("DBG"))
-      fprintf(stderr, "scan %.3f kf %zu at %.2f %.2f %.0f inl %.2f rec %.2f blind %d walls %.2f\n",
-              to_seconds(stamp.time_since_epoch()), map_.memory.size(), anchor_.x_m(), anchor_.y_m(),
-              to_deg(anchor_.yaw_rad()), map_.evidence.on_memory, agreement_.usual_inliers(),
-              map_.evidence.blind_scans, map_.evidence.on_walls);
     if (was_carried(stamp, points, step, before) || gives_up(stamp) || wants_another_look(stamp)) {
-      if (getenv("DBG")) fprintf(stderr, "ANEW blind %d placed %d\n", map_.evidence.blind_scans, map_.placed);
       begin_anew(std::nullopt);
       surroundings_.restart();
     }
@@ -212,13 +206,13 @@ void Localizer::remember_if_new(SurfaceScan scan) {
     remember(std::move(scan));
 }
 
-/// Does the lidar see other surroundings than a moment ago, wherever the vehicle is laid?
+/// Does the lidar see other surroundings than a moment ago, wherever the vehicle is laid, and does the memory
+/// explain them less than usual?
 bool Localizer::was_carried(Stamp stamp, const ScanPoints& points, const OdometryStep& step,
                             const Transform2<Map, Base>& before) {
   surroundings_.take(stamp, points);
-  const auto x = surroundings_.compare(step.motion, before.inverse() * anchor_);
-  if (getenv("DBG")) fprintf(stderr, "kept %.2f points %zu inl %.2f usual %.2f verdict %d\n", surroundings_.kept(), points.size(), map_.evidence.on_memory, agreement_.usual_inliers(), static_cast<int>(x));
-  return x == Surroundings::Others;
+  const bool others = surroundings_.compare(step.motion, before.inverse() * anchor_) == Surroundings::Others;
+  return others && map_.evidence.on_memory < options_.known_share * agreement_.usual_inliers();
 }
 
 /// Which of the two clocks is right shows next.

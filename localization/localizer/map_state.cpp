@@ -50,6 +50,7 @@ void MapState::place(const LocalizerOptions& options) {
   if (placed) lay_on_drawing(cloud, options);
   const Transform2<Map, Base>& at = memory.poses().back();
   evidence.here = placed ? drawing->belief.probability_here(at) : 0.0;
+  if (unconfirmed_size == memory.size()) evidence.here = std::min(evidence.here, options.unconfirmed);
   evidence.rival = drawing->belief.probability_elsewhere(at);
   evidence.mirrored = drawing->belief.probability_mirrored();
 }
@@ -67,8 +68,10 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   const auto best = drawing->belief.best();
   if (!best) return;
   const double here = drawing->belief.probability_here(memory.poses().back());
-  const bool clear = best->probability * best->near > options.health.believed;
-  if (!placed || (clear && here < options.health.believed)) move(best->correction);
+  const bool clear = best->probability > options.health.believed;
+  const bool leaves = placed && clear && here < options.health.believed;
+  if (leaves) unconfirmed_size = memory.size();  // a place that was wrong once is believed when more agrees
+  if (!placed || leaves) move(best->correction);
   placed = placed || clear || told.has_value();
 }
 

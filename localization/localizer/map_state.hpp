@@ -24,7 +24,8 @@ struct MapState {
   std::optional<StartPrior> told;    ///< by whoever gave the start pose; absent: nobody did
   bool placed = false;               ///< the memory lies where it is believed to lie
   HealthEvidence evidence;
-  double next_survey_walls = 0.0;  ///< walls seen when all places are looked at again
+  std::size_t unconfirmed_size = 0;  ///< of the memory when it was last moved to another place
+  double next_survey_walls = 0.0;    ///< walls seen when all places are looked at again
 
   /// The slow work, in the worker: closes loops, lays the memory on the drawing, solves the graph.
   void think(const LocalizerOptions& options);

@@ -30,6 +30,7 @@ struct LocalizerOptions {
   double survey_growth = 2.0;          ///< or so many where the place is sure
   double settle_half_m = 0.4;  ///< the memory settles on the walls within this far; farther is another place
   double settle_half_rad = 0.1;
+  double unconfirmed = 0.9;  ///< at most believed of a new place until more was seen there
   double tie_m = 0.3;        ///< by which the graph is held where it was placed, where nobody gave the start:
   double tie_rad = 0.1;      ///< the drawing's pulls decide
   double move_gain = 3.0;    ///< nats by which another place must explain the memory better

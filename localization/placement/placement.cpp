@@ -147,6 +147,7 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
   std::vector<Placement> found{{}};
   for (const Placement& p : placements_)
     if (p.probability > kForgotten) found.push_back(p);
+  if (prior) found.push_back({prior->map_from_base * memory.poses().front().inverse()});
   const MemoryCloud mirrored_cloud = mirror_image(cloud);
   const FreeWays mirrored_ways = mirror_image(ways);
   const Transform2<Map, Base> mirrored_at = mirror_image(at);
@@ -183,24 +184,6 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
     sum += placements_.back().probability;
   }
   for (Placement& p : placements_) p.probability /= sum;
-  if (getenv("DBG")) {
-    fprintf(stderr, "weigh kf %zu walls %.0f every %d\n", memory.size(), DrawingFit::walls_seen(all),
-            everywhere);
-    for (std::size_t i = 0; i < placements_.size() && i < 4; ++i) {
-      const auto& p = placements_[i];
-      const auto c = p.correction * (p.mirrored ? mirrored_at : at);
-      std::array<double, 3> n{};
-      for (int k = 0; k < 3; ++k)
-        n[k] = log_likelihood(fit.index(), p.mirrored ? mirrored_cloud : cloud, p.correction,
-                              WallMixture(DrawingModel{}, kDrawingSigmasM[k]));
-      fprintf(stderr,
-              "   %s p %.4f near %.2f nats %.1f at %.1f %.1f %.0f (%.2f m from lain) LL %.1f %.1f %.1f "
-              "crossed %d expl %.2f\n",
-              p.mirrored ? "M" : " ", p.probability, p.near, p.nats, c.x_m(), c.y_m(), to_deg(c.yaw_rad()),
-              distance_m(c.translation(), at.translation()), n[0], n[1], n[2],
-              walls_crossed(p.mirrored ? mirrored_ways : ways, p.correction, *walls_), p.explained);
-    }
-  }
 }
 
 void PlaceBelief::moved(const Transform2<Map, Map>& by) {

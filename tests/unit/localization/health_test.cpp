@@ -17,10 +17,9 @@ using ::testing::HasSubstr;
 
 HealthEvidence sound() {
   HealthEvidence e;
+  e.looked = true;
+  e.here = 0.99;
   e.walls_seen = 100.0;
-  e.fit_nats = 150.0;
-  e.inliers = 0.6;
-  e.sigma_m = 0.05;
   e.position_sigma_m = 0.03;
   return e;
 }
@@ -30,44 +29,40 @@ TEST(Health, ASoundPoseIsLocalizedWithoutAReason) {
   EXPECT_EQ(judge(sound()).reason, "");
 }
 
-TEST(Health, AFreshStartIsNotBelievedYet) {
+TEST(Health, StatesAreThresholdsOnTheShareOfTheBelief) {
   HealthEvidence e = sound();
-  e.walls_seen = 10.0;
-  e.fit_nats = 15.0;
-  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
-  EXPECT_THAT(judge(e).reason, HasSubstr("start pose"));
-}
-
-TEST(Health, ABelievedStartIsNotDoubtedForALittleLess) {
-  HealthEvidence e = sound();
-  e.walls_seen = 30.0;
-  e.fit_nats = 35.0;
-  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
-  e.verified = true;
+  e.here = 0.951;
   EXPECT_EQ(judge(e).state, LocalizationState::Localized);
-  e.walls_seen = 18.0;
-  e.fit_nats = 19.0;
+  e.here = 0.949;
   EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
+  EXPECT_THAT(judge(e).reason, HasSubstr("certain to 95 %"));
+  e.here = 0.59;
+  EXPECT_EQ(judge(e).state, LocalizationState::Lost);
 }
 
 TEST(Health, AMirroredDrawingIsNamed) {
   HealthEvidence e = sound();
-  e.mirrored_nats = 30.0;
+  e.here = 0.2;
+  e.mirrored = 0.8;
   EXPECT_EQ(judge(e).state, LocalizationState::Lost);
   EXPECT_THAT(judge(e).reason, HasSubstr("mirror"));
 }
 
-TEST(Health, WhatDoesNotFitIsLost) {
-  HealthEvidence e = sound();
-  e.fit_nats = 20.0;
-  EXPECT_EQ(judge(e).state, LocalizationState::Lost);
-}
-
 TEST(Health, ARivalPlaceIsAmbiguousABetterOneIsLost) {
   HealthEvidence e = sound();
-  e.elsewhere_nats = -2.0;
+  e.here = 0.5;
+  e.rival = 0.45;
   EXPECT_EQ(judge(e).state, LocalizationState::Ambiguous);
-  e.elsewhere_nats = 20.0;
+  e.here = 0.2;
+  e.rival = 0.75;
+  EXPECT_EQ(judge(e).state, LocalizationState::Lost);
+  EXPECT_EQ(judge(e).reason, reason::kMovedByHand.english);
+}
+
+TEST(Health, WhereNoPlaceStandsOutItIsLost) {
+  HealthEvidence e = sound();
+  e.here = 0.1;
+  e.rival = 0.1;
   EXPECT_EQ(judge(e).state, LocalizationState::Lost);
 }
 
@@ -130,22 +125,9 @@ TEST(Health, MappingWithoutADrawingNeedsNoFit) {
   EXPECT_EQ(judge(e).state, LocalizationState::Localized);
 }
 
-TEST(Health, ABadFitIsNoLossWhereNoOtherPlaceComesNear) {
+TEST(Health, WhoHasNotLookedIsLost) {
   HealthEvidence e = sound();
-  e.walls_seen = 100.0;
-  e.fit_nats = 30.0;
-  e.elsewhere_nats = HealthEvidence::kNotLooked;  // nobody looked: it may be a wrong place
-  e.mirrored_nats = -40.0;
-  EXPECT_EQ(judge(e).state, LocalizationState::Lost);
-  e.elsewhere_nats = -40.0;
-  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
-  e.mirrored_nats = -5.0;  // the mirror image comes near
-  EXPECT_EQ(judge(e).state, LocalizationState::Lost);
-}
-
-TEST(Health, SearchingIsLost) {
-  HealthEvidence e = sound();
-  e.searching = true;
+  e.looked = false;
   EXPECT_EQ(judge(e).state, LocalizationState::Lost);
 }
 
