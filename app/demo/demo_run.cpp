@@ -9,7 +9,7 @@
 
 #include "app/cycle/site_config.hpp"
 #include "app/demo/played_operator.hpp"
-#include "app/pose/drawing_pose.hpp"
+#include "app/pose/localizer_pose.hpp"
 #include "app/recording/recorder.hpp"
 #include "app/runner/real_time.hpp"
 #include "app/runner/socket_link.hpp"
@@ -111,7 +111,7 @@ DemoResult run_demo(const DemoOptions& options) {
   fs::create_directories(devices);
   auto link = std::make_unique<SocketLink>(SocketOptions{"127.0.0.1", 0, 0, (devices / "drive").string(), ""},
                                            loaded.config.odometry.wheels);
-  auto source = std::make_unique<DrawingPose>(loaded.walls);
+  auto source = std::make_unique<LocalizerPose>(loaded.walls, loaded.config.lidar);
   LiveFactory factory(setup_of(options), link->lidar_port(), devices);
   TransportRun run(loaded.config, std::move(source), std::move(link),
                    {.site = options.site, .store_poll_s = 0.1});

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/learned/learned_drawing.hpp"
-#include "app/pose/drawing_pose.hpp"
+#include "app/pose/localizer_pose.hpp"
 #include "app/route_tools.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 
@@ -46,11 +46,11 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
     const auto& lidar = loaded.site->config.lidar;
     loaded.watch = std::make_shared<WallWatch>(loaded.site->walls, Point2<Base>{lidar.x_m, lidar.y_m},
                                                site / kReliabilityFile);
-    DrawingPoseOptions options;
+    LocalizerPoseOptions options;
     options.onlooker = [watch = loaded.watch](const auto& points, const auto& pose) {
       (void)watch->see(points, pose);
     };
-    loaded.pose = std::make_unique<DrawingPose>(loaded.site->walls, options);
+    loaded.pose = std::make_unique<LocalizerPose>(loaded.site->walls, lidar, options);
     loaded.last = load_stored_pose(site, mapping::walls_fingerprint(loaded.site->walls));
     if (!loaded.last.message.empty()) spdlog::info("{}", loaded.last.message);
     loaded.keeper = std::make_unique<SiteKeeper>(site, loaded.site->walls, loaded.watch);

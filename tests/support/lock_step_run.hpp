@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/cycle/site_config.hpp"
-#include "app/pose/drawing_pose.hpp"
+#include "app/pose/localizer_pose.hpp"
 #include "app/runner/transport_run.hpp"
 #include "app/simulated/factory_link.hpp"
 #include "core/segment_distance.hpp"
@@ -31,7 +31,7 @@ class LockStepRun {
     options.detours_in_step = true;
     options.store_poll_s = 0.1;
     run = std::make_unique<app::TransportRun>(
-        site.config, make_source ? make_source(*factory) : std::make_unique<app::DrawingPose>(site.walls),
+        site.config, make_source ? make_source(*factory) : std::make_unique<app::LocalizerPose>(site.walls, site.config.lidar),
         std::make_unique<app::FactoryLink>(factory, site.config.odometry.wheels, kStep), options);
     run->say({app::OperatorWord::Resume, {}});
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/pose/drawing_pose.hpp"
+#include "app/pose/localizer_pose.hpp"
 #include "app/simulated/factory_link.hpp"
 #include "planning/route_graph/route_csv.hpp"
 
@@ -51,7 +51,7 @@ WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int numb
   transport.detours_in_step = true;
   transport.store_poll_s = 0.5;
   run_ = std::make_unique<app::TransportRun>(
-      loaded_.config, std::make_unique<app::DrawingPose>(loaded_.walls),
+      loaded_.config, std::make_unique<app::LocalizerPose>(loaded_.walls, loaded_.config.lidar),
       std::make_unique<app::FactoryLink>(factory_, loaded_.config.odometry.wheels, kStep), transport);
   surprises_ = std::make_unique<Surprises>(*factory_, setup.scenario, run_->config());
   witness_ = std::make_unique<Witness>(*factory_, figures_, options.verbose, options.trace_s);

@@ -8,7 +8,7 @@
 
 #include "app/cycle/cycle.hpp"
 #include "app/keeping/site_keeper.hpp"
-#include "app/pose/drawing_pose.hpp"
+#include "app/pose/localizer_pose.hpp"
 #include "app/recording/input_text.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -68,13 +68,13 @@ Start switch_on(bool block, const Transform2<Map, Base>& truth, const std::optio
   lidar.bodies = hall(block);
   CycleConfig config;
   config.lidar.z_m = lidar.height_m;
-  CycleState state(config, std::make_unique<DrawingPose>(drawing(lidar.bodies)));
+  CycleState state(config, std::make_unique<LocalizerPose>(drawing(lidar.bodies), config.lidar));
   std::mt19937 random(3);
   Start result{{}, -1, ""};
   PoseRecall recall(stored);
   std::optional<OperatorCommand> word;
   int clouds = 0;
-  for (std::uint16_t i = 0; i < 60; ++i) {
+  for (std::uint16_t i = 0; i < 110; ++i) {
     CycleInput input;
     input.now = stamp_from_seconds(2000.0 + 0.02 * i);
     if (const auto said = std::exchange(word, std::nullopt)) input.commands.push_back(*said);
@@ -177,7 +177,7 @@ TEST(SiteKeeper, KeepsThePoseAtMostEverySecondAndAtAStandstill) {
   const test::TemporaryFolder folder;
   const mapping::Walls walls = drawing(hall(true));
   SiteKeeper keeper(folder.path(), walls, nullptr);
-  CycleState state(CycleConfig{}, std::make_unique<DrawingPose>(walls));
+  CycleState state(CycleConfig{}, std::make_unique<LocalizerPose>(walls, planning::SensorView{}));
   state.pose.health = {LocalizationState::Localized, ""};
   const auto at = [&](double t, double x, std::uint16_t angle) {
     state.drive_heard = stamp_from_seconds(3000.0 + t);
