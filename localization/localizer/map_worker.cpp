@@ -17,7 +17,8 @@ void MapWorker::start(Stamp now, MapState state, const LocalizerOptions& options
 
 std::optional<MapState> MapWorker::take(Stamp now, const LocalizerOptions& options) {
   constexpr int kScans = 100;  // for logs whose time stands still
-  if (!busy() || (to_seconds(now - started_) < options.thinking_s && ++asked_ < kScans)) {
+  const double due_s = known_ <= 1 ? options.first_look_s : options.thinking_s;
+  if (!busy() || (to_seconds(now - started_) < due_s && ++asked_ < kScans)) {
     return std::nullopt;
   }
   MapState state = answer_.get();

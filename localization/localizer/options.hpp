@@ -51,6 +51,7 @@ struct LocalizerOptions {
   /// What is thought over beside the cycle is taken in at the first scan this much later, by the stamps of
   /// the log and never by the clock, so that every replay gives the same poses.
   double thinking_s = 1.0;
+  double first_look_s = 0.3;  ///< likewise of the first scan alone: there is little to think about
 };
 
 /// For a vehicle with encoders on its driven wheels.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace madori::localization {
 namespace {
@@ -29,20 +30,48 @@ ScanPoints seen_from(const Motion& place, unsigned seed) {
   return points;
 }
 
-/// The share counted the long way: each point against each.
+int degree_of(const Point2<Base>& p) {
+  return std::min(359, static_cast<int>((std::atan2(p.y_m, p.x_m) + kPi) / (2.0 * kPi) * 360.0));
+}
+
+/// How far a scan saw in a whole degree: to its farthest return there, between two degrees with returns at most
+/// six apart to the nearer of them, else not at all.
+double sight_m(const ScanPoints& scan, int degree) {
+  const auto farthest = [&](int at) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < scan.size(); ++i)
+      if (degree_of(scan.point(i)) == (at + 360) % 360)
+        most = std::max(most, std::hypot(scan.point(i).x_m, scan.point(i).y_m));
+    return most;
+  };
+  if (const double here = farthest(degree); here > 0.0) return here;
+  int left = 1, right = 1;
+  while (left < 360 && farthest(degree + left) == 0.0) ++left;
+  while (right < 360 && farthest(degree - right) == 0.0) ++right;
+  return left + right <= 6 ? std::min(farthest(degree + left), farthest(degree - right)) : 0.0;
+}
+
+/// The share counted the long way: each point against each, as far as the other scan could see it.
 double by_hand(const ScanPoints& before, const ScanPoints& now, const Motion& before_from_now) {
-  const auto share = [](const ScanPoints& of, const ScanPoints& in, const Motion& in_from_of) {
-    double near = 0.0;
+  const auto within_m = [](const Point2<Base>& p) {
+    return std::min(0.15 + 0.01 * std::hypot(p.x_m, p.y_m), 0.5);
+  };
+  const auto share = [&](const ScanPoints& of, const ScanPoints& in, const Motion& in_from_of) {
+    std::vector<double> sight;
+    for (int degree = 0; degree < 360; ++degree) sight.push_back(sight_m(in, degree));
+    double near = 0.0, all = 0.0;
     for (std::size_t i = 0; i < of.size(); ++i) {
-      const Point2<Base> p = of.point(i);
-      const double reach_m = std::min(0.15 + 0.01 * std::hypot(p.x_m, p.y_m), 0.5);
+      const Point2<Base> p = in_from_of * of.point(i);
+      const double reach_m = sight[static_cast<std::size_t>(degree_of(p))];
+      if (std::hypot(p.x_m, p.y_m) >= reach_m + within_m(p)) continue;
+      all += 1.0;
       for (std::size_t k = 0; k < in.size(); ++k)
-        if (distance_m(in_from_of * p, in.point(k)) < reach_m) {
+        if (distance_m(p, in.point(k)) < within_m(of.point(i))) {
           near += 1.0;
           break;
         }
     }
-    return near / static_cast<double>(of.size());
+    return near / all;
   };
   return 0.5 * (share(now, before, before_from_now) + share(before, now, before_from_now.inverse()));
 }
