@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <random>
 #include <utility>
@@ -60,6 +61,7 @@ struct Start {
   PoseEstimate pose;
   int clouds = 0;  ///< until it was localized; -1: never
   std::string verdict;
+  std::vector<PoseHypothesis> places;  ///< where it may be
 };
 
 Start switch_on(bool block, const Transform2<Map, Base>& truth, const std::optional<StoredPose>& stored,
@@ -70,7 +72,7 @@ Start switch_on(bool block, const Transform2<Map, Base>& truth, const std::optio
   config.lidar.z_m = lidar.height_m;
   CycleState state(config, std::make_unique<LocalizerPose>(drawing(lidar.bodies), config.lidar));
   std::mt19937 random(3);
-  Start result{{}, -1, ""};
+  Start result{{}, -1, "", {}};
   PoseRecall recall(stored);
   std::optional<OperatorCommand> word;
   int clouds = 0;
@@ -92,6 +94,7 @@ Start switch_on(bool block, const Transform2<Map, Base>& truth, const std::optio
   }
   result.pose = state.pose;
   result.verdict = recall.verdict();
+  result.places = state.localization->hypotheses();
   return result;
 }
 
@@ -153,13 +156,15 @@ TEST(PoseStore, WhereTheWheelsHaveTurnedThePlaceIsSoughtAnew) {
   EXPECT_NE(rolled.verdict.find("wheels have turned"), std::string::npos);
 }
 
-TEST(PoseStore, AVehicleCarriedElsewhereFindsItsTruePlace) {
+/// The stored place and what is seen contradict each other: neither is believed at once, both are named.
+TEST(PoseStore, AVehicleCarriedElsewhereNamesItsTruePlace) {
   const Transform2<Map, Base> truth(6.0, 3.5, -0.6);
   const Start carried = switch_on(true, truth, stored_at({4.0, 3.0, 0.4}), kWheels);
-  ASSERT_GT(carried.clouds, 1) << to_string(carried.pose.health.state) << ": " << carried.pose.health.reason
-                               << " at " << carried.pose.map_from_base.x_m() << " "
-                               << carried.pose.map_from_base.y_m();
-  EXPECT_LT(distance_m(carried.pose.map_from_base.translation(), truth.translation()), 0.1);
+  EXPECT_EQ(carried.clouds, -1) << "believed at " << carried.pose.map_from_base.x_m();
+  EXPECT_TRUE(std::any_of(carried.places.begin(), carried.places.end(), [&](const PoseHypothesis& place) {
+    return place.probability > 0.05 &&
+           distance_m(place.map_from_base.translation(), truth.translation()) < 0.1;
+  }));
 }
 
 TEST(PoseStore, TheRecordedInputHoldsItToTheLastBit) {
