@@ -16,7 +16,8 @@ constexpr std::array kDrawingSigmasM{0.05, 0.15, 0.4};
 /// Drawn walls that are not there; ln of it is what crossing one costs.
 constexpr double kMissingWalls = 0.15;
 /// A drawing that was imported the wrong way round, before anything is seen.
-constexpr double kMirroredDrawings = 0.02;
+constexpr double kMirroredDrawings = 0.1;
+constexpr double kLeastMirrored = 1e-4;  // nothing that was seen excludes it
 /// Poses that are given and wrong altogether: the wrong vehicle, site or button.
 constexpr double kWrongPriors = 0.02;
 /// What an observation is worth: rooms and aisles repeat, and so do the errors of a drawing.
@@ -107,7 +108,8 @@ double log_prior(const StartPrior& prior, const Transform2<Map, Base>& first, do
 }
 
 PlaceBelief::PlaceBelief(const mapping::Walls& walls)
-    : walls_(std::make_shared<const mapping::DistanceField>(walls)) {
+    : walls_(std::make_shared<const mapping::DistanceField>(walls)),
+      log_mirrored_(std::log(kMirroredDrawings)) {
   const mapping::GridFrame& frame = walls_->frame();
   area_m2_ = frame.width * frame.cell_m * (frame.height * frame.cell_m);
 }
@@ -165,7 +167,7 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
           p.mirrored ? std::nullopt : prior, p);
     const double anywhere = -std::log(2.0 * kPi * area_m2_);
     if (p.mirrored)
-      p.nats += std::log(kMirroredDrawings) + anywhere;
+      p.nats += log_mirrored_ + anywhere;
     else
       p.nats += prior ? log_prior(*prior, p.correction * memory.poses().front(), area_m2_) : anywhere;
   }
@@ -184,6 +186,12 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
     sum += placements_.back().probability;
   }
   for (Placement& p : placements_) p.probability /= sum;
+}
+
+void PlaceBelief::forget() {
+  if (!placements_.empty())
+    log_mirrored_ = std::min(log_mirrored_, std::log(std::max(kLeastMirrored, probability_mirrored())));
+  placements_.clear();
 }
 
 void PlaceBelief::moved(const Transform2<Map, Map>& by) {

@@ -45,8 +45,8 @@ class PlaceBelief {
              const std::optional<StartPrior>& prior, const Transform2<Map, Base>& at, bool everywhere);
   /// The memory was moved: what leads to a place from there.
   void moved(const Transform2<Map, Map>& by);
-  /// Nothing is known any more.
-  void forget() { placements_.clear(); }
+  /// Nothing is known of the place any more; whether the drawing is mirrored is not forgotten.
+  void forget();
 
   [[nodiscard]] double area_m2() const { return area_m2_; }
   /// Likeliest first.
@@ -67,6 +67,7 @@ class PlaceBelief {
 
   std::shared_ptr<const mapping::DistanceField> walls_;
   double area_m2_ = 1.0;  ///< of the drawing
+  double log_mirrored_;  ///< prior of a mirrored drawing, by what places before said
   std::vector<Placement> placements_;
 };
 
