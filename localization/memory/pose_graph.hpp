@@ -27,7 +27,7 @@ struct UnaryFactor {
 
 struct GraphOptions {
   int max_iterations = 8;
-  double loop_loss = 3.0;  ///< sigmas; beyond, a loop closure pulls less and less (Cauchy)
+  double loop_loss = 3.0;            ///< sigmas; beyond, a loop closure pulls less and less (Cauchy)
   double function_tolerance = 1e-5;  ///< relative change of the cost at which the solver stops
 };
 

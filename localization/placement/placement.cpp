@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "localization/drawing_fit/wall_hits.hpp"
+#include "localization/global/global_answer.hpp"
 #include "localization/placement/survey.hpp"
 
 namespace madori::localization {
@@ -178,7 +179,7 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
     const Transform2<Map, Base> place = p.correction * (p.mirrored ? mirrored_at : at);
     const bool known = std::any_of(placements_.begin(), placements_.end(), [&](const Placement& k) {
       return k.mirrored == p.mirrored &&
-             is_same_place(place, k.correction * (k.mirrored ? mirrored_at : at), kSameM, kSameRad);
+             same_place(place, k.correction * (k.mirrored ? mirrored_at : at), kSameM, kSameRad);
     });
     if (known || placements_.size() == kKept) continue;
     placements_.push_back(p);
@@ -202,7 +203,7 @@ void PlaceBelief::moved(const Transform2<Map, Map>& by) {
 double PlaceBelief::probability_here(const Transform2<Map, Base>& at) const {
   double sum = 0.0;
   for (const Placement& p : placements_)
-    if (!p.mirrored && is_same_place(p.correction * at, at, kNearM, kNearRad)) sum += p.probability * p.near;
+    if (!p.mirrored && same_place(p.correction * at, at, kNearM, kNearRad)) sum += p.probability * p.near;
   return sum;
 }
 
@@ -214,7 +215,7 @@ std::optional<Placement> PlaceBelief::best() const {
 
 double PlaceBelief::probability_elsewhere(const Transform2<Map, Base>& at) const {
   for (const Placement& p : placements_)
-    if (!p.mirrored && !is_same_place(p.correction * at, at, kNearM, kNearRad)) return p.probability;
+    if (!p.mirrored && !same_place(p.correction * at, at, kNearM, kNearRad)) return p.probability;
   return 0.0;
 }
 

@@ -67,7 +67,7 @@ class PlaceBelief {
 
   std::shared_ptr<const mapping::DistanceField> walls_;
   double area_m2_ = 1.0;  ///< of the drawing
-  double log_mirrored_;  ///< prior of a mirrored drawing, by what places before said
+  double log_mirrored_;   ///< prior of a mirrored drawing, by what places before said
   std::vector<Placement> placements_;
 };
 

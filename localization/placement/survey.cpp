@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "localization/global/global_answer.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -65,7 +67,7 @@ void keep_distinct(std::vector<Candidate>& found, const Transform2<Map, Base>& a
   for (const Candidate& c : found) {
     if (kept.size() == wanted) break;
     if (std::none_of(kept.begin(), kept.end(), [&](const Candidate& k) {
-          return is_same_place(k.correction * at, c.correction * at, kOtherM, kOtherRad);
+          return same_place(k.correction * at, c.correction * at, kOtherM, kOtherRad);
         }))
       kept.push_back(c);
   }
@@ -73,12 +75,6 @@ void keep_distinct(std::vector<Candidate>& found, const Transform2<Map, Base>& a
 }
 
 }  // namespace
-
-bool is_same_place(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b, double limit_m,
-                   double limit_rad) {
-  return distance_m(a.translation(), b.translation()) < limit_m &&
-         std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < limit_rad;
-}
 
 MemoryCloud mirror_image(const MemoryCloud& cloud) {
   MemoryCloud mirrored = cloud;

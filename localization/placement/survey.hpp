@@ -16,8 +16,4 @@ namespace madori::localization {
 /// The cloud as a mirror shows it (x changes its sign).
 [[nodiscard]] MemoryCloud mirror_image(const MemoryCloud& cloud);
 
-/// Whether both poses are of one place: nearer than `limit_m` and `limit_rad`.
-[[nodiscard]] bool is_same_place(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b,
-                                 double limit_m, double limit_rad);
-
 }  // namespace madori::localization

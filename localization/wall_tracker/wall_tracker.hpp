@@ -23,15 +23,7 @@ namespace madori::localization {
 struct WallTrackerOptions {
   SegmentIcpOptions icp = {.first_scale_m = 0.25};
   /// Of driven wheels on a hall's floor; systematic errors are learned.
-  OdometryNoise odometry = {.distance_per_m = 0.01,
-                            .sideways_per_m = 0.005,
-                            .heading_per_m = 0.005,
-                            .heading_per_rad = 0.02,
-                            .standing_m = 0.001,
-                            .standing_rad = 0.0005,
-                            .prior_distance_scale = 0.02,
-                            .prior_heading_per_m = 0.02,
-                            .prior_heading_scale = 0.03};
+  OdometryNoise odometry = driven_wheels();
   double scan_sigma_m = 0.006;  ///< error of a registration that neighbouring scans share
   double scan_sigma_rad = 0.0008;
   double sure_inliers = 0.35;      ///< share of the wall points on drawn walls, below which a scan is no help

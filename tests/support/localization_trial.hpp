@@ -6,8 +6,8 @@
 #include "control/diff_drive/odometry.hpp"
 #include "core/pose_estimate.hpp"
 #include "localization/drawing_learner/drawing_learner.hpp"
-#include "localization/wall_extraction/wall_extraction.hpp"
 #include "localization/localizer/localizer.hpp"
+#include "localization/wall_extraction/wall_extraction.hpp"
 #include "mapping/wall_map/wall.hpp"
 #include "tests/support/virtual_floor.hpp"
 

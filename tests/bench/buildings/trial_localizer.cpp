@@ -37,7 +37,9 @@ class LocalizerTrial final : public TrialLocalizer {
   explicit LocalizerTrial(const mapping::Walls& drawing)
       : localizer_(drawing, std::nullopt, localization::driving_options()) {}
 
-  PoseEstimate on_odometry(const OdometryReading& reading) override { return localizer_.on_odometry(reading); }
+  PoseEstimate on_odometry(const OdometryReading& reading) override {
+    return localizer_.on_odometry(reading);
+  }
   void on_scan(Stamp stamp, const localization::ScanPoints& points, const Point2<Base>& sensor) override {
     (void)localizer_.on_scan(stamp, points, sensor);
   }

@@ -44,13 +44,13 @@ std::string csv_line(const AtScan& at, const StampedPose& t) {
   const auto& [e, evidence] = at;
   const Transform2<Base, Base> off = t.map_from_base.inverse() * e.map_from_base;
   return fmt::format(
-      "{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f},{:.3f},{:.3f},{:.3f},{:.2f},{:.3f},{:.4f},{:.4f},{},\"{}\"\n",
+      "{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f},{:.3f},{:.3f},{:.3f},{:.2f},{:.3f},{:.4f},{:.4f},{},\"{}"
+      "\"\n",
       to_seconds(t.stamp.time_since_epoch()), t.map_from_base.x_m(), t.map_from_base.y_m(),
       e.map_from_base.x_m() - t.map_from_base.x_m(), e.map_from_base.y_m() - t.map_from_base.y_m(),
       to_deg(off.yaw_rad()), evidence.on_walls, evidence.on_memory,
-      std::sqrt(e.covariance.topLeftCorner<2, 2>().trace()),
-      evidence.nats_a_wall, evidence.sigma_m, evidence.here, evidence.rival,
-      to_string(e.health.state), e.health.reason);
+      std::sqrt(e.covariance.topLeftCorner<2, 2>().trace()), evidence.nats_a_wall, evidence.sigma_m,
+      evidence.here, evidence.rival, to_string(e.health.state), e.health.reason);
 }
 
 void judge_scans(const std::vector<AtScan>& at_scans, const Truth& truth, Outcome& out) {

@@ -34,8 +34,8 @@ int degree_of(const Point2<Base>& p) {
   return std::min(359, static_cast<int>((std::atan2(p.y_m, p.x_m) + kPi) / (2.0 * kPi) * 360.0));
 }
 
-/// How far a scan saw in a whole degree: to its farthest return there, between two degrees with returns at most
-/// six apart to the nearer of them, else not at all.
+/// How far a scan saw in a whole degree: to its farthest return there, between two degrees with returns at
+/// most six apart to the nearer of them, else not at all.
 double sight_m(const ScanPoints& scan, int degree) {
   const auto farthest = [&](int at) {
     double most = 0.0;
