@@ -11,8 +11,10 @@ namespace madori::mapping {
 struct GrayImage {
   int width_px = 0;
   int height_px = 0;
-  std::vector<std::uint8_t> pixels;  ///< width_px * height_px
-  double dpi = 0;                    ///< as the file states it; 0 = not stated
+  std::vector<std::uint8_t> pixels{};  ///< width_px * height_px
+  double dpi = 0;                      ///< as the file states it; 0 = not stated
+  /// Opponent colours, as many as pixels, 128 = neither; both empty where nothing is coloured.
+  std::vector<std::uint8_t> red_green{}, yellow_blue{};
 
   [[nodiscard]] bool empty() const { return pixels.empty(); }
   [[nodiscard]] std::uint8_t at(int u, int v) const {

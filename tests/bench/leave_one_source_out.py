@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Scores the drawing import on every drawing of the corpus by a model that saw none of its source.
+"""Scores the drawing import on every drawing of the corpus by a model that saw none of its source (nor of some others).
 
   tests/bench/train_walls.py --leave-out MODELS && tests/bench/leave_one_source_out.py MODELS
 
@@ -13,27 +13,26 @@ import tempfile
 
 import yaml
 
-from train_walls import ROOT, source_of
+from train_walls import ROOT, groups, source_of
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", type=pathlib.Path)
     parser.add_argument("--shared", type=pathlib.Path, default=ROOT.parent / "shared", help="default ../shared")
-    parser.add_argument("--only", default="", help="sources, separated by commas")
+    parser.add_argument("--options", default="", help="of madori import")
     args = parser.parse_args()
     sources = {}
     for file in sorted(args.shared.glob("data/corpus/*/meta.yaml")):
         meta = yaml.safe_load(file.read_text(encoding="utf-8"))
         sources.setdefault(source_of(meta), []).append(meta)
     kinds = {}
-    for source, metas in sources.items():
-        if args.only and source not in args.only.split(","):
-            continue
+    for number, group in enumerate(groups(args.shared / "data")):
+        metas = [meta for source in group for meta in sources[source]]
         with tempfile.NamedTemporaryFile(suffix=".json") as answer:
             subprocess.run(["/usr/bin/python3", args.shared / "score/corpus.py", args.shared / "data/corpus",
                             ROOT / "build/release/madori", "--only", ",".join(meta["name"] for meta in metas), "--options",
-                            f"--model {args.models / source}.ubj", "--json", answer.name],
+                            f"--model {args.models / str(number)}.ubj {args.options}", "--json", answer.name],
                            check=True, stdout=subprocess.DEVNULL)
             rows = json.load(open(answer.name, encoding="utf-8"))
         truth = {meta["name"]: meta["truth"] for meta in metas}

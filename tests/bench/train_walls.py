@@ -1,18 +1,18 @@
 #!/usr/bin/python3
 """Trains the wall model of the drawing import, by one command.
 
-  cmake --build build/release --target draughtsman train_walls && tests/bench/train_walls.py [--leave-out FOLDER]
+  cmake --build build/release --target draughtsman measure_sheets train_walls && tests/bench/train_walls.py [--leave-out FOLDER]
 
-Writes data/wall_model/wall_model.ubj from the real drawings of ../shared/data/corpus, the six older ones with truth, and
-the plans of the draughtsman (seeds 1 to --plans). With --leave-out also one model for every source of the corpus that saw
-none of its drawings, FOLDER/SOURCE.ubj: tests/bench/leave_one_source_out.py scores those. The same data give the same
-bytes. Build again afterwards: the model is compiled in."""
+Writes data/wall_model/wall_model.ubj from the real drawings of ../shared/data/corpus, the older ones with truth, and the
+plans of the draughtsman (seeds 1 to --plans). With --leave-out also one model for every group of sources of the corpus that
+saw none of their drawings, FOLDER/GROUP.ubj: tests/bench/leave_one_source_out.py scores those. Drawings are measured once and
+kept in --sheets: delete that folder where the features or the draughtsman have changed. The same data give the same bytes.
+Build again afterwards: the model is compiled in."""
 import argparse
 import csv
 import pathlib
 import subprocess
 import sys
-import tempfile
 
 import yaml
 
@@ -20,45 +20,67 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BENCH = ROOT / "build/release/tests/bench"
 HOME_TOLERANCE_M = 0.1  # how near its truth a line of the older drawings is a wall; they are scored with 0.15 m
 HOME = {"office": 0.00846, "clinic": 0.02692, "mlstruct_7db30954": 0.00474825, "mlstruct_8888a588": 0.00272847}
-HOME_WEIGHT = 1.0
+GROUPS = 5  # models that leave sources out: each leaves out every fifth source at least
 
 
 def source_of(meta):
     return meta["repository"].replace("/", "_")
 
 
+def metas(data):
+    return [(file, yaml.safe_load(file.read_text(encoding="utf-8"))) for file in sorted(data.glob("corpus/*/meta.yaml"))]
+
+
+def groups(data):
+    """Sources that are left out together: the two largest by themselves, the others by turns."""
+    count = {}
+    for _, meta in metas(data):
+        count[source_of(meta)] = count.get(source_of(meta), 0) + 1
+    order = sorted(count, key=lambda source: (-count[source], source))
+    return [order[:1], order[1:2]] + [order[2 + k::GROUPS - 2] for k in range(GROUPS - 2)]
+
+
 def rows(data):
-    for file in sorted(data.glob("corpus/*/meta.yaml")):
-        meta = yaml.safe_load(file.read_text(encoding="utf-8"))
+    for file, meta in metas(data):
         boxes = " ".join(str(value) for box in meta.get("ignore") or [] for value in box)
         yield (meta["name"], source_of(meta), 1, file.parent / meta["drawing"], file.parent / "walls.csv",
                meta["tolerance_px"], meta["truth"], boxes)
     for name, scale in HOME.items():
         folder = data / "drawings" / name
-        yield name, "home", HOME_WEIGHT, folder / f"{name}.png", folder / "walls.csv", HOME_TOLERANCE_M / scale, "faces", ""
+        yield name, "home", 1, folder / f"{name}.png", folder / "walls.csv", HOME_TOLERANCE_M / scale, "faces", ""
     factory = ROOT / "data/sample_factory"
-    yield ("sample_factory", "home", HOME_WEIGHT, factory / "factory_scan.png", factory / "true_walls_scan_px.csv", 4,
-           "faces", "")
+    yield "sample_factory", "home", 1, factory / "factory_scan.png", factory / "true_walls_scan_px.csv", 4, "faces", ""
+
+
+def measure(args):
+    args.sheets.mkdir(parents=True, exist_ok=True)
+    plans = args.sheets / "plans"
+    if not (plans / "list.csv").exists():
+        subprocess.run([BENCH / "draughtsman", plans, "--plans", str(args.plans)], check=True)
+    with open(args.sheets / "real.csv", "w", encoding="utf-8", newline="") as file:
+        file.write("name,source,weight,drawing,walls,tolerance_px,truth,ignore\n")
+        csv.writer(file, lineterminator="\n").writerows(rows(args.data))
+    for table in (args.sheets / "real.csv", plans / "list.csv"):
+        subprocess.run([BENCH / "measure_sheets", table, args.sheets], check=True, stdout=subprocess.DEVNULL)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--plans", type=int, default=80, help="of the draughtsman, default %(default)s")
-    parser.add_argument("--leave-out", type=pathlib.Path, help="folder for the models that miss one source each")
+    parser.add_argument("--plans", type=int, default=240, help="of the draughtsman, default %(default)s")
+    parser.add_argument("--leave-out", type=pathlib.Path, help="folder for the models that miss some sources each")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "data/wall_model/wall_model.ubj")
     parser.add_argument("--data", type=pathlib.Path, default=ROOT.parent / "shared/data", help="default ../shared/data")
+    parser.add_argument("--sheets", type=pathlib.Path, default=ROOT / "build/wall_sheets", help="default build/wall_sheets")
     args = parser.parse_args()
     if not (args.data / "corpus").exists():
         sys.exit(f"train_walls.py: {args.data / 'corpus'} is not there")
-    with tempfile.TemporaryDirectory() as temporary:
-        subprocess.run([BENCH / "draughtsman", temporary, "--plans", str(args.plans)], check=True)
-        with open(pathlib.Path(temporary) / "list.csv", "a", encoding="utf-8", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows(rows(args.data))
-        command = [BENCH / "train_walls", file.name, "--out", args.out]
-        if args.leave_out:
-            args.leave_out.mkdir(parents=True, exist_ok=True)
-            command += ["--leave-out", args.leave_out]
-        subprocess.run(command, check=True)
+    measure(args)
+    subprocess.run([BENCH / "train_walls", args.sheets, "--out", args.out], check=True)
+    if args.leave_out:
+        args.leave_out.mkdir(parents=True, exist_ok=True)
+        for number, group in enumerate(groups(args.data)):
+            subprocess.run([BENCH / "train_walls", args.sheets, "--out", args.leave_out / f"{number}.ubj", "--without",
+                            ",".join(group)], check=True)
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ double quantile(const std::vector<double>& values, const std::vector<Edge>& edge
 
 class Builder {
  public:
-  Builder(const EdgeSheet& sheet, const EdgeMeasures& measures)
+  Builder(const EdgeSheet& sheet, EdgeMeasures& measures)
       : sheet_(sheet), m_(measures), edges_(sheet.edges), table_(sheet.edges.size()) {
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const EdgeViews& view = m_.views[i];
@@ -82,13 +82,24 @@ class Builder {
   [[nodiscard]] double of_size(double px) const { return px / sheet_.size_px; }
   [[nodiscard]] double of_pen(double px) const { return px / pen_; }
 
-  /// The brightness that most of the sheet has, and how far its darkest and brightest edges reach.
+  static double commonest(const std::vector<std::uint8_t>& plane) {
+    if (plane.empty()) return 128;
+    std::array<std::size_t, 256> counts{};
+    for (const std::uint8_t value : plane) ++counts[value];
+    return static_cast<double>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  }
+
+  /// The brightness and colour that most of the sheet has, and how far its darkest and brightest edges reach.
   void measure_ground() {
-    std::array<double, 256> counts{};
-    for (const std::uint8_t value : sheet_.grey.pixels) ++counts[value];
-    ground_ = static_cast<double>(std::max_element(counts.begin(), counts.end()) - counts.begin());
-    std::vector<double> sorted = contrast_;
-    range_ = std::max(20.0, quantile(sorted, edges_, 0.9));
+    ground_ = commonest(sheet_.grey.pixels);
+    range_ = std::max(20.0, quantile(contrast_, edges_, 0.9));
+    ground_red_green_ = commonest(sheet_.grey.red_green);
+    ground_yellow_blue_ = commonest(sheet_.grey.yellow_blue);
+  }
+
+  /// How far the colour beside an edge is from the ground's: 0 as it, 1 as far as colours go.
+  [[nodiscard]] double colour(const SideView& side) const {
+    return std::hypot(side.red_green - ground_red_green_, side.yellow_blue - ground_yellow_blue_) / 128;
   }
 
   void own() {
@@ -110,6 +121,12 @@ class Builder {
     table_.add("length_rank", ranks(lengths, edges_));
     table_.add("dark_rank", ranks(darks, edges_));
     add("dark_grey", [&](std::size_t i) { return (darks[i] - ground_) / range_; });
+    add("dark_colour", [&](std::size_t i) { return colour(m_.views[i].dark); });
+    add("bright_colour", [&](std::size_t i) { return colour(m_.views[i].bright); });
+    add("colour_step", [&](std::size_t i) {
+      const SideView &dark = m_.views[i].dark, &bright = m_.views[i].bright;
+      return std::hypot(dark.red_green - bright.red_green, dark.yellow_blue - bright.yellow_blue) / 128;
+    });
     add("bright_grey", [&](std::size_t i) { return (m_.views[i].bright.near_grey - ground_) / range_; });
   }
 
@@ -254,53 +271,84 @@ class Builder {
     add("repeats_share", [&](std::size_t i) { return same[key(i)] * edges_[i].length_px / total_; });
   }
 
-  /// Lines that look alike are one decision: what all lines of a style have in common.
-  void styles() {
+  /// What all lines of a style have in common: they are judged alike. `style` numbers each edge's.
+  void style(const std::string& name, const std::vector<int>& style_of) {
     struct Style {
-      double length = 0, squares = 0, chains = 0, paired = 0, size = 0, free = 0, turned = 0;
-      int count = 0;
+      double length = 0, squares = 0, chains = 0, paired = 0, size = 0, free = 0, regions = 0, turned = 0,
+             straight = 0;
+      double left = 1e9, top = 1e9, right = 0, bottom = 0;
     };
-    std::map<std::tuple<int, int, int>, Style> styles;
-    const auto key = [&](std::size_t i) {
-      return std::tuple(width_[i] > 0 ? static_cast<int>(std::lround(2.5 * std::log2(1 + width_[i]))) : -1,
-                        static_cast<int>(std::lround(contrast_[i] / range_ * 6)),
-                        static_cast<int>(std::lround((m_.views[i].dark.near_grey - ground_) / range_ * 6)));
-    };
+    std::map<int, Style> styles;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
-      Style& style = styles[key(i)];
+      Style& of = styles[style_of[i]];
+      const PixelSegment& s = edges_[i].segment;
       const double length = edges_[i].length_px;
-      style.length += length;
-      style.squares += length * length;
-      style.chains += length * m_.links[i].chain_px;
-      style.paired += length * m_.views[i].bright.hits[0].share;
-      style.size += length * m_.links[i].cluster_size_px;
-      style.free += length * std::max(m_.views[i].bright.free_px, m_.views[i].dark.hits[0].free_after_px);
-      style.turned += length * m_.regions[i].bright.long_side_px;
-      ++style.count;
+      of.length += length;
+      of.squares += length * length;
+      of.chains += length * m_.links[i].chain_px;
+      of.paired += length * m_.views[i].bright.hits[0].share;
+      of.size += length * m_.links[i].cluster_size_px;
+      of.free += length * std::max(m_.views[i].bright.free_px, m_.views[i].dark.hits[0].free_after_px);
+      of.regions += length * m_.regions[i].bright.long_side_px;
+      of.straight += length * (m_.links[i].ends[0].continuing + m_.links[i].ends[1].continuing);
+      of.left = std::min({of.left, s.u1, s.u2}), of.right = std::max({of.right, s.u1, s.u2});
+      of.top = std::min({of.top, s.v1, s.v2}), of.bottom = std::max({of.bottom, s.v1, s.v2});
     }
-    const auto of = [&](std::size_t i) -> const Style& { return styles[key(i)]; };
-    add("style_share", [&](std::size_t i) { return of(i).length / total_; });
-    add("style_length", [&](std::size_t i) { return of_size(of(i).squares / of(i).length); });
-    add("style_chain", [&](std::size_t i) { return of_size(of(i).chains / of(i).length); });
-    add("style_paired", [&](std::size_t i) { return of(i).paired / of(i).length; });
-    add("style_cluster", [&](std::size_t i) { return of_size(of(i).size / of(i).length); });
-    add("style_free", [&](std::size_t i) { return of_size(of(i).free / of(i).length); });
-    add("style_region", [&](std::size_t i) { return of_size(of(i).turned / of(i).length); });
-    std::vector<double> mean, chain;
+    const auto of = [&](std::size_t i) -> const Style& { return styles.at(style_of[i]); };
+    add(name + "_share", [&](std::size_t i) { return of(i).length / total_; });
+    add(name + "_length", [&](std::size_t i) { return of_size(of(i).squares / of(i).length); });
+    add(name + "_chain", [&](std::size_t i) { return of_size(of(i).chains / of(i).length); });
+    add(name + "_paired", [&](std::size_t i) { return of(i).paired / of(i).length; });
+    add(name + "_cluster", [&](std::size_t i) { return of_size(of(i).size / of(i).length); });
+    add(name + "_free", [&](std::size_t i) { return of_size(of(i).free / of(i).length); });
+    add(name + "_region", [&](std::size_t i) { return of_size(of(i).regions / of(i).length); });
+    add(name + "_straight", [&](std::size_t i) { return of(i).straight / of(i).length; });
+    add(name + "_extent", [&](std::size_t i) {
+      return of_size(std::hypot(of(i).right - of(i).left, of(i).bottom - of(i).top));
+    });
+    std::vector<double> mean, chain, share;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       mean.push_back(of(i).squares / of(i).length);
       chain.push_back(of(i).chains / of(i).length);
+      share.push_back(of(i).length);
     }
-    table_.add("style_length_rank", ranks(mean, edges_));
-    table_.add("style_chain_rank", ranks(chain, edges_));
+    table_.add(name + "_length_rank", ranks(mean, edges_));
+    table_.add(name + "_chain_rank", ranks(chain, edges_));
+    table_.add(name + "_share_rank", ranks(share, edges_));
+  }
+
+  void styles() {
+    m_.styles = numbered([&](std::size_t i) { return style_key(i, 2.5, 6); });
+    m_.looks = numbered([&](std::size_t i) { return style_key(i, 1.2, 3); });
+    style("style", m_.styles);
+    style("look", m_.looks);
+  }
+
+  using StyleKey = std::array<int, 5>;
+  [[nodiscard]] StyleKey style_key(std::size_t i, double widths, double shades) const {
+    const SideView& dark = m_.views[i].dark;
+    const auto step = [](double value) { return static_cast<int>(std::lround(value)); };
+    return {width_[i] > 0 ? step(widths * std::log2(1 + width_[i])) : -1,
+            step(contrast_[i] / range_ * shades), step((dark.near_grey - ground_) / range_ * shades),
+            step((dark.red_green - ground_red_green_) / 128 * shades),
+            step((dark.yellow_blue - ground_yellow_blue_) / 128 * shades)};
+  }
+  template <class Key>
+  [[nodiscard]] std::vector<int> numbered(Key key) const {
+    std::map<StyleKey, int> numbers;
+    std::vector<int> style_of;
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+      style_of.push_back(numbers.try_emplace(key(i), static_cast<int>(numbers.size())).first->second);
+    return style_of;
   }
 
   const EdgeSheet& sheet_;
-  const EdgeMeasures& m_;
+  EdgeMeasures& m_;
   const std::vector<Edge>& edges_;
   FeatureTable table_;
   std::vector<double> width_, contrast_;
-  double total_ = 0, pen_ = 1, ground_ = 255, range_ = 255;
+  double total_ = 0, pen_ = 1, ground_ = 255, range_ = 255, ground_red_green_ = 128,
+         ground_yellow_blue_ = 128;
 };
 
 }  // namespace
@@ -313,7 +361,7 @@ EdgeMeasures measure_edges(const EdgeSheet& sheet) {
   return measures;
 }
 
-FeatureTable edge_features(const EdgeSheet& sheet, const EdgeMeasures& measures) {
+FeatureTable edge_features(const EdgeSheet& sheet, EdgeMeasures& measures) {
   return Builder(sheet, measures).build();
 }
 

@@ -13,11 +13,12 @@ struct EdgeMeasures {
   std::vector<EdgeViews> views;
   std::vector<EdgeLinks> links;
   std::vector<EdgeRegions> regions;
+  std::vector<int> styles, looks;  ///< edges of a number look alike, closely or roughly
 };
 
 [[nodiscard]] EdgeMeasures measure_edges(const EdgeSheet& sheet);
 
 /// The features that the wall model knows, one row an edge.
-[[nodiscard]] FeatureTable edge_features(const EdgeSheet& sheet, const EdgeMeasures& measures);
+[[nodiscard]] FeatureTable edge_features(const EdgeSheet& sheet, EdgeMeasures& measures);
 
 }  // namespace madori::mapping

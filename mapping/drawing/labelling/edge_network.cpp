@@ -36,7 +36,10 @@ class Clusters {
 class Linker {
  public:
   explicit Linker(const EdgeSheet& sheet)
-      : sheet_(sheet), links_(sheet.edges.size()), clusters_(sheet.edges.size()) {}
+      : sheet_(sheet),
+        links_(sheet.edges.size()),
+        clusters_(sheet.edges.size()),
+        chains_(sheet.edges.size()) {}
 
   std::vector<EdgeLinks> run(const std::vector<EdgeViews>& views) {
     for (std::size_t i = 0; i < links_.size(); ++i) {
@@ -128,7 +131,7 @@ class Linker {
       return (v - edge.segment.v1) * edge.normal_u - (u - edge.segment.u1) * edge.normal_v;
     };
     const double a = along(other.segment.u1, other.segment.v1), b = along(other.segment.u2, other.segment.v2);
-    stretches_.push_back({std::min(a, b), std::max(a, b), j == i});
+    stretches_.push_back({std::min(a, b), std::max(a, b), j, j == i});
   }
 
   void measure_chain(std::size_t i) {
@@ -143,7 +146,10 @@ class Linker {
     std::size_t first = self, last = self;
     while (first > 0 && stretches_[first].from - stretches_[first - 1].to < gap) --first;
     while (last + 1 < stretches_.size() && stretches_[last + 1].from - stretches_[last].to < gap) ++last;
-    for (std::size_t k = first; k <= last; ++k) links_[i].chain_px += stretches_[k].to - stretches_[k].from;
+    for (std::size_t k = first; k <= last; ++k) {
+      links_[i].chain_px += stretches_[k].to - stretches_[k].from;
+      chains_.join(i, stretches_[k].edge);
+    }
     links_[i].chain_extent_px = stretches_[last].to - stretches_[first].from;
   }
 
@@ -165,16 +171,19 @@ class Linker {
       links_[i].cluster_px = box.length;
       links_[i].cluster_size_px = std::hypot(box.right - box.left, box.bottom - box.top);
       links_[i].cluster_edges = box.edges;
+      links_[i].cluster = clusters_.root(i);
+      links_[i].chain = chains_.root(i);
     }
   }
 
   struct Stretch {
     double from = 0, to = 0;
+    std::size_t edge = 0;
     bool self = false;
   };
   const EdgeSheet& sheet_;
   std::vector<EdgeLinks> links_;
-  Clusters clusters_;
+  Clusters clusters_, chains_;
   std::vector<int> near_;
   std::vector<Stretch> stretches_;
 };

@@ -14,6 +14,7 @@ constexpr double kReach = 0.05;         // of the sheet: further apart are no tw
 constexpr double kFar = 0.3;            // of the sheet: free beyond is free
 constexpr double kStep = 0.7;           // pixels: no 8-connected line is stepped over
 constexpr int kEvents = 5;
+constexpr double kNeutral = 128;
 
 struct Event {
   double distance = 0;
@@ -25,12 +26,12 @@ struct Ray {
   std::array<Event, kEvents> events;
   int count = 0;
   bool border = false;
-  double near_grey = 0, fill_grey = 0, fill_square = 0;
+  double near_grey = 0, red_green = 0, yellow_blue = 0, fill_grey = 0, fill_square = 0;
 };
 
 class Looker {
  public:
-  explicit Looker(const EdgeSheet& sheet) : sheet_(sheet) {}
+  explicit Looker(const EdgeSheet& sheet) : sheet_(sheet), coloured_(!sheet.grey.red_green.empty()) {}
 
   [[nodiscard]] SideView look(std::size_t edge, double side) const {
     const Edge& e = sheet_.edges[edge];
@@ -60,6 +61,10 @@ class Looker {
       const double grey = sheet_.grey.pixels[pixel];
       if (d > 1 && d < 3.2) {
         ray.near_grey += grey;
+        if (coloured_) {
+          ray.red_green += sheet_.grey.red_green[pixel];
+          ray.yellow_blue += sheet_.grey.yellow_blue[pixel];
+        }
         ++near;
       }
       if (ray.count == 0 && d < reach && d > 1) {
@@ -74,7 +79,11 @@ class Looker {
       }
       d += std::max(kStep, sheet_.clear_px[pixel] - 1.5);
     }
-    if (near > 0) ray.near_grey /= near;
+    if (near > 0) {
+      ray.near_grey /= near;
+      ray.red_green = coloured_ ? ray.red_green / near : kNeutral;
+      ray.yellow_blue = coloured_ ? ray.yellow_blue / near : kNeutral;
+    }
     if (filled > 0) {
       ray.fill_grey = sum / filled;
       ray.fill_square = square / filled;
@@ -101,10 +110,12 @@ class Looker {
   [[nodiscard]] SideView summary(const std::vector<Ray>& rays) const {
     SideView view;
     const double far = kFar * sheet_.size_px;
-    std::vector<double> free, near, fill, spread;
+    std::vector<double> free, near, fill, spread, red_green, yellow_blue;
     for (const Ray& ray : rays) {
       free.push_back(ray.count > 0 ? ray.events[0].distance : far);
       near.push_back(ray.near_grey);
+      red_green.push_back(ray.red_green);
+      yellow_blue.push_back(ray.yellow_blue);
       fill.push_back(ray.fill_grey);
       spread.push_back(std::sqrt(std::max(0.0, ray.fill_square - ray.fill_grey * ray.fill_grey)));
       view.open += ray.count == 0 && ray.border ? 1.0 / static_cast<double>(rays.size()) : 0.0;
@@ -112,6 +123,8 @@ class Looker {
     view.free_most_px = *std::max_element(free.begin(), free.end());
     view.free_px = median_of(free);
     view.near_grey = median_of(near);
+    view.red_green = median_of(red_green);
+    view.yellow_blue = median_of(yellow_blue);
     view.fill_grey = median_of(fill);
     view.fill_spread = median_of(spread);
     for (int h = 0; h < SideView::kHits; ++h) view.hits[static_cast<std::size_t>(h)] = parallel_hit(rays, h);
@@ -149,6 +162,7 @@ class Looker {
   }
 
   const EdgeSheet& sheet_;
+  bool coloured_;
 };
 
 }  // namespace

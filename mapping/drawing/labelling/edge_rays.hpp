@@ -19,10 +19,11 @@ struct SideView {
     int edge = -1;             ///< the one that most places meet
   };
   std::array<ParallelHit, kHits> hits;
-  double free_px = 0, free_most_px = 0;   ///< to the first edge of any direction: median, largest
-  double open = 0;                        ///< share of the places that see the border of the sheet
-  double near_grey = 0;                   ///< brightness beside the edge
-  double fill_grey = 0, fill_spread = 0;  ///< brightness up to the first parallel edge
+  double free_px = 0, free_most_px = 0;       ///< to the first edge of any direction: median, largest
+  double open = 0;                            ///< share of the places that see the border of the sheet
+  double near_grey = 0;                       ///< brightness beside the edge
+  double red_green = 128, yellow_blue = 128;  ///< its colour there
+  double fill_grey = 0, fill_spread = 0;      ///< brightness up to the first parallel edge
 };
 
 struct EdgeViews {

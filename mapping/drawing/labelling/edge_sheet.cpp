@@ -23,13 +23,19 @@ double factor_for(const GrayImage& drawing) {
 
 GrayImage resized(const GrayImage& image, double factor) {
   if (factor == 1) return image;
-  GrayImage out{std::max(1, static_cast<int>(std::lround(image.width_px * factor))),
-                std::max(1, static_cast<int>(std::lround(image.height_px * factor))),
-                {},
-                image.dpi * factor};
-  out.pixels.resize(static_cast<std::size_t>(out.width_px) * static_cast<std::size_t>(out.height_px));
-  cv::Mat picture = cv_view(out);
-  cv::resize(cv_view(image), picture, picture.size(), 0, 0, factor < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
+  GrayImage out{.width_px = std::max(1, static_cast<int>(std::lround(image.width_px * factor))),
+                .height_px = std::max(1, static_cast<int>(std::lround(image.height_px * factor))),
+                .dpi = image.dpi * factor};
+  const auto plane = [&](const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to, int finer) {
+    if (from.empty()) return;
+    to.resize(static_cast<std::size_t>(out.width_px) * static_cast<std::size_t>(out.height_px));
+    const cv::Mat source(image.height_px, image.width_px, CV_8UC1, const_cast<std::uint8_t*>(from.data()));
+    cv::Mat target(out.height_px, out.width_px, CV_8UC1, to.data());
+    cv::resize(source, target, target.size(), 0, 0, factor < 1 ? cv::INTER_AREA : finer);
+  };
+  plane(image.pixels, out.pixels, cv::INTER_CUBIC);
+  plane(image.red_green, out.red_green, cv::INTER_LINEAR);
+  plane(image.yellow_blue, out.yellow_blue, cv::INTER_LINEAR);
   return out;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "mapping/drawing/labelling/line_cover.hpp"
 
@@ -12,25 +11,6 @@ namespace {
 constexpr double kPlace = 3;        // pixels of the sheet between the places of a line that are asked
 constexpr double kShortPiece = 12;  // pixels of the sheet: shorter pieces go with their neighbours
 constexpr float kCovered = 0.5F;    // of an edge, by lines: it needs no line of its own
-
-/// What the rules make of the lines is a feature among others.
-void add_rules(LabelSheet& sheet, const DrawnLines& drawn, const LineCover& cover) {
-  const auto add = [&](const char* name, auto chosen) {
-    std::vector<bool> which;
-    for (const DrawnLine& line : drawn) which.push_back(chosen(line));
-    sheet.features.add(name, cover.covered(which));
-  };
-  const auto rejected = [](std::initializer_list<RejectReason> reasons) {
-    return [reasons = std::vector(reasons)](const DrawnLine& line) {
-      return line.rejected && std::find(reasons.begin(), reasons.end(), *line.rejected) != reasons.end();
-    };
-  };
-  add("rule_wall", [](const DrawnLine& line) { return !line.rejected; });
-  add("rule_furniture", rejected({RejectReason::Furniture, RejectReason::TooShort}));
-  add("rule_mark", rejected({RejectReason::Text, RejectReason::Dimension, RejectReason::Hatch,
-                             RejectReason::DoorArc, RejectReason::Dashed, RejectReason::TitleBlock}));
-  add("rule_other", rejected({RejectReason::Other}));
-}
 
 struct Piece {
   int from = 0, to = 0;  // places, the last one excluded
@@ -48,10 +28,10 @@ bool fill_unseen(std::vector<double>& places) {
   return true;
 }
 
-std::vector<Piece> pieces_of(const std::vector<double>& places, int shortest) {
+std::vector<Piece> pieces_of(const std::vector<double>& places, double wall_from, int shortest) {
   std::vector<Piece> pieces;
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
-    const bool wall = places[static_cast<std::size_t>(i)] >= kWallFrom;
+    const bool wall = places[static_cast<std::size_t>(i)] >= wall_from;
     if (pieces.empty() || pieces.back().wall != wall) pieces.push_back({i, i, wall});
     pieces.back().to = i + 1;
   }
@@ -74,14 +54,14 @@ std::vector<Piece> pieces_of(const std::vector<double>& places, int shortest) {
   return pieces;
 }
 
-void append_pieces(DrawnLines& out, const DrawnLine& line, std::vector<double> places) {
+void append_pieces(DrawnLines& out, const DrawnLine& line, std::vector<double> places, double wall_from) {
   const auto count = static_cast<double>(places.size());
   if (!fill_unseen(places)) {
     out.push_back(line);
     out.back().probability = 0;
     return;
   }
-  for (const Piece& piece : pieces_of(places, static_cast<int>(kShortPiece / kPlace))) {
+  for (const Piece& piece : pieces_of(places, wall_from, static_cast<int>(kShortPiece / kPlace))) {
     const PixelSegment& s = line.segment;
     const double a = piece.from / count, b = piece.to / count;
     DrawnLine part = line;
@@ -96,17 +76,31 @@ void append_pieces(DrawnLines& out, const DrawnLine& line, std::vector<double> p
 
 }  // namespace
 
-LabelSheet label_sheet(const GrayImage& drawing, const DrawnLines& drawn, double u_scale, double v_scale) {
+LabelSheet label_sheet(const GrayImage& drawing) {
   LabelSheet sheet;
   sheet.edges = find_edges(drawing);
-  sheet.features = edge_features(sheet.edges, measure_edges(sheet.edges));
-  const double factor = sheet.edges.factor;
-  add_rules(sheet, drawn, LineCover(drawn, sheet.edges, u_scale * factor, v_scale * factor));
+  EdgeMeasures measures = measure_edges(sheet.edges);
+  sheet.features = edge_features(sheet.edges, measures);
+  auto& [styles, looks, chains, clusters] = sheet.groups.together;
+  styles = std::move(measures.styles);
+  looks = std::move(measures.looks);
+  for (std::size_t i = 0; i < sheet.edges.edges.size(); ++i) {
+    chains.push_back(static_cast<int>(measures.links[i].chain));
+    clusters.push_back(static_cast<int>(measures.links[i].cluster));
+    sheet.groups.partner[0].push_back(measures.views[i].dark.hits[0].edge);
+    sheet.groups.partner[1].push_back(measures.views[i].bright.hits[0].edge);
+  }
   return sheet;
 }
 
+std::vector<float> judge_edges(const LabelSheet& sheet, const WallModel& model) {
+  std::vector<PixelSegment> segments;
+  for (const Edge& edge : sheet.edges.edges) segments.push_back(edge.segment);
+  return model.second(sheet_context(segments, sheet.groups, model.first(sheet.features)));
+}
+
 DrawnLines label_lines(const LabelSheet& sheet, const std::vector<float>& probabilities,
-                       const DrawnLines& drawn, double u_scale, double v_scale) {
+                       const DrawnLines& drawn, double u_scale, double v_scale, double wall_from) {
   const double factor = sheet.edges.factor;
   const LineCover cover(drawn, sheet.edges, u_scale * factor, v_scale * factor);
   DrawnLines labelled;
@@ -116,7 +110,7 @@ DrawnLines label_lines(const LabelSheet& sheet, const std::vector<float>& probab
     for (std::size_t k = 0; k < places.size(); ++k)
       places[k] =
           cover.at(i, (static_cast<double>(k) + 0.5) / static_cast<double>(places.size()), probabilities);
-    append_pieces(labelled, drawn[i], std::move(places));
+    append_pieces(labelled, drawn[i], std::move(places), wall_from);
   }
   const auto covered = cover.covered(std::vector<bool>(drawn.size(), true));
   for (std::size_t i = 0; i < covered.size(); ++i) {

@@ -2,8 +2,10 @@
 
 #include <xgboost/c_api.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 
 #include "core/result.hpp"
@@ -37,7 +39,7 @@ struct WallModel::Trees {
   std::vector<std::string> features;
 };
 
-WallModel WallModel::from_bytes(const std::string& name, const void* bytes, std::size_t size) {
+WallModel::Judge WallModel::judge_from(const std::string& name, const char* bytes, std::size_t size) {
   auto trees = std::make_shared<Trees>();
   trees->name = name;
   check(XGBoosterCreate(nullptr, 0, &trees->booster), name);
@@ -47,7 +49,20 @@ WallModel WallModel::from_bytes(const std::string& name, const void* bytes, std:
   const char** names = nullptr;
   check(XGBoosterGetStrFeatureInfo(trees->booster, "feature_name", &count, &names), name);
   trees->features.assign(names, names + count);
-  return WallModel(std::move(trees));
+  return trees;
+}
+
+/// A line with the sizes of both judges, then both.
+WallModel WallModel::from_bytes(const std::string& name, const char* bytes, std::size_t size) {
+  const char* const end = std::find(bytes, bytes + std::min<std::size_t>(size, 64), '\n');
+  std::istringstream header(std::string(bytes, end));
+  std::string kind;
+  std::size_t first = 0, second = 0;
+  header >> kind >> first >> second;
+  const std::size_t begin = static_cast<std::size_t>(end - bytes) + 1;
+  if (kind != "madori-walls-2" || begin + first + second != size)
+    throw Error(name, "is no wall model of this version", "train it again: train_walls");
+  return {judge_from(name, bytes + begin, first), judge_from(name, bytes + begin + first, second)};
 }
 
 WallModel WallModel::load(const std::filesystem::path& file) {
@@ -65,9 +80,9 @@ const WallModel& WallModel::shipped() {
   return model;
 }
 
-std::vector<float> WallModel::probabilities(const FeatureTable& features) const {
-  if (features.names() != trees_->features)
-    throw Error(trees_->name, "was trained on other features than this version measures",
+std::vector<float> WallModel::judged(const Trees& trees, const FeatureTable& features) {
+  if (features.names() != trees.features)
+    throw Error(trees.name, "was trained on other features than this version measures",
                 "train it again: train_walls");
   if (features.rows() == 0) return {};
   std::vector<float> values;
@@ -77,12 +92,19 @@ std::vector<float> WallModel::probabilities(const FeatureTable& features) const 
   }
   DMatrixHandle matrix = nullptr;
   check(XGDMatrixCreateFromMat(values.data(), features.rows(), features.names().size(), -1e9F, &matrix),
-        trees_->name);
+        trees.name);
   const std::unique_ptr<void, int (*)(DMatrixHandle)> owner(matrix, XGDMatrixFree);
   bst_ulong count = 0;
   const float* result = nullptr;
-  check(XGBoosterPredict(trees_->booster, matrix, 0, 0, 0, &count, &result), trees_->name);
+  check(XGBoosterPredict(trees.booster, matrix, 0, 0, 0, &count, &result), trees.name);
   return {result, result + count};
+}
+
+std::vector<float> WallModel::first(const FeatureTable& features) const {
+  return judged(*first_, features);
+}
+std::vector<float> WallModel::second(const FeatureTable& context) const {
+  return judged(*second_, context);
 }
 
 }  // namespace madori::mapping

@@ -9,7 +9,8 @@
 namespace madori::mapping {
 
 /// Boosted trees (T. Chen, C. Guestrin, "XGBoost", KDD 2016) that say of every edge of a drawing how probable
-/// it is that a wall was drawn there. Trained by train_walls; docs/how-to/teach-a-drawing.md.
+/// it is that a wall was drawn there. They judge twice: each edge by itself, then each in the light of all
+/// (D. Wolpert, "Stacked generalization", 1992). Trained by train_walls; docs/how-to/teach-a-drawing.md.
 class WallModel {
  public:
   /// Throws Error where the file is no model of these features.
@@ -17,14 +18,19 @@ class WallModel {
   /// The one that is built in.
   static const WallModel& shipped();
 
-  /// One an edge, 0..1. Throws Error where the features are not those that the model was trained on.
-  [[nodiscard]] std::vector<float> probabilities(const FeatureTable& features) const;
+  /// One an edge, 0..1, by edge_features. Throws Error where those are not what the model was trained on.
+  [[nodiscard]] std::vector<float> first(const FeatureTable& features) const;
+  /// By sheet_context of the first judgement.
+  [[nodiscard]] std::vector<float> second(const FeatureTable& context) const;
 
  private:
   struct Trees;
-  explicit WallModel(std::shared_ptr<const Trees> trees) : trees_(std::move(trees)) {}
-  static WallModel from_bytes(const std::string& name, const void* bytes, std::size_t size);
-  std::shared_ptr<const Trees> trees_;
+  using Judge = std::shared_ptr<const Trees>;
+  WallModel(Judge first, Judge second) : first_(std::move(first)), second_(std::move(second)) {}
+  static WallModel from_bytes(const std::string& name, const char* bytes, std::size_t size);
+  static Judge judge_from(const std::string& name, const char* bytes, std::size_t size);
+  static std::vector<float> judged(const Trees& trees, const FeatureTable& features);
+  Judge first_, second_;
 };
 
 }  // namespace madori::mapping

@@ -5,6 +5,7 @@
 
 #include "core/result.hpp"
 #include "mapping/drawing/labelling/label_lines.hpp"
+#include "mapping/drawing/labelling/wall_threshold.hpp"
 #include "mapping/drawing/raster/choose_walls.hpp"
 #include "mapping/drawing/raster/clean_marks.hpp"
 #include "mapping/drawing/raster/components.hpp"
@@ -53,15 +54,16 @@ RuledLines rule_lines(const GrayImage& image, const DetectionOptions& chosen, St
 
 /// The lines by the model: walls and others; where somebody asked to keep a kind of lines, it stays.
 DrawnLines judged(const GrayImage& image, const RuledLines& ruled, const DetectionOptions& chosen) {
-  const LabelSheet sheet = label_sheet(image, ruled.drawn, ruled.u_scale, ruled.v_scale);
-  const WallModel model = chosen.model.empty() ? WallModel::shipped() : WallModel::load(chosen.model);
-  DrawnLines lines =
-      label_lines(sheet, model.probabilities(sheet.features), ruled.drawn, ruled.u_scale, ruled.v_scale);
+  const LabelSheet sheet = label_sheet(image);
+  const auto probabilities =
+      judge_edges(sheet, chosen.model.empty() ? WallModel::shipped() : WallModel::load(chosen.model));
+  const double wall_from = wall_threshold(probabilities, sheet.edges.edges, chosen.strictness);
+  DrawnLines lines = label_lines(sheet, probabilities, ruled.drawn, ruled.u_scale, ruled.v_scale, wall_from);
   const DetectionOptions options = resized(chosen, ruled.working.factor);
   const bool keeps = options.keep_furniture || options.keep_dashed || options.keep_dimensions;
   for (DrawnLine& line : lines) {
     const bool kept = keeps && !line.rejected && !line.pale;
-    if (line.probability >= kWallFrom || kept) {
+    if (line.probability >= wall_from || kept) {
       line.rejected.reset();
     } else if (!line.rejected) {
       line.rejected = RejectReason::Other;
@@ -73,15 +75,6 @@ DrawnLines judged(const GrayImage& image, const RuledLines& ruled, const Detecti
 }
 
 }  // namespace
-
-LabelSheet training_sheet(const GrayImage& image) {
-  DetectedWalls unused;
-  const StageSink sink;
-  const Progress progress;
-  StageClock clock(unused, sink, progress);
-  const RuledLines ruled = rule_lines(image, {}, clock);
-  return label_sheet(image, ruled.drawn, ruled.u_scale, ruled.v_scale);
-}
 
 DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& chosen, const StageSink& sink,
                            const Progress& progress) {

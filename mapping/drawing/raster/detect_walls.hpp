@@ -21,7 +21,7 @@ struct StageReport {
 
 struct DetectedWalls {
   std::vector<PixelSegment> walls;        ///< faces and single lines, Image frame
-  std::vector<double> probabilities;      ///< one a wall, from kWallFrom up; empty where the rules decided
+  std::vector<double> probabilities;      ///< one a wall; empty where the rules decided
   std::vector<RejectedSegment> rejected;  ///< lines that were taken for something else
   double skew_deg = 0;  ///< how far the drawing's axes are turned, (-45, 45], counter-clockwise
   std::vector<StageReport> stages;
@@ -31,9 +31,6 @@ struct DetectedWalls {
 using StageSink = std::function<void(const std::string& stage, const GrayImage& picture)>;
 /// Receives the stage that begins and the share of the work done, 0..1; may be empty.
 using Progress = std::function<void(const std::string& stage, double share)>;
-
-/// What the wall model is trained on: all features of a drawing's edges. Throws Error as detect_walls does.
-[[nodiscard]] LabelSheet training_sheet(const GrayImage& image);
 
 /// The walls of a drawing. An empty answer is no error: the caller says what to try next.
 /// Throws Error on invalid options or an empty picture. docs/explanation/how-walls-are-found.md.

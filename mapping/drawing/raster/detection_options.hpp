@@ -20,6 +20,8 @@ struct DetectionOptions {
   std::optional<double> m_per_px;
   /// The wall model that decides; empty: the rules, and the shipped model where they find no wall.
   std::filesystem::path model;
+  /// What a wrong wall weighs against a missed one. Higher leaves more out.
+  double strictness = 1;
   bool keep_furniture = false;    ///< furniture, machines and stairs stay walls
   bool keep_dashed = false;       ///< dashed and dash-dot lines stay walls
   bool keep_dimensions = false;   ///< dimension, leader and extension lines stay walls

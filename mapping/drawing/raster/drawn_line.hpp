@@ -10,8 +10,6 @@
 
 namespace madori::mapping {
 
-constexpr double kWallFrom = 0.5;  // probability: what is at least that is taken for a wall
-
 /// A straight line of the drawing with what is known about it.
 struct DrawnLine {
   PixelSegment segment;

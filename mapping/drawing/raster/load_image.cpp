@@ -66,7 +66,7 @@ bool ends_as_jpeg(const std::vector<std::uint8_t>& bytes) {
 /// Palette, colour and depth are OpenCV's; only JPEG carries an EXIF orientation, which IMREAD_UNCHANGED
 /// skips.
 cv::Mat decode(const fs::path& file, const std::vector<std::uint8_t>& bytes, ImageFormat format) {
-  const int flags = format == ImageFormat::Jpeg ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
+  const int flags = format == ImageFormat::Jpeg ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED;
   if (format == ImageFormat::Jpeg && !ends_as_jpeg(bytes))
     throw Error(file.string(), "is cut off", "copy or export it again");
   cv::Mat picture;
@@ -96,6 +96,23 @@ void compose_row(const cv::Mat& row, std::uint8_t* out) {
   }
 }
 
+/// Opponent colours of a row of three or four 8-bit channels, alpha composed on white; whether any is seen.
+bool colour_row(const cv::Mat& row, std::uint8_t* red_green, std::uint8_t* yellow_blue) {
+  constexpr int kSeen = 12;  // less is the noise of a scanner
+  const int channels = row.channels();
+  const auto* pixel = row.ptr<std::uint8_t>();
+  bool seen = false;
+  for (int u = 0; u < row.cols; ++u, pixel += channels) {
+    const int alpha = channels == 4 ? pixel[3] : 255;
+    const int opposed = (pixel[2] - pixel[1]) * alpha / 510;
+    const int warm = (pixel[2] + pixel[1] - 2 * pixel[0]) * alpha / 1020;
+    red_green[u] = static_cast<std::uint8_t>(128 + opposed);
+    yellow_blue[u] = static_cast<std::uint8_t>(128 + warm);
+    seen = seen || std::abs(opposed) > kSeen || std::abs(warm) > kSeen;
+  }
+  return seen;
+}
+
 }  // namespace
 
 GrayImage load_image(const fs::path& file) {
@@ -103,17 +120,25 @@ GrayImage load_image(const fs::path& file) {
   const ImageHeader header = checked_header(file, bytes);
   if (header.format == ImageFormat::Png)
     if (auto pixels = decode_grey_png(bytes))
-      return {static_cast<int>(header.width_px), static_cast<int>(header.height_px), std::move(*pixels),
-              header.dpi};
+      return {.width_px = static_cast<int>(header.width_px),
+              .height_px = static_cast<int>(header.height_px),
+              .pixels = std::move(*pixels),
+              .dpi = header.dpi};
   const cv::Mat picture = decode(file, bytes, header.format);
-  GrayImage image{picture.cols, picture.rows, {}, header.dpi};
+  GrayImage image{.width_px = picture.cols, .height_px = picture.rows, .dpi = header.dpi};
   image.pixels.resize(picture.total());
+  const bool colours = picture.channels() >= 3;
+  if (colours) image.red_green.resize(picture.total()), image.yellow_blue.resize(picture.total());
+  bool seen = false;
   const double to_8_bit = picture.depth() == CV_16U ? 1.0 / 257 : picture.depth() == CV_8U ? 1 : 255;
   for (int v = 0; v < picture.rows; ++v) {
     cv::Mat row = picture.row(v);
     if (picture.depth() != CV_8U) row.convertTo(row, CV_8U, to_8_bit);
-    compose_row(row, &image.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(picture.cols)]);
+    const std::size_t at = static_cast<std::size_t>(v) * static_cast<std::size_t>(picture.cols);
+    compose_row(row, &image.pixels[at]);
+    if (colours && colour_row(row, &image.red_green[at], &image.yellow_blue[at])) seen = true;
   }
+  if (!seen) image.red_green.clear(), image.yellow_blue.clear();
   return image;
 }
 

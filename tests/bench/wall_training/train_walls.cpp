@@ -1,217 +1,229 @@
 // Trains the wall model.
-//   train_walls LIST --out MODEL [--leave-out FOLDER]
-// LIST is a CSV file with a row a drawing: name,source,weight,drawing,walls,tolerance_px,truth,ignore
-// (truth: faces, lines or contours; ignore: boxes u1 v1 u2 v2 separated by spaces). With --leave-out a model
-// FOLDER/SOURCE.ubj that saw no drawing of that source is trained beside, for every source but "synthetic"
-// and "home". One thread, a fixed seed: the same list and files give the same bytes.
-// tests/bench/train_walls.py writes lists.
+//   train_walls SHEETS --out MODEL [--without SOURCE,...]
+// SHEETS is a folder that measure_sheets wrote. With --without the model sees no drawing of those sources.
+// One thread, a fixed seed: the same sheets give the same bytes. tests/bench/train_walls.py runs it all.
 #include <xgboost/c_api.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <set>
-#include <sstream>
+#include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "core/result.hpp"
-#include "mapping/drawing/raster/detect_walls.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
+#include "tests/bench/wall_training/chance.hpp"
+#include "tests/bench/wall_training/example_sheet.hpp"
 
 namespace {
 
-using madori::mapping::PixelSegment;
+using namespace madori::training;
 
-constexpr int kTrees = 110;
-constexpr double kAngleSine = 0.17;  // 10 degrees, as the scores have it
-constexpr double kUnknownReach = 3;  // tolerances: contours leave out the other face of a wall
+constexpr int kTrees = 100, kSecondTrees = 80;
+constexpr const char *kDepth = "5", *kSecondDepth = "4";
+constexpr std::size_t kFolds = 5;
+constexpr std::size_t kMostOfReal = 1800, kMostOfDrawn = 400;  // edges of a sheet that are looked at
+constexpr double kSheetWeight = 1000;
 
-struct Row {
-  std::string name, source, drawing, walls, truth;
-  double weight = 1, tolerance_px = 4;
-  std::vector<double> ignore;
-};
-
-struct Example {
-  std::string source;
+struct Examples {
+  std::vector<std::string> names;
   std::vector<float> values, labels, weights;  // values row-major
 };
 
 void check(int status) {
-  if (status != 0) throw madori::Error("training", XGBGetLastError(), "look at the list of drawings");
+  if (status != 0) throw madori::Error("training", XGBGetLastError(), "look at the measured sheets");
 }
 
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> parts;
-  std::stringstream stream(line);
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-  return parts;
+double length_of(const ExampleSheet& sheet, std::size_t row) {
+  const float* s = &sheet.segments[4 * row];
+  return std::hypot(s[2] - s[0], s[3] - s[1]);
 }
 
-std::vector<Row> read_list(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw madori::Error(file, "cannot be opened", "name a list of drawings");
-  std::vector<Row> rows;
-  std::string line;
-  std::getline(stream, line);
-  while (std::getline(stream, line)) {
-    auto parts = fields(line);
-    if (parts.size() < 7)
-      throw madori::Error(file, "has a row with less than 7 fields: " + line, "complete it");
-    Row row{parts[0], parts[1], parts[3], parts[4], parts[6], std::stod(parts[2]), std::stod(parts[5]), {}};
-    std::stringstream boxes(parts.size() > 7 ? parts[7] : "");
-    for (double value = 0; boxes >> value;) row.ignore.push_back(value);
-    rows.push_back(row);
-  }
+/// At most `most` edges, long ones rather than short ones (P. Efraimidis, P. Spirakis 2006), in their order.
+std::vector<std::size_t> sample(const ExampleSheet& sheet, std::size_t most) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < sheet.rows(); ++i)
+    if (sheet.used[i] != 0) rows.push_back(i);
+  if (rows.size() <= most) return rows;
+  Chance chance(1);
+  std::vector<std::pair<double, std::size_t>> keys;
+  for (const std::size_t i : rows)
+    keys.emplace_back(-std::log(chance.between(1e-9, 1)) / std::sqrt(length_of(sheet, i)), i);
+  std::sort(keys.begin(), keys.end());
+  rows.clear();
+  for (std::size_t k = 0; k < most; ++k) rows.push_back(keys[k].second);
+  std::sort(rows.begin(), rows.end());
   return rows;
 }
 
-std::vector<PixelSegment> read_truth(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw madori::Error(file, "cannot be opened", "correct the list");
-  std::string line;
-  std::getline(stream, line);
-  const auto header = fields(line);
-  const auto first = std::find(header.begin(), header.end(), "u1") - header.begin();
-  std::vector<PixelSegment> truth;
-  while (std::getline(stream, line)) {
-    const auto parts = fields(line);
-    if (parts.size() < static_cast<std::size_t>(first) + 4) continue;
-    const auto at = [&](std::ptrdiff_t k) { return std::stod(parts[static_cast<std::size_t>(first + k)]); };
-    truth.push_back({at(0), at(1), at(2), at(3)});
+/// Every sheet weighs the same for its kind, however many edges it has; an edge by its length.
+void append(Examples& examples, const ExampleSheet& sheet) {
+  const bool drawn = sheet.source == "synthetic";
+  const auto rows = sample(sheet, drawn ? kMostOfDrawn : kMostOfReal);
+  const std::size_t columns = sheet.features.size();
+  const bool sampled = rows.size() < static_cast<std::size_t>(std::count_if(
+                                         sheet.used.begin(), sheet.used.end(), [](int u) { return u != 0; }));
+  std::vector<double> weights;
+  for (const std::size_t i : rows) {
+    const double length = length_of(sheet, i);
+    weights.push_back(sampled ? std::sqrt(length) : length);
+    const auto from = sheet.values.begin() + static_cast<std::ptrdiff_t>(i * columns);
+    examples.values.insert(examples.values.end(), from, from + static_cast<std::ptrdiff_t>(columns));
+    examples.labels.push_back(sheet.near[i] > 0.5F ? 1 : 0);
   }
-  return truth;
+  const double total = std::max(1.0, std::accumulate(weights.begin(), weights.end(), 0.0));
+  for (const double weight : weights)
+    examples.weights.push_back(static_cast<float>(kSheetWeight * sheet.weight * weight / total));
+  examples.names = sheet.features;
 }
 
-/// The share of a segment that lies beside a parallel one of the truth.
-double true_share(const PixelSegment& s, const std::vector<PixelSegment>& truth, double tolerance) {
-  const double length = s.length_px();
-  const int places = std::clamp(static_cast<int>(length / 2), 2, 60);
-  std::vector<bool> right(static_cast<std::size_t>(places));
-  for (const PixelSegment& t : truth) {
-    if (std::max(s.u1, s.u2) < std::min(t.u1, t.u2) - tolerance ||
-        std::min(s.u1, s.u2) > std::max(t.u1, t.u2) + tolerance ||
-        std::max(s.v1, s.v2) < std::min(t.v1, t.v2) - tolerance ||
-        std::min(s.v1, s.v2) > std::max(t.v1, t.v2) + tolerance)
-      continue;
-    const double whole = std::max(1e-9, t.length_px());
-    const double du = (t.u2 - t.u1) / whole, dv = (t.v2 - t.v1) / whole;
-    if (std::abs(du * (s.v2 - s.v1) - dv * (s.u2 - s.u1)) > kAngleSine * length) continue;
-    for (int k = 0; k < places; ++k) {
-      const double f = (k + 0.5) / places, u = std::lerp(s.u1, s.u2, f) - t.u1,
-                   v = std::lerp(s.v1, s.v2, f) - t.v1;
-      const double along = std::clamp(u * du + v * dv, 0.0, whole);
-      if (std::hypot(u - along * du, v - along * dv) <= tolerance) right[static_cast<std::size_t>(k)] = true;
+/// Trees that judge edges; the bytes of a model file's half.
+class Judge {
+ public:
+  Judge(const Examples& examples, int trees, const char* depth) {
+    const std::size_t rows = examples.labels.size();
+    DMatrixHandle matrix = nullptr;
+    check(XGDMatrixCreateFromMat(examples.values.data(), rows, examples.names.size(), -1e9F, &matrix));
+    check(XGDMatrixSetFloatInfo(matrix, "label", examples.labels.data(), rows));
+    check(XGDMatrixSetFloatInfo(matrix, "weight", examples.weights.data(), rows));
+    check(XGBoosterCreate(&matrix, 1, &booster_));
+    const std::vector<std::pair<const char*, const char*>> settings{{"objective", "binary:logistic"},
+                                                                    {"tree_method", "hist"},
+                                                                    {"max_bin", "64"},
+                                                                    {"max_depth", depth},
+                                                                    {"eta", "0.12"},
+                                                                    {"subsample", "0.7"},
+                                                                    {"lambda", "1"},
+                                                                    {"colsample_bytree", "0.4"},
+                                                                    {"min_child_weight", "3"},
+                                                                    {"nthread", "1"},
+                                                                    {"seed", "1"}};
+    for (const auto& [name, value] : settings) check(XGBoosterSetParam(booster_, name, value));
+    for (int round = 0; round < trees; ++round) check(XGBoosterUpdateOneIter(booster_, round, matrix));
+    std::vector<const char*> texts;
+    for (const std::string& name : examples.names) texts.push_back(name.c_str());
+    check(XGBoosterSetStrFeatureInfo(booster_, "feature_name", texts.data(), texts.size()));
+    XGDMatrixFree(matrix);
+  }
+  Judge(const Judge&) = delete;
+  Judge& operator=(const Judge&) = delete;
+  ~Judge() { XGBoosterFree(booster_); }
+
+  [[nodiscard]] std::vector<float> probabilities(const ExampleSheet& sheet) const {
+    if (sheet.rows() == 0) return {};
+    DMatrixHandle matrix = nullptr;
+    check(XGDMatrixCreateFromMat(sheet.values.data(), sheet.rows(), sheet.features.size(), -1e9F, &matrix));
+    bst_ulong count = 0;
+    const float* result = nullptr;
+    check(XGBoosterPredict(booster_, matrix, 0, 0, 0, &count, &result));
+    std::vector<float> copy(result, result + count);
+    XGDMatrixFree(matrix);
+    return copy;
+  }
+
+  [[nodiscard]] std::string bytes() const {
+    bst_ulong size = 0;
+    const char* bytes = nullptr;
+    check(XGBoosterSaveModelToBuffer(booster_, "{\"format\": \"ubj\"}", &size, &bytes));
+    return {bytes, bytes + size};
+  }
+
+ private:
+  BoosterHandle booster_ = nullptr;
+};
+
+/// Drawings of one source are in one fold, plans of the draughtsman one after the other.
+std::vector<std::size_t> folds_of(const std::vector<ExampleSheet>& sheets) {
+  std::map<std::string, std::size_t> numbers;
+  std::vector<std::size_t> folds;
+  std::size_t plans = 0;
+  for (const ExampleSheet& sheet : sheets) {
+    if (sheet.source == "synthetic") {
+      folds.push_back(plans++ % kFolds);
+    } else {
+      folds.push_back(numbers.try_emplace(sheet.source, numbers.size()).first->second % kFolds);
     }
   }
-  return static_cast<double>(std::count(right.begin(), right.end(), true)) / places;
+  return folds;
 }
 
-Example example_of(const Row& row, std::vector<std::string>& names) {
-  const auto sheet = madori::mapping::training_sheet(madori::mapping::load_image(row.drawing));
-  const auto truth = read_truth(row.walls);
-  names = sheet.features.names();
-  Example example{row.source, {}, {}, {}};
-  double total = 0;
-  for (std::size_t i = 0; i < sheet.features.rows(); ++i) {
-    const PixelSegment& e = sheet.edges.edges[i].segment;
-    const double k = sheet.edges.factor;
-    const PixelSegment s{e.u1 / k, e.v1 / k, e.u2 / k, e.v2 / k};
-    const double mu = 0.5 * (s.u1 + s.u2), mv = 0.5 * (s.v1 + s.v2);
-    bool use = true;
-    for (std::size_t b = 0; b + 3 < row.ignore.size(); b += 4)
-      use = use && !(mu >= row.ignore[b] && mu <= row.ignore[b + 2] && mv >= row.ignore[b + 1] &&
-                     mv <= row.ignore[b + 3]);
-    const bool wall = true_share(s, truth, row.tolerance_px) > 0.5;
-    if (!wall && row.truth == "contours" && true_share(s, truth, kUnknownReach * row.tolerance_px) > 0.5)
-      use = false;
-    if (!use) continue;
-    const auto values = sheet.features.row(i);
-    example.values.insert(example.values.end(), values.begin(), values.end());
-    example.labels.push_back(wall ? 1 : 0);
-    example.weights.push_back(static_cast<float>(s.length_px()));
-    total += s.length_px();
+/// The sheet as the second judge sees it.
+ExampleSheet in_context(const ExampleSheet& sheet, const std::vector<float>& first) {
+  ExampleSheet second = sheet;
+  std::vector<madori::mapping::PixelSegment> segments;
+  madori::mapping::EdgeGroups groups;
+  for (std::size_t i = 0; i < sheet.rows(); ++i) {
+    const float* s = &sheet.segments[4 * i];
+    segments.push_back({s[0], s[1], s[2], s[3]});
+    for (std::size_t k = 0; k < 4; ++k) groups.together[k].push_back(sheet.groups[kGroups * i + k]);
+    for (std::size_t k = 0; k < 2; ++k) groups.partner[k].push_back(sheet.groups[kGroups * i + 4 + k]);
   }
-  for (float& weight : example.weights)
-    weight *= static_cast<float>(1000 * row.weight / std::max(1.0, total));
-  std::printf("%s: %zu edges\n", row.name.c_str(), example.labels.size());
-  std::fflush(stdout);
-  return example;
+  const auto context = madori::mapping::sheet_context(segments, groups, first);
+  second.features = context.names();
+  second.values.clear();
+  for (std::size_t i = 0; i < sheet.rows(); ++i) {
+    const auto row = context.row(i);
+    second.values.insert(second.values.end(), row.begin(), row.end());
+  }
+  return second;
 }
 
-/// Boosted trees on all examples but those of one source.
-void train(const std::vector<Example>& examples, const std::vector<std::string>& names,
-           const std::string& without, const std::string& file) {
-  std::vector<float> values, labels, weights;
-  for (const Example& e : examples) {
-    if (e.source == without) continue;
-    values.insert(values.end(), e.values.begin(), e.values.end());
-    labels.insert(labels.end(), e.labels.begin(), e.labels.end());
-    weights.insert(weights.end(), e.weights.begin(), e.weights.end());
+Examples without_fold(const std::vector<ExampleSheet>& sheets, const std::vector<std::size_t>& folds,
+                      std::size_t fold) {
+  Examples examples;
+  for (std::size_t k = 0; k < sheets.size(); ++k)
+    if (folds[k] != fold) append(examples, sheets[k]);
+  return examples;
+}
+
+/// The second judge learns from first judgements of drawings that the first one has not seen.
+void train(const std::vector<ExampleSheet>& sheets, const std::string& file) {
+  const auto folds = folds_of(sheets);
+  Examples contexts;
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    const Judge judge(without_fold(sheets, folds, fold), kTrees, kDepth);
+    for (std::size_t k = 0; k < sheets.size(); ++k)
+      if (folds[k] == fold) append(contexts, in_context(sheets[k], judge.probabilities(sheets[k])));
   }
-  DMatrixHandle matrix = nullptr;
-  check(XGDMatrixCreateFromMat(values.data(), labels.size(), names.size(), -1e9F, &matrix));
-  check(XGDMatrixSetFloatInfo(matrix, "label", labels.data(), labels.size()));
-  check(XGDMatrixSetFloatInfo(matrix, "weight", weights.data(), weights.size()));
-  BoosterHandle booster = nullptr;
-  check(XGBoosterCreate(&matrix, 1, &booster));
-  const std::vector<std::pair<const char*, const char*>> settings{{"objective", "binary:logistic"},
-                                                                  {"tree_method", "hist"},
-                                                                  {"max_bin", "64"},
-                                                                  {"max_depth", "5"},
-                                                                  {"eta", "0.12"},
-                                                                  {"subsample", "0.7"},
-                                                                  {"lambda", "1"},
-                                                                  {"colsample_bytree", "0.4"},
-                                                                  {"min_child_weight", "3"},
-                                                                  {"nthread", "1"},
-                                                                  {"seed", "1"}};
-  for (const auto& [name, value] : settings) check(XGBoosterSetParam(booster, name, value));
-  for (int round = 0; round < kTrees; ++round) check(XGBoosterUpdateOneIter(booster, round, matrix));
-  std::vector<const char*> texts;
-  for (const std::string& name : names) texts.push_back(name.c_str());
-  check(XGBoosterSetStrFeatureInfo(booster, "feature_name", texts.data(), texts.size()));
-  bst_ulong size = 0;
-  const char* bytes = nullptr;
-  check(XGBoosterSaveModelToBuffer(booster, "{\"format\": \"ubj\"}", &size, &bytes));
-  std::ofstream(file, std::ios::binary).write(bytes, static_cast<std::streamsize>(size));
-  std::printf("%s: %zu edges, %zu bytes\n", file.c_str(), labels.size(), static_cast<std::size_t>(size));
-  std::fflush(stdout);
-  XGBoosterFree(booster);
-  XGDMatrixFree(matrix);
+  const std::string first = Judge(without_fold(sheets, folds, kFolds), kTrees, kDepth).bytes();
+  const std::string second = Judge(contexts, kSecondTrees, kSecondDepth).bytes();
+  std::ofstream stream(file, std::ios::binary);
+  stream << "madori-walls-2 " << first.size() << ' ' << second.size() << '\n' << first << second;
+  if (!stream) throw madori::Error(file, "cannot be written", "name another --out");
+  std::printf("%s: %zu sheets, %zu + %zu bytes\n", file.c_str(), sheets.size(), first.size(), second.size());
 }
 
 }  // namespace
 
 int main(int count, char** words) try {
   const std::vector<std::string> arguments(words + 1, words + count);
-  std::string list, out, leave_out;
+  std::string sheets, out, without;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     if (arguments[i] == "--out" && i + 1 < arguments.size()) {
       out = arguments[++i];
-    } else if (arguments[i] == "--leave-out" && i + 1 < arguments.size()) {
-      leave_out = arguments[++i];
+    } else if (arguments[i] == "--without" && i + 1 < arguments.size()) {
+      without = arguments[++i];
     } else {
-      list = arguments[i];
+      sheets = arguments[i];
     }
   }
-  if (list.empty() || out.empty()) {
-    std::fprintf(stderr, "train_walls LIST --out MODEL [--leave-out FOLDER]\n");
+  if (sheets.empty() || out.empty()) {
+    std::fprintf(stderr, "train_walls SHEETS --out MODEL [--without SOURCE,...]\n");
     return 2;
   }
-  std::vector<Example> examples;
-  std::vector<std::string> names;
-  std::set<std::string> sources;
-  for (const Row& row : read_list(list)) {
-    examples.push_back(example_of(row, names));
-    if (row.source != "synthetic" && row.source != "home") sources.insert(row.source);
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(sheets))
+    if (entry.path().extension() == ".sheet") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<ExampleSheet> kept;
+  for (const auto& file : files) {
+    ExampleSheet sheet = load_sheet(file);
+    if (("," + without + ",").find("," + sheet.source + ",") == std::string::npos)
+      kept.push_back(std::move(sheet));
   }
-  train(examples, names, "", out);
-  if (!leave_out.empty())
-    for (const std::string& source : sources)
-      train(examples, names, source, leave_out + "/" + source + ".ubj");
+  train(kept, out);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "train_walls: %s\n", error.what());

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/result.hpp"
+#include "mapping/drawing/labelling/wall_threshold.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::mapping {
@@ -64,7 +65,7 @@ TEST(EdgeFeatures, HaveNamesOfTheirOwnAndAreFinite) {
   GrayImage image = paper(500, 400);
   cv::rectangle(canvas(image), {60, 60}, {440, 340}, 0, 3);
   cv::circle(canvas(image), {250, 200}, 60, 90, 2);
-  const LabelSheet sheet = label_sheet(image, {}, 1, 1);
+  const LabelSheet sheet = label_sheet(image);
   const auto& names = sheet.features.names();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
   ASSERT_GT(sheet.features.rows(), 8U);
@@ -79,7 +80,7 @@ TEST(WallModel, RefusesWhatIsNoModelAndOtherFeatures) {
   EXPECT_THROW((void)WallModel::load(folder.write("model.ubj", "not trees")), Error);
   FeatureTable other(1);
   other.add("something", {1.0F});
-  EXPECT_THROW((void)WallModel::shipped().probabilities(other), Error);
+  EXPECT_THROW((void)WallModel::shipped().first(other), Error);
 }
 
 /// Rooms by single lines in a grey that the binarization takes for paper beside black text: kept all the
@@ -88,8 +89,8 @@ TEST(LabelLines, EdgesWithoutInkBecomeLines) {
   GrayImage image = paper(900, 700);
   cv::Mat picture = canvas(image);
   cv::rectangle(picture, {100, 100}, {800, 600}, 190, 3);
-  const LabelSheet sheet = label_sheet(image, {}, 1, 1);
-  const DrawnLines lines = label_lines(sheet, WallModel::shipped().probabilities(sheet.features), {}, 1, 1);
+  const LabelSheet sheet = label_sheet(image);
+  const DrawnLines lines = label_lines(sheet, judge_edges(sheet, WallModel::shipped()), {}, 1, 1, 0.5);
   double length = 0;
   for (const DrawnLine& line : lines) {
     EXPECT_GE(line.probability, 0);
@@ -109,10 +110,10 @@ TEST(LabelLines, TheProbabilityOfALineIsThatOfItsEdges) {
   DrawnLine nowhere = line;
   nowhere.segment = {300, 300, 500, 300};
   const DrawnLines drawn{line, nowhere};
-  const LabelSheet sheet = label_sheet(image, drawn, 1, 1);
-  const auto probabilities = WallModel::shipped().probabilities(sheet.features);
+  const LabelSheet sheet = label_sheet(image);
+  const auto probabilities = judge_edges(sheet, WallModel::shipped());
   const auto [least, most] = std::minmax_element(probabilities.begin(), probabilities.end());
-  const DrawnLines lines = label_lines(sheet, probabilities, drawn, 1, 1);
+  const DrawnLines lines = label_lines(sheet, probabilities, drawn, 1, 1, 0.5);
   ASSERT_GE(lines.size(), 2U);
   EXPECT_GE(lines.front().probability, *least);
   EXPECT_LE(lines.front().probability, *most);
@@ -120,6 +121,68 @@ TEST(LabelLines, TheProbabilityOfALineIsThatOfItsEdges) {
                                    [](const DrawnLine& l) { return l.segment.v1 == 300 && !l.pale; });
   ASSERT_NE(unseen, lines.end());
   EXPECT_EQ(unseen->probability, 0) << "no edge runs there";
+}
+
+std::vector<Edge> edges_of(const std::vector<double>& lengths) {
+  std::vector<Edge> edges;
+  for (const double length : lengths) edges.push_back({.segment = {0, 0, length, 0}, .length_px = length});
+  return edges;
+}
+
+/// The expected F measure of taking all edges from a probability on, by its definition.
+double expected_f(const std::vector<float>& p, const std::vector<Edge>& edges, double from) {
+  double right = 0, taken = 0, all = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    all += p[i] * edges[i].length_px;
+    if (p[i] < from) continue;
+    right += p[i] * edges[i].length_px;
+    taken += edges[i].length_px;
+  }
+  return 2 * right / (taken + all);
+}
+
+TEST(WallThreshold, NoOtherThresholdExpectsMore) {
+  const std::vector<float> p{0.9F, 0.05F, 0.4F, 0.3F, 0.75F, 0.31F, 0.02F, 0.6F};
+  const auto edges = edges_of({10, 400, 60, 90, 5, 20, 300, 33});
+  const double chosen = expected_f(p, edges, wall_threshold(p, edges));
+  for (const float from : p) EXPECT_LE(expected_f(p, edges, from), chosen + 1e-12);
+}
+
+TEST(WallThreshold, IsLowWhereAllIsDoubtfulAndHigherForTheStrict) {
+  const auto edges = edges_of({10, 10, 10, 10});
+  EXPECT_LT(wall_threshold({0.3F, 0.28F, 0.02F, 0.01F}, edges), 0.3);
+  EXPECT_GT(wall_threshold({0.95F, 0.9F, 0.3F, 0.01F}, edges), 0.5);
+  const std::vector<float> p{0.9F, 0.7F, 0.5F, 0.3F};
+  EXPECT_LT(wall_threshold(p, edges, 0.1), wall_threshold(p, edges, 5));
+}
+
+/// Numbers and order of edges mean nothing: the context of an edge moves with it.
+TEST(SheetContext, FollowsTheEdgesWhereverTheyStand) {
+  const std::vector<PixelSegment> edges{{0, 0, 90, 0}, {0, 10, 90, 10}, {0, 0, 0, 40}, {200, 200, 260, 260}};
+  const std::vector<float> p{0.9F, 0.8F, 0.2F, 0.1F};
+  EdgeGroups groups;
+  groups.together = {std::vector{0, 0, 1, 2}, std::vector{0, 0, 0, 1}, std::vector{0, 1, 2, 3},
+                     std::vector{0, 0, 0, 1}};
+  groups.partner = {std::vector{1, 0, -1, -1}, std::vector{-1, -1, -1, -1}};
+  const FeatureTable table = sheet_context(edges, groups, p);
+  const std::vector<std::size_t> turned{3, 2, 1, 0};
+  std::vector<PixelSegment> other_edges;
+  std::vector<float> other_p;
+  EdgeGroups other;
+  for (const std::size_t i : turned) {
+    other_edges.push_back(edges[i]);
+    other_p.push_back(p[i]);
+    for (std::size_t k = 0; k < 4; ++k) other.together[k].push_back(7 * groups.together[k][i] + 3);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const int partner = groups.partner[k][i];
+      other.partner[k].push_back(partner < 0 ? -1 : 3 - partner);
+    }
+  }
+  const FeatureTable same = sheet_context(other_edges, other, other_p);
+  ASSERT_EQ(same.names(), table.names());
+  for (std::size_t i = 0; i < turned.size(); ++i)
+    for (std::size_t column = 0; column < table.names().size(); ++column)
+      EXPECT_NEAR(same.at(i, column), table.at(turned[i], column), 1e-5) << table.names()[column];
 }
 
 }  // namespace

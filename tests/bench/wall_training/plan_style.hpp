@@ -1,0 +1,41 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "tests/bench/wall_training/chance.hpp"
+
+namespace madori::training {
+
+enum class Building { Flat, Office, Hall, Warehouse };
+/// How walls are drawn. Mixed: outer walls thick, inner ones single lines.
+enum class Body { Single, Double, Filled, Hatched, FilledOutlined, MixedFilled, MixedDouble };
+
+/// How a draughtsman draws a plan: pens in pixels of the sheet, lengths in metres, colours blue-green-red.
+struct PlanStyle {
+  Building building = Building::Office;
+  Body body = Body::Double;
+  double px_per_m = 20;
+  cv::Scalar ground, wall, wall_fill, outline, thing, thing_fill, text, dimension, grid, door, window;
+  double wall_pen = 1.5, thing_pen = 1, thin_pen = 1, text_px = 12;
+  double outer_m = 0.4, inner_m = 0.15;
+  double furniture = 0.5, labels = 0.5, windows = 0.5, filled_things = 0.2;
+  int window_lines = 2, door_kind = 0, columns = 0;  ///< columns: 0 none, 1 filled, 2 open, 3 crossed
+  int room_colours = 0;                              ///< 0 none, 1 pale each its own, 2 all alike, 3 strong
+  double dimensions = 0, axes = 0, frame = 0, title = 0, outdoors = 0, routes = 0, tiles = 0, ceiling = 0;
+  double turn_rad = 0;
+  bool aliased = false;
+  double blur_px = 0, noise = 0, shade = 0, fold = 0;
+  int jpeg = 0;  ///< its quality, 0 = none
+
+  [[nodiscard]] bool dark() const { return ground[0] + ground[1] + ground[2] < 380; }
+  [[nodiscard]] bool single_inner() const {
+    return body == Body::Single || body == Body::MixedFilled || body == Body::MixedDouble;
+  }
+};
+
+[[nodiscard]] PlanStyle random_style(Chance& chance);
+/// A colour between two others.
+[[nodiscard]] cv::Scalar blend(const cv::Scalar& a, const cv::Scalar& b, double t);
+[[nodiscard]] cv::Scalar bright_colour(Chance& chance);
+
+}  // namespace madori::training
