@@ -3,10 +3,12 @@
 #include <array>
 #include <ctime>
 
+#include "core/clock.hpp"
+
 namespace madori::app {
 
 std::string iso_time_utc() {
-  const std::time_t now = std::time(nullptr);
+  const auto now = static_cast<std::time_t>(to_seconds(time_of_day()));
   std::tm parts{};
   gmtime_r(&now, &parts);
   std::array<char, 32> text{};

@@ -1,5 +1,6 @@
 #include "io/stream_link.hpp"
 
+#include <sys/file.h>
 #include <termios.h>
 
 #include <array>
@@ -15,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/clock.hpp"
 #include "core/result.hpp"
 
 namespace madori::io {
@@ -22,10 +24,6 @@ namespace {
 
 namespace asio = boost::asio;
 using Problem = boost::system::error_code;
-
-Stamp now() {
-  return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
-}
 
 /// Opening is what serial ports and TCP connections do differently; `Opener` calls back with the outcome.
 template <class Stream, class Opener>
@@ -75,9 +73,11 @@ class AsioLink final : public StreamLink {
     watch(turn);
     opener_(stream_, [this, turn](const Problem& problem) {
       if (stopping_ || turn != turn_) return;
+      if (problem == boost::system::errc::device_or_resource_busy)
+        return fail("another program uses it - end that one");
       if (problem) return fail(problem.message());
       open_ = true;
-      heard_ = std::chrono::steady_clock::now();
+      heard_ = clock_now();
       if (events_.opened) events_.opened();
       read(turn);
     });
@@ -87,8 +87,8 @@ class AsioLink final : public StreamLink {
     stream_.async_read_some(asio::buffer(buffer_), [this, turn](const Problem& problem, std::size_t count) {
       if (stopping_ || turn != turn_) return;
       if (problem) return fail(problem.message());
-      heard_ = std::chrono::steady_clock::now();
-      if (events_.bytes) events_.bytes({buffer_.data(), count}, now());
+      heard_ = clock_now();
+      if (events_.bytes) events_.bytes({buffer_.data(), count}, heard_);
       if (turn == turn_) read(turn);
     });
   }
@@ -109,14 +109,14 @@ class AsioLink final : public StreamLink {
 
   /// Also bounds an opening that never ends.
   void watch(unsigned turn) {
-    heard_ = std::chrono::steady_clock::now();
+    heard_ = clock_now();
     check_later(turn);
   }
   void check_later(unsigned turn) {
     timer_.expires_after(options_.silence / 4);
     timer_.async_wait([this, turn](const Problem& problem) {
       if (problem || stopping_ || turn != turn_) return;
-      if (std::chrono::steady_clock::now() - heard_ > options_.silence) return fail("nothing was heard");
+      if (clock_now() - heard_ > options_.silence) return fail("nothing was heard");
       check_later(turn);
     });
   }
@@ -149,7 +149,7 @@ class AsioLink final : public StreamLink {
   asio::steady_timer timer_;
   std::array<std::uint8_t, 16 * 1024> buffer_{};
   std::vector<std::uint8_t> queue_, sending_;
-  std::chrono::steady_clock::time_point heard_{};
+  Stamp heard_{};
   std::atomic<std::size_t> pending_ = 0;
   std::atomic<bool> open_ = false;
   bool writing_ = false;
@@ -175,6 +175,12 @@ struct SerialOpener {
     set(Port::parity(Port::parity::none));
     set(Port::stop_bits(Port::stop_bits::one));
     set(Port::flow_control(Port::flow_control::none));
+    // One program a device: two that command one drive would take turns.
+    if (!problem && ::flock(port.native_handle(), LOCK_EX | LOCK_NB) != 0) {
+      Problem ignored;
+      port.close(ignored);
+      return done(boost::system::errc::make_error_code(boost::system::errc::device_or_resource_busy));
+    }
     // What came before it was opened is old, and of unknown age.
     if (!problem) ::tcflush(port.native_handle(), TCIFLUSH);
     done(problem);

@@ -13,6 +13,7 @@
 #include "app/simulated/camera_stream.hpp"
 #include "app/simulated/jpeg.hpp"
 #include "app/trajectory_file.hpp"
+#include "core/clock.hpp"
 #include "core/result.hpp"
 #include "simulation/devices/live_run.hpp"
 
@@ -44,7 +45,7 @@ simulation::FactorySetup setup_of(const SimArguments& arguments) {
   auto setup =
       simulation::load_setup(arguments.site, arguments.scenario.empty() ? own : fs::path(arguments.scenario));
   if (arguments.seed) setup.seed = setup.scenario.seed = *arguments.seed;
-  setup.epoch = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+  setup.epoch = clock_now();
   return setup;
 }
 

@@ -1,6 +1,8 @@
+#include <cstdio>
 #include <utility>
 
 #include "app/cycle/stages.hpp"
+#include "core/fill_in.hpp"
 
 namespace madori::app {
 
@@ -25,12 +27,24 @@ bool enables(CycleState& state, bool may_move) {
   return wanted && (!idle || state.unarmed_steps > 0);
 }
 
+/// No step came for so long that the drive has stopped by itself, and that what was heard is of another time:
+/// the vehicle stands until something was measured after it.
+void begin_gap(CycleState& state, double seconds, CycleOutput& output) {
+  state.gap = state.previous;
+  state.limits = {};
+  state.jog = {};
+  char text[24];
+  std::snprintf(text, sizeof text, "%.2f", seconds);
+  output.events.push_back(fill_in(kTimeGapEvent.english, {{"seconds", text}}));
+}
+
 }  // namespace
 
 StepResult step(CycleState state, const CycleInput& input, const CycleConfig& config) {
   CycleOutput output;
   const double step_s = state.previous ? to_seconds(input.now - *state.previous) : 0.0;
   state.previous = input.now;
+  if (step_s > config.gap_s) begin_gap(state, step_s, output);
   state.protective_stop = input.protective_stop;
   localize(state, input, config, output);  // wheel angles and revolutions -> map_from_base
   remember_trail(state, input.now);
@@ -40,7 +54,7 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   change_mode(state, input, config, output);   // what happened -> what the vehicle is about
   const VelocityCommand wanted = guarded(state, wanted_command(state, input, config), config);
   const bool may_move = (drives(state.mode) || state.mode == Mode::Manual) && !state.protective_stop &&
-                        !is_silent(state.drive_heard, input.now, config.drive_silent_s);
+                        !state.gap && !is_silent(state.drive_heard, input.now, config.drive_silent_s);
   const double free_m =
       drives(state.mode) ? state.way.stop_along_m - state.way.along_m : planning::PathCheck::kFree;
   const auto limited = control::limit(state.limits,

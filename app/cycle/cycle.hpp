@@ -47,6 +47,7 @@ struct CycleConfig {
   double degraded_speed_mps = 0.4;     ///< while localization is degraded
   double drive_silent_s = 0.3;         ///< without a status of the drive: fault
   double lidar_silent_s = 0.35;        ///< without a revolution: stand
+  double gap_s = 0.25;                 ///< between two steps: the drive has stopped by itself
   double detour_after_s = 1.5;         ///< something must stand so long before a way around is looked for
   double detour_again_s = 4.0;         ///< between two searches
   double reroute_after_s = 25.0;       ///< then the blocked leg is left out of a new route
@@ -205,6 +206,7 @@ struct CycleState {
   std::int64_t drive_us = 0;  ///< the controller's clock, unwrapped
   std::optional<Stamp> lidar_heard;
   std::optional<Stamp> previous;
+  std::optional<Stamp> gap;  ///< the first step after a time without steps, until something was measured anew
   bool protective_stop = false;
   VelocityCommand jog;
   Stamp jog_heard{};

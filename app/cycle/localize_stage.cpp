@@ -117,6 +117,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     if (is_too_old(cloud, state.track)) continue;
     const PointCloud<Base> base = in_base(cloud, state.track, config);
     state.lidar_heard = input.now;
+    if (state.gap && base.stamp >= *state.gap) state.gap.reset();
     output.computed_lidar = true;
     const auto odom_from_base =
         state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);

@@ -18,9 +18,9 @@ bool has_fault(const CycleState& state) {
   return state.drive.state == DriveState::Fault || state.drive.faults != control::wire::kNoFault;
 }
 
-/// Whether the cycle is blind, or the drive deaf. Both end by themselves.
+/// Whether lidar or drive data is stale, or of before a gap. All of it ends by itself.
 bool misses_a_device(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
-  return is_silent(state.lidar_heard, input.now, config.lidar_silent_s) ||
+  return state.gap || is_silent(state.lidar_heard, input.now, config.lidar_silent_s) ||
          is_silent(state.drive_heard, input.now, config.drive_silent_s);
 }
 

@@ -49,6 +49,7 @@ enum class Cause : std::uint8_t {
   SomethingInTheWay,
   UnseenInTheWay,
   HeldBack,
+  TimeGap,
 };
 
 /// What a person can do about it.
@@ -104,6 +105,7 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"unseen-in-the-way", "something low stands in the way, too near for the lidar to see"},
     CatalogueEntry{"held-back",
                    "something that the lidar does not see holds the vehicle: it drives and does not get on"},
+    CatalogueEntry{"time-gap", "the program stood still, or the computer's clock jumped"},
 };
 
 inline constexpr std::array kRemedies{
@@ -129,6 +131,12 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"clear-way", "clear the way: {reason}"},
     CatalogueEntry{"look-and-resume", "look, clear the way, then press Resume"},
 };
+
+/// An event of the cycle, not the cause of a standstill.
+inline constexpr CatalogueEntry kTimeGapEvent{"event.time-gap",
+                                              "the program stood still, or the computer's clock jumped "
+                                              "forward, by {seconds} s; the vehicle stands until "
+                                              "it has measured anew"};
 
 /// The notice with its English text. Precondition: `values` names every placeholder of the entry.
 [[nodiscard]] Notice notice(Cause cause, std::map<std::string, std::string> values = {});

@@ -43,10 +43,12 @@ Standstill why_at_stop(const OrderStop& stop, Stamp now) {
 Standstill why_waiting(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Navigation& way = state.way;
   const Stamp now = input.now;
-  if (is_silent(state.drive_heard, now, config.drive_silent_s))
+  // After a gap a device has its time to be heard before it is called silent.
+  if (is_silent(std::max(state.drive_heard, state.gap), now, config.drive_silent_s))
     return because(Cause::DriveSilent, Remedy::CheckDrive, now);
-  if (is_silent(state.lidar_heard, now, config.lidar_silent_s))
+  if (is_silent(std::max(state.lidar_heard, state.gap), now, config.lidar_silent_s))
     return because(Cause::LidarSilent, Remedy::CheckLidar, now);
+  if (state.gap) return because(Cause::TimeGap, Remedy::ByItself, now);
   if (state.protective_stop) return because(Cause::ProtectiveField, Remedy::ClearField, now);
   if (way.arrived) return why_at_stop(way.stop, now);
   if (!way.no_way.empty()) return {way.no_way, notice(Remedy::ClearOrDraw), now};

@@ -12,8 +12,10 @@
 #include "app/pose/localizer_pose.hpp"
 #include "app/recording/recorder.hpp"
 #include "app/runner/real_time.hpp"
+#include "app/runner/site_lock.hpp"
 #include "app/runner/socket_link.hpp"
 #include "app/simulated/live_factory.hpp"
+#include "core/clock.hpp"
 #include "core/result.hpp"
 #include "core/segment_distance.hpp"
 
@@ -32,7 +34,7 @@ double seconds_since(Clock::time_point begin) {
 
 simulation::FactorySetup setup_of(const DemoOptions& options) {
   auto setup = simulation::load_setup(options.site, options.scenario);
-  setup.epoch = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+  setup.epoch = clock_now();
   return setup;
 }
 
@@ -106,6 +108,7 @@ bool DemoResult::all_delivered() const {
 }
 
 DemoResult run_demo(const DemoOptions& options) {
+  const SiteLock lock(options.site);
   auto loaded = load_for_driving(options.site);
   const fs::path devices = options.site / "devices";
   fs::create_directories(devices);
@@ -116,8 +119,7 @@ DemoResult run_demo(const DemoOptions& options) {
   TransportRun run(loaded.config, std::move(source), std::move(link),
                    {.site = options.site, .store_poll_s = 0.1});
   for (const Order& order : run.orders().list(true))
-    run.orders().close(order.id, OrderState::Cancelled, "left over from an earlier demo",
-                       std::chrono::system_clock::now());
+    run.orders().close(order.id, OrderState::Cancelled, "left over from an earlier demo", time_of_day());
   DemoResult result;
   Observer observer(result, run.config(), factory);
   fs::remove_all(options.site / "runs/demo");
@@ -132,14 +134,16 @@ DemoResult run_demo(const DemoOptions& options) {
   const std::atomic<bool> never = false;
   for (const int node : options.stations) {
     observer.begin_order(node);
-    const auto id = run.orders().add({{node, StopAction::Unload, 1.0}}, 1, std::chrono::system_clock::now());
+    const auto id = run.orders().add({{node, StopAction::Unload, 1.0}}, 1, time_of_day());
     bool delivered = false;
-    run_in_real_time(run, never, [&] {
+    const auto done = [&] {
       for (const OperatorWord word : person.look(run.view().mode, run.view().now)) run.say({word, {}});
       const auto order = run.view().order;
       delivered = order && order->id == id && order->state == OrderState::Done;
       return delivered || seconds_since(begun) > options.limit_s;
-    });
+    };
+    run_in_real_time([&](Stamp now) { run.tick(now); }, never,
+                     {.done = done, .told = [&](const std::string& text) { run.tell(text); }});
     observer.end_order(delivered);
     if (!delivered) break;
   }

@@ -4,6 +4,7 @@
 
 #include "app/learned/calibration_file.hpp"
 #include "app/learned/learned_drawing.hpp"
+#include "core/clock.hpp"
 #include "localization/self_calibration/self_calibration.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
@@ -56,7 +57,8 @@ void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
   pose_known_ = true;
   pose_kept_ = now;
   kept_wheels_ = wheels;
-  const StoredPose pose{now, state.pose.map_from_base, state.pose.covariance, wheels, fingerprint_};
+  const StoredPose pose{time_of_day(now), state.pose.map_from_base, state.pose.covariance, wheels,
+                        fingerprint_};
   jobs_.put("pose", [file, pose] { mapping::write_file_atomically(file, stored_pose_yaml(pose)); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/cycle/modes.hpp"
 #include "app/panel/notices.hpp"
+#include "app/runner/clock_words.hpp"
 
 namespace madori::app {
 namespace {
@@ -65,6 +66,16 @@ bool take_standstill(std::string_view mode, std::string_view sentence, hmi::Even
   return false;
 }
 
+/// What the clocks did.
+bool take_clock(std::string_view text, hmi::EventView& view) {
+  auto known = said_by(kTimeGapEvent, text);
+  if (!known) known = said_by_any(kClockEvents, text);
+  if (!known) return false;
+  view.what = shown(*known);
+  view.severity = "warning";
+  return true;
+}
+
 /// "order 3: stop reached; done", "order 3 refused: no way leads to node 9"
 void take_order(std::string_view text, hmi::EventView& view) {
   constexpr std::string_view kOrder = "order ", kReached = ": stop reached; ", kRefused = " refused: ";
@@ -88,6 +99,7 @@ hmi::EventView event_view(const EventRecord& event) {
   hmi::EventView view{event.stamp, event.kind == "device" ? "warning" : "info", uncoded(event.text), {}};
   const std::string_view text = event.text;
   take_order(text, view);
+  if (take_clock(text, view)) return view;
   const std::size_t colon = text.find(": ");
   if (colon == std::string_view::npos) return view;
   const auto head = text.substr(0, colon);

@@ -6,6 +6,7 @@
 
 #include "app/panel/event_words.hpp"
 #include "app/panel/notices.hpp"
+#include "core/clock.hpp"
 
 namespace madori::app {
 namespace {
@@ -15,10 +16,6 @@ constexpr std::size_t kMostStops = 100;
 constexpr std::size_t kMostEnded = 50;
 constexpr double kLongestWait_s = 24.0 * 3600.0;
 constexpr std::array kActions{StopAction::Pass, StopAction::Wait, StopAction::Load, StopAction::Unload};
-
-Stamp wall_clock() {
-  return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
-}
 
 std::optional<OrderStop> stop_from(const hmi::StopView& view) {
   for (const StopAction action : kActions)
@@ -79,7 +76,7 @@ hmi::Reply PanelOrders::add(const std::vector<hmi::StopView>& stops, int repeat)
     wanted.push_back(*stop);
   }
   const std::scoped_lock lock(mutex_);
-  store_.add(wanted, repeat, wall_clock());
+  store_.add(wanted, repeat, time_of_day());
   return hmi::Reply::done();
 }
 
@@ -101,7 +98,7 @@ hmi::Reply PanelOrders::cancel(long long id) {
   const auto order = store_.find(id);
   if (!order || (order->state != OrderState::Queued && order->state != OrderState::Running))
     return unknown_order();
-  store_.close(id, OrderState::Cancelled, "cancelled at the panel", wall_clock());
+  store_.close(id, OrderState::Cancelled, "cancelled at the panel", time_of_day());
   return hmi::Reply::done();
 }
 
@@ -114,7 +111,7 @@ hmi::Reply PanelOrders::arrange(const std::vector<long long>& ids) {
 void PanelOrders::cancel_running(const std::string& why) {
   const std::scoped_lock lock(mutex_);
   for (const auto& order : store_.list(true))
-    if (order.state == OrderState::Running) store_.close(order.id, OrderState::Cancelled, why, wall_clock());
+    if (order.state == OrderState::Running) store_.close(order.id, OrderState::Cancelled, why, time_of_day());
 }
 
 std::vector<hmi::EventView> PanelOrders::events(std::size_t newest) const {

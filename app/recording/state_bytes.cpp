@@ -10,7 +10,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 4;
+constexpr std::uint32_t kFormat = 5;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -99,7 +99,8 @@ template <class Bytes, class State>
 void each_of(Bytes& bytes, State& s) {
   bytes(s.mode), bytes(s.odometry), bytes(s.track), bytes(s.drive), bytes(s.drive_heard),
       bytes(s.drive_clock), bytes(s.drive_us), bytes(s.lidar_heard);
-  bytes(s.previous), bytes(s.protective_stop), bytes(s.jog), bytes(s.jog_heard), bytes(s.limits);
+  bytes(s.previous), bytes(s.gap), bytes(s.protective_stop), bytes(s.jog), bytes(s.jog_heard),
+      bytes(s.limits);
   bytes(s.unarmed_steps), bytes(s.effort), bytes(s.trail), bytes(s.trail_at);
   each_of_way(bytes, s.way);
 }

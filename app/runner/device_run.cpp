@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <memory>
 #include <utility>
@@ -12,7 +11,9 @@
 #include "app/panel/panel.hpp"
 #include "app/recording/recorder.hpp"
 #include "app/runner/real_time.hpp"
+#include "app/runner/site_lock.hpp"
 #include "app/runner/site_run.hpp"
+#include "core/clock.hpp"
 
 namespace madori::app {
 namespace {
@@ -64,6 +65,7 @@ class Onlookers {
 }  // namespace
 
 std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
+  const SiteLock lock(options.site);
   Onlookers onlookers(options);
   Panel* looking_on = nullptr;
   auto link = std::make_unique<SocketLink>(options.devices, WheelGeometry{});
@@ -88,15 +90,14 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
     vehicle.load_now();  // nobody could complete the site
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
-  const auto begun = std::chrono::steady_clock::now();
+  const Stamp begun = clock_now();
   CycleTimes times;
-  run_in_real_time([&](Stamp now) { vehicle.tick(now); }, interrupted,
-                   [&] {
-                     return options.duration_s > 0.0 &&
-                            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() >
-                                options.duration_s;
-                   },
-                   options.cycle_times.empty() ? nullptr : &times);
+  run_in_real_time(
+      [&](Stamp now) { vehicle.tick(now); }, interrupted,
+      {.done =
+           [&] { return options.duration_s > 0.0 && to_seconds(clock_now() - begun) > options.duration_s; },
+       .told = [&](const std::string& text) { vehicle.tell(text); },
+       .times = options.cycle_times.empty() ? nullptr : &times});
   if (!options.cycle_times.empty()) times.write(options.cycle_times);
   return onlookers.folder();
 }

@@ -1,27 +1,30 @@
 #include "app/runner/real_time.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
+
+#include "app/runner/clock_words.hpp"
 
 namespace madori::app {
 
 void run_in_real_time(const std::function<void(Stamp)>& tick, const std::atomic<bool>& stop,
-                      const std::function<bool()>& done, CycleTimes* times) {
-  constexpr auto kPeriod = std::chrono::milliseconds(20);
-  auto next = std::chrono::steady_clock::now();
-  while (!stop && !(done && done())) {
-    const auto begun = std::chrono::steady_clock::now();
-    tick(std::chrono::system_clock::now());
-    const auto now = std::chrono::steady_clock::now();
-    if (times != nullptr) times->add(next, begun, now);
-    next += kPeriod;
-    if (next < now) next = now;
-    std::this_thread::sleep_until(next);
+                      const RealTimeHooks& hooks, Clock& clock) {
+  constexpr Duration kPeriod = std::chrono::milliseconds(20);
+  Stamp next = clock.now();
+  while (!stop && !(hooks.done && hooks.done())) {
+    for (const ClockJump& jump : clock.watch())
+      if (hooks.told) hooks.told(in_words(jump));
+    const auto begun = CycleTimes::Clock::now();
+    const Stamp due = next;
+    const Stamp late_from = clock.now();
+    tick(late_from);
+    const Stamp now = clock.now();
+    if (hooks.times != nullptr) hooks.times->add(begun - (late_from - due), begun, CycleTimes::Clock::now());
+    next = std::max(due + kPeriod, now);
+    // For a time, not until a moment: a clock that goes back must not make it long.
+    std::this_thread::sleep_for(next - now);
   }
-}
-
-void run_in_real_time(TransportRun& run, const std::atomic<bool>& stop, const std::function<bool()>& done) {
-  run_in_real_time([&run](Stamp now) { run.tick(now); }, stop, done);
 }
 
 }  // namespace madori::app

@@ -128,6 +128,11 @@ void SiteRun::tick(Stamp now) {
   if (hooks_.idle) hooks_.idle(input);
 }
 
+void SiteRun::tell(const std::string& text) {
+  spdlog::warn("{}", text);
+  if (run_) run_->tell(text);
+}
+
 void SiteRun::reload() {
   const std::scoped_lock lock(mutex_);
   wanted_ = true;

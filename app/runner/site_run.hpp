@@ -38,6 +38,9 @@ class SiteRun {
   /// One step at `now`. Call every 20 ms, always from one thread.
   void tick(Stamp now);
 
+  /// An event that did not come from the cycle. From the ticks' thread.
+  void tell(const std::string& text);
+
   // From any thread:
   /// The site has changed: load it, beside the ticks.
   void reload();

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "core/clock.hpp"
+
 namespace madori::app {
 namespace {
 
@@ -30,6 +32,10 @@ void TransportRun::say(const OperatorCommand& command) {
   said_.push_back(command);
 }
 
+void TransportRun::tell(const std::string& text) {
+  events_.add({time_of_day(), "device", text});
+}
+
 VehicleView TransportRun::view() const {
   const std::scoped_lock lock(mutex_);
   return view_;
@@ -42,7 +48,7 @@ void TransportRun::look_for_orders(Stamp now) {
   if (order_) order_ = store_.find(order_->id);
   if (!order_ || order_->state != OrderState::Running) {
     const bool may_begin = state_.mode == Mode::Idle || state_.mode == Mode::Localizing;
-    order_ = may_begin ? store_.begin_next(now) : std::nullopt;
+    order_ = may_begin ? store_.begin_next(time_of_day(now)) : std::nullopt;
   }
 }
 
@@ -53,7 +59,8 @@ void TransportRun::ask_detour(const planning::DetourRequest& request) {
     answer_ = planning::plan_detour(request, *config_.walls, config_.check, detour_options_);
 }
 
-void TransportRun::carry_out(const CycleOutput& output, Stamp now) {
+void TransportRun::carry_out(const CycleOutput& output, Stamp moment) {
+  const Stamp now = time_of_day(moment);
   if (output.detour_wanted) ask_detour(*output.detour_wanted);
   if (output.stop_done) {
     order_ = store_.stop_done(output.stop_done->order, output.stop_done->round, output.stop_done->stop, now);

@@ -45,6 +45,8 @@ class TransportRun {
 
   /// One step of the cycle at `now`. Call every 20 ms.
   void tick(Stamp now);
+  /// An event that did not come from the cycle, to log and panel. From the ticks' thread.
+  void tell(const std::string& text);
   /// From any thread.
   void say(const OperatorCommand& command);
   [[nodiscard]] VehicleView view() const;
@@ -56,7 +58,7 @@ class TransportRun {
 
  private:
   void look_for_orders(Stamp now);
-  void carry_out(const CycleOutput& output, Stamp now);
+  void carry_out(const CycleOutput& output, Stamp moment);
   void ask_detour(const planning::DetourRequest& request);
 
   CycleConfig config_;

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "core/clock.hpp"
+
 namespace madori::app {
 namespace {
 
@@ -39,7 +41,7 @@ void WorkMeter::count(const CycleInput& input, const CycleState& state) {
   const double moved_m = distance_m(before->odom_from_base.translation(), step.odom_from_base.translation());
   if (!(passed_s > 0.0 && passed_s < kLongestStep_s && moved_m < kFarthestStep_m)) return;
   const std::scoped_lock lock(mutex_);
-  now_ = input.now;
+  now_ = time_of_day(input.now);
   waiting_.distance_m += moved_m;
   if (drives(state.mode)) waiting_.driving_s += passed_s;
   if (!counts(state.mode) || step.cause.empty()) return;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/clock.hpp"
+
 namespace madori::control {
 namespace {
 
@@ -48,7 +50,7 @@ void DriveLink::receive(std::span<const std::uint8_t> bytes, Stamp received) {
       if (counters_.status_frames > 0 && step > 1) counters_.lost += static_cast<std::uint64_t>(step) - 1U;
       ++counters_.status_frames;
       latest_ = {status, received, false};
-      heard_ = std::chrono::steady_clock::now();
+      heard_ = clock_now();
     }
     if (sink_) sink_(status, received);
   }
@@ -70,7 +72,7 @@ bool DriveLink::send(const WheelSpeeds& speeds, bool enable) {
 DriveLink::Latest DriveLink::latest() const {
   const std::lock_guard lock(mutex_);
   Latest answer = latest_;
-  const bool fresh = std::chrono::steady_clock::now() - heard_ <= options_.stale_after;
+  const bool fresh = clock_now() - heard_ <= options_.stale_after;
   answer.stale = counters_.status_frames == 0 || !fresh;
   return answer;
 }

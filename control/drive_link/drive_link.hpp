@@ -41,7 +41,7 @@ class DriveLink {
     Stamp received{};
     bool stale = true;  ///< older than stale_after, or none yet
   };
-  /// The last status frame. Judged by the steady clock: the PC's time of day may jump.
+  /// The last status frame.
   [[nodiscard]] Latest latest() const;
   [[nodiscard]] DriveLinkCounters counters() const;
   [[nodiscard]] bool is_open() const { return link_->is_open(); }
@@ -56,7 +56,7 @@ class DriveLink {
   wire::FrameCutter cutter_;
   mutable std::mutex mutex_;
   Latest latest_;
-  std::chrono::steady_clock::time_point heard_{};
+  Stamp heard_{};
   DriveLinkCounters counters_;
   std::string problem_ = "not opened yet";
   std::uint16_t sequence_ = 0;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/clock.hpp"
 #include "hmi/server/wire.hpp"
 
 namespace madori::hmi {
@@ -19,8 +20,7 @@ void LiveFeed::refresh(std::chrono::steady_clock::time_point now) {
   if (made_ && now - *made_ < kFresh) return;
   made_ = now;
   const LiveState live = vehicle_.live();
-  nlohmann::json wire =
-      to_wire(live, std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now()));
+  nlohmann::json wire = to_wire(live, clock_now());
   wire["locked"] = to_wire(vehicle_.may_change_site().reason);
   wire["revisions"] = editor_.revisions();
   live_ = dump(wire);

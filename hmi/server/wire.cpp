@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/clock.hpp"
+
 namespace madori::hmi {
 namespace {
 
@@ -59,11 +61,11 @@ json to_wire(const Notice& notice) {
 }
 
 json to_wire(const LiveState& live, Stamp now) {
-  return {{"stamp", to_seconds(live.stamp)},
+  return {{"stamp", to_seconds(time_of_day(live.stamp))},
           {"state", live.state},
           {"cause", to_wire(live.cause)},
           {"remedy", to_wire(live.remedy)},
-          {"since", to_seconds(live.since)},
+          {"since", to_seconds(time_of_day(live.since))},
           {"pose", pose_to_wire(live.pose, now)},
           {"speed", live.velocity.linear_mps},
           {"turn_rate", live.velocity.angular_radps},

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/clock.hpp"
+
 namespace madori::sensors::s300 {
 namespace {
 
@@ -44,7 +46,7 @@ void Receiver::take(const Telegram& telegram) {
     clock_.observe(scan_us + delay_us(telegram), received_);
     scan.stamp = clock_.stamp_of(scan_us);
     fields_ = fields;
-    heard_ = std::chrono::steady_clock::now();
+    heard_ = clock_now();
     any_ = true;
   }
   if (sink_) sink_(scan, fields);
@@ -52,7 +54,7 @@ void Receiver::take(const Telegram& telegram) {
 
 std::string Receiver::stop_reason() const {
   const std::lock_guard lock(mutex_);
-  if (!any_ || std::chrono::steady_clock::now() - heard_ > options_.stale_after)
+  if (!any_ || clock_now() - heard_ > options_.stale_after)
     return "the safety scanner on " + options_.device + " is silent";
   if (fields_.lockout) return "the safety scanner is locked out: reset it";
   if (fields_.standby) return "the safety scanner is in standby";

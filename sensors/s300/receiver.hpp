@@ -42,7 +42,7 @@ class Receiver {
   Stamp received_{};
   Fields fields_;
   StreamCounters counters_;
-  std::chrono::steady_clock::time_point heard_{};
+  Stamp heard_{};
   bool any_ = false;
   std::unique_ptr<io::StreamLink> link_;  ///< last: its thread uses all of the above
 };

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "app/panel/live_copy.hpp"
+#include "core/clock.hpp"
 #include "hmi/server/api.hpp"
 #include "hmi/server/server.hpp"
 #include "tests/support/panel_client.hpp"
@@ -84,7 +85,7 @@ struct Panel {
     for (int step = 0; Clock::now() - begin < length; ++step, next += kStep) {
       std::this_thread::sleep_until(next);
       app::CycleInput input;
-      input.now = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+      input.now = clock_now();
       // Lent, not copied: the cycle has its scan anyway.
       auto& lent = clouds[static_cast<std::size_t>(step / kStepsAScan) % clouds.size()];
       if (step % kStepsAScan == 0) input.clouds.push_back(std::move(lent));

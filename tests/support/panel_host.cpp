@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "core/clock.hpp"
 #include "hmi/server/api.hpp"
 #include "hmi/server/scan_frame.hpp"
 #include "hmi/server/server.hpp"
@@ -31,7 +32,7 @@ int main(int argc, char** argv) {
   for (int tick = 0;; ++tick) {
     hmi::LiveState live;
     const double t = 0.1 * tick;
-    live.stamp = live.pose.stamp = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+    live.stamp = live.pose.stamp = clock_now();
     live.since = live.stamp - std::chrono::seconds(tick / 10);
     live.state = tick / 100 % 2 == 0 ? "driving" : "waiting";
     if (live.state == "waiting") {

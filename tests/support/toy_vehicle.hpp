@@ -55,9 +55,10 @@ class ToyVehicle {
     controller_.tick({emergency_stop, bumper, drive_faults, angle(left_rad_), angle(right_rad_), 25'000},
                      micros);
     app::CycleInput input;
-    input.now = stamp_from_seconds(1'000.0 + time_s_);
+    input.now = stamp_from_seconds(1'000.0 + time_s_ + clock_s);
     if (!drive_silent) input.drive.push_back(controller_.next_status());
-    if (++ticks_ % 5 == 0 && !lidar_silent) input.clouds.push_back(cloud(input.now));
+    if (++ticks_ % 5 == 0 && !lidar_silent)
+      input.clouds.push_back(cloud(input.now - duration_from_seconds(cloud_age_s)));
     input.commands = std::exchange(commands, {});
     if (order && order->state == app::OrderState::Running) input.order = order;
     input.detour = std::exchange(detour_, std::nullopt);
@@ -117,6 +118,8 @@ class ToyVehicle {
   ToyLidar lidar;
   bool emergency_stop = false, bumper = false, drive_silent = false, lidar_silent = false;
   std::uint16_t drive_faults = 0;
+  double clock_s = 0.0;          ///< what was added to the computer's clock
+  double cloud_age_s = 0.0;      ///< revolutions are stamped so long ago
   double drive_started_s = 0.0;  ///< when its power came: its clock counts from there
   std::vector<app::OperatorCommand> commands;
   std::optional<app::Order> order;

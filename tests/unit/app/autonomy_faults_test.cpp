@@ -82,6 +82,40 @@ TEST(AutonomyCycle, ASilentLidarStopsTheVehicleAndItGoesOnByItself) {
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
 }
 
+/// The program was stopped, or the computer's clock jumped, and the lidar's stamps need a while to follow.
+TEST(AutonomyCycle, ATimeWithoutStepsStopsTheVehicleUntilSomethingIsMeasuredAnew) {
+  for (const double jump_s : {2.5, 10.0, 3600.0}) {
+    auto v = corridor_vehicle();
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+    v->clock_s += jump_s;
+    v->cloud_age_s = jump_s;
+    v->step();
+    EXPECT_EQ(v->output.command, VelocityCommand{});
+    EXPECT_FALSE(v->output.enable);
+    EXPECT_THAT(v->output.events, Contains(HasSubstr("the computer's clock jumped forward")));
+    EXPECT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.01; }, 0.5));
+    v->run_until([&] { return false; }, 2.0);
+    EXPECT_EQ(v->state().mode, Mode::Waiting);
+    EXPECT_EQ(v->state().standstill.cause, notice(Cause::TimeGap));
+    EXPECT_NEAR(v->rolling.speed().linear_mps, 0.0, 1e-6);
+    v->cloud_age_s = 0.0;
+    EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << v->state().standstill.cause.text;
+  }
+}
+
+TEST(AutonomyCycle, AfterATimeWithoutStepsADeviceThatStaysSilentIsCalledSilent) {
+  auto v = corridor_vehicle();
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+  v->clock_s += 10.0;
+  v->lidar_silent = true;
+  v->run_until([&] { return false; }, 1.0);
+  EXPECT_EQ(v->state().standstill.cause, notice(Cause::LidarSilent));
+}
+
 TEST(AutonomyCycle, LostMeansStandingAndLocalizedMeansGoingOn) {
   auto v = corridor_vehicle();
   v->drive_to({{2}});

@@ -1,0 +1,49 @@
+#include "app/runner/site_lock.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include "core/result.hpp"
+
+namespace madori::app {
+namespace {
+
+/// " (process 123)" as the holder wrote it; empty where it did not.
+std::string holder(int file) {
+  std::array<char, 16> text{};
+  const ssize_t size = ::pread(file, text.data(), text.size() - 1, 0);
+  return size > 0 ? " (process " + std::string(text.data(), static_cast<std::size_t>(size)) + ")" : "";
+}
+
+}  // namespace
+
+SiteLock::SiteLock(const std::filesystem::path& site) {
+  std::error_code error;
+  std::filesystem::create_directories(site, error);
+  const auto name = site / ".run.lock";
+  file_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file_ < 0)
+    throw Error(site.string(), std::string("cannot be written: ") + std::strerror(errno),
+                "check the folder and its permissions");
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    const std::string other = holder(file_);
+    ::close(file_);
+    throw Error(site.string(), "another program drives the vehicle of this site already" + other,
+                "end it first, or use its panel");
+  }
+  const std::string self = std::to_string(::getpid());
+  // Who holds it is a help for people alone: a full disk does not matter here.
+  if (::ftruncate(file_, 0) == 0) (void)!::pwrite(file_, self.data(), self.size(), 0);
+}
+
+SiteLock::~SiteLock() {
+  ::close(file_);
+}
+
+}  // namespace madori::app
