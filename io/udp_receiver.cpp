@@ -6,12 +6,31 @@
 #include <boost/asio/post.hpp>
 #include <thread>
 
+#include "core/clock.hpp"
 #include "core/result.hpp"
 
 namespace madori::io {
 
 namespace asio = boost::asio;
 using asio::ip::udp;
+
+namespace {
+
+Sender sender_of(const udp::endpoint& endpoint) {
+  const auto address = endpoint.address();
+  const auto v6 =
+      address.is_v6() ? address.to_v6() : asio::ip::make_address_v6(asio::ip::v4_mapped, address.to_v4());
+  return {v6.to_bytes(), endpoint.port()};
+}
+
+}  // namespace
+
+std::string Sender::text() const {
+  const asio::ip::address_v6 v6(address);
+  const std::string host = v6.is_v4_mapped() ? asio::ip::make_address_v4(asio::ip::v4_mapped, v6).to_string()
+                                             : "[" + v6.to_string() + "]";
+  return host + ":" + std::to_string(port);
+}
 
 struct UdpReceiver::State {
   asio::io_context context{1};
@@ -24,8 +43,7 @@ struct UdpReceiver::State {
   void receive() {
     socket.async_receive_from(asio::buffer(buffer), sender, [this](const auto& problem, std::size_t count) {
       if (problem == asio::error::operation_aborted) return;
-      const auto now = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
-      if (!problem) packet({buffer.data(), count}, now);
+      if (!problem) packet({buffer.data(), count}, clock_now(), sender_of(sender));
       receive();
     });
   }
@@ -37,7 +55,6 @@ UdpReceiver::UdpReceiver(const std::string& address, std::uint16_t port, Packet 
   try {
     const udp::endpoint endpoint(asio::ip::make_address(address), port);
     state_->socket.open(endpoint.protocol());
-    state_->socket.set_option(udp::socket::reuse_address(true));
     state_->socket.set_option(udp::socket::receive_buffer_size(1 << 21));
     state_->socket.bind(endpoint);
   } catch (const std::exception& e) {

@@ -57,6 +57,8 @@ std::string SocketLink::problem() const {
   if (const auto drive = drive_->problem(); !drive.empty()) return "drive: " + drive;
   if (const auto foreign = lidar_->foreign_sensor(); !foreign.empty())
     return "lidar: a " + foreign + " sends here, not a VLP-16";
+  if (const auto other = lidar_->stranger(); !other.empty())
+    return "lidar: " + other + " sends to its port too and is ignored: switch that one off";
   if (lidar_->silence() > std::chrono::seconds(1))
     return "lidar: no packets on UDP " + std::to_string(lidar_->data_port());
   if (scanner_)

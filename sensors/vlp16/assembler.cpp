@@ -12,6 +12,7 @@ constexpr std::int64_t kLateUs = 1'000'000;     ///< further back it is the cloc
 constexpr std::int64_t kSilenceUs = 1'000'000;  ///< longer: what was gathered belongs to no common frame
 constexpr int kMaxGapCdeg = 400;                ///< 20 Hz turn 0.8 deg a block; a lost block doubles it
 constexpr int kMaxBackCdeg = 100;               ///< a standing rotor's azimuth trembles
+constexpr double kShortestStepUs = 1200.0;      ///< of a VLP-16 in single return mode
 constexpr std::size_t kPointsToExpect = 30'000;
 
 struct Trigonometry {
@@ -54,10 +55,10 @@ Assembler::Assembler(FrameSink sink, AssemblerOptions options) : sink_(std::move
 }
 
 PushVerdict Assembler::push(std::span<const std::uint8_t> packet, Stamp received) {
-  if (!foreign_sensor_.empty()) return ++counters_.refused, PushVerdict::ForeignSensor;
   last_fault_ = decode(packet, packet_);
   if (last_fault_ == PacketFault::None && !find_gaps()) last_fault_ = PacketFault::Azimuth;
   if (last_fault_ != PacketFault::None) return ++counters_.refused, PushVerdict::Refused;
+  if (!foreign_sensor_.empty() && stays_foreign()) return ++counters_.refused, PushVerdict::ForeignSensor;
   const PushVerdict verdict = check_order(received);
   if (verdict != PushVerdict::Taken) return verdict;
   ++counters_.packets;
@@ -114,7 +115,7 @@ bool Assembler::is_too_fast() {
   if (step_us <= 0) return true;
   seen_us_ += step_us;
   const double single_us = scale * static_cast<double>(step_us);
-  if (single_us >= 1200.0 && scale * static_cast<double>(since(packet_us_)) >= 1200.0) {
+  if (single_us >= kShortestStepUs && scale * static_cast<double>(since(packet_us_)) >= kShortestStepUs) {
     impossible_steps_ = 0;
     return false;
   }
@@ -128,6 +129,29 @@ bool Assembler::is_too_fast() {
   frame_.cloud.points.clear();
   frame_.blocks = 0;
   return true;
+}
+
+/// Until packets have come for a second as a VLP-16 sends them.
+bool Assembler::stays_foreign() {
+  constexpr int kPossibleSteps = 750;
+  const double scale = packet_.mode == ReturnMode::Dual ? 2.0 : 1.0;
+  const std::int64_t step_us = since(seen_us_);
+  seen_us_ += step_us;
+  const double single_us = scale * static_cast<double>(step_us);
+  possible_steps_ = single_us >= kShortestStepUs && step_us <= kSilenceUs ? possible_steps_ + 1 : 0;
+  if (possible_steps_ < kPossibleSteps) return true;
+  begin_anew();
+  return false;
+}
+
+void Assembler::begin_anew() {
+  started_ = false;
+  foreign_sensor_.clear();
+  impossible_steps_ = possible_steps_ = 0;
+  last_azimuth_cdeg_ = -1;
+  frame_.cloud.points.clear();
+  frame_.blocks = 0;
+  clock_.reset();
 }
 
 /// The azimuth that passes in each block: to the next one, in dual mode to the next pair; the packet's last

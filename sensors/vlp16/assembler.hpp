@@ -44,12 +44,14 @@ class Assembler {
   explicit Assembler(FrameSink sink, AssemblerOptions options = {});
 
   PushVerdict push(std::span<const std::uint8_t> packet, Stamp received);
+  /// The packets that follow are another lidar's: what was gathered, its clock and its kind are forgotten.
+  void begin_anew();
   /// Hands out what has been gathered since the last wrap: the end of a recording.
   void flush();
 
   [[nodiscard]] const AssemblerCounters& counters() const { return counters_; }
   [[nodiscard]] PacketFault last_fault() const { return last_fault_; }
-  /// "HDL-32E", "VLP-32C" ... once the packets come faster than a VLP-16 can send; empty otherwise.
+  /// "HDL-32E", "VLP-32C" ... while the packets come faster than a VLP-16 can send; empty otherwise.
   [[nodiscard]] const std::string& foreign_sensor() const { return foreign_sensor_; }
 
  private:
@@ -57,6 +59,7 @@ class Assembler {
   [[nodiscard]] std::int64_t since(std::int64_t time_us) const;
   void restart(std::int64_t step_us);
   [[nodiscard]] bool is_too_fast();
+  bool stays_foreign();
   bool find_gaps();
   void add_block(std::size_t block);
   void cut_before(std::uint16_t azimuth_cdeg);
@@ -76,6 +79,7 @@ class Assembler {
   ReturnMode mode_ = ReturnMode::Strongest;
   bool started_ = false;
   int impossible_steps_ = 0;
+  int possible_steps_ = 0;  ///< in a row, while it counts as another model
   int last_azimuth_cdeg_ = -1;
 };
 

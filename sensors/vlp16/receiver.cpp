@@ -1,25 +1,47 @@
 #include "sensors/vlp16/receiver.hpp"
 
+#include "core/clock.hpp"
+
 namespace madori::sensors::vlp16 {
 
-Receiver::Receiver(const ReceiverOptions& options, FrameSink sink, io::UdpReceiver::Packet tap)
+Receiver::Receiver(const ReceiverOptions& options, FrameSink sink, Tap tap)
     : tap_(std::move(tap)), assembler_(std::move(sink), options.assembler) {
   // Only the data thread touches the assembler; what others may ask for is copied under the lock.
-  const auto on_data = [this](std::span<const std::uint8_t> bytes, Stamp received) {
-    if (tap_) tap_(bytes, received);
+  const auto on_data = [this](std::span<const std::uint8_t> bytes, Stamp received, const io::Sender& sender) {
+    if (!admits(sender, received)) return;
     const PushVerdict verdict = assembler_.push(bytes, received);
+    if (tap_ && bytes.size() == kDataBytes) tap_(bytes, received);
     const std::lock_guard lock(mutex_);
     counters_ = assembler_.counters();
-    if (foreign_sensor_.empty()) foreign_sensor_ = assembler_.foreign_sensor();
-    if (verdict == PushVerdict::Taken) heard_ = std::chrono::steady_clock::now();
+    foreign_sensor_ = assembler_.foreign_sensor();
+    if (verdict != PushVerdict::Taken) return;
+    pin_.good(sender, received);
+    heard_ = received;
   };
-  const auto on_position = [this](std::span<const std::uint8_t> bytes, Stamp) {
+  const auto on_position = [this](std::span<const std::uint8_t> bytes, Stamp, const io::Sender& sender) {
     const auto position = decode_position(bytes);
     const std::lock_guard lock(mutex_);
-    if (position) position_ = position;
+    if (position && pin_.is_host(sender)) position_ = position;
   };
   position_receiver_ = std::make_unique<io::UdpReceiver>(options.address, options.position_port, on_position);
   data_ = std::make_unique<io::UdpReceiver>(options.address, options.data_port, on_data);
+}
+
+/// A new sender's packets have nothing to do with those before.
+bool Receiver::admits(const io::Sender& sender, Stamp received) {
+  SourcePin::Verdict verdict;
+  {
+    const std::lock_guard lock(mutex_);
+    verdict = pin_.judge(sender, received);
+  }
+  if (verdict.fresh) assembler_.begin_anew();
+  return verdict.admitted;
+}
+
+std::string Receiver::stranger() const {
+  const std::lock_guard lock(mutex_);
+  const auto other = pin_.stranger(clock_now());
+  return other ? other->text() : "";
 }
 
 AssemblerCounters Receiver::counters() const {
@@ -39,7 +61,7 @@ std::optional<PositionPacket> Receiver::position() const {
 
 Duration Receiver::silence() const {
   const std::lock_guard lock(mutex_);
-  return std::chrono::steady_clock::now() - heard_;
+  return clock_now() - heard_;
 }
 
 }  // namespace madori::sensors::vlp16

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/udp_receiver.hpp"
+#include "sensors/source_pin.hpp"
 #include "sensors/vlp16/assembler.hpp"
 
 namespace madori::sensors::vlp16 {
@@ -18,15 +19,18 @@ struct ReceiverOptions {
   AssemblerOptions assembler = {};
 };
 
-/// A VLP-16 on the network.
+/// A VLP-16 on the network: the first sender of good data packets (SourcePin).
 class Receiver {
  public:
-  /// `sink` is called from the receiver's thread for every revolution; `tap`, where given, for every data
-  /// packet (recordings). Throws Error when a port is taken.
-  Receiver(const ReceiverOptions& options, FrameSink sink, io::UdpReceiver::Packet tap = {});
+  using Tap = std::function<void(std::span<const std::uint8_t> bytes, Stamp received)>;
+  /// `sink` is called from the receiver's thread for every revolution; `tap`, where given, for every packet
+  /// of this sender that has a data packet's length (recordings). Throws Error when a port is taken.
+  Receiver(const ReceiverOptions& options, FrameSink sink, Tap tap = {});
 
   [[nodiscard]] AssemblerCounters counters() const;
   [[nodiscard]] std::string foreign_sensor() const;
+  /// Who else sends to the data port, HOST:PORT, and is not listened to; empty where nobody does.
+  [[nodiscard]] std::string stranger() const;
   [[nodiscard]] std::optional<PositionPacket> position() const;
   /// Since the last data packet that was taken; a large number before the first.
   [[nodiscard]] Duration silence() const;
@@ -34,13 +38,16 @@ class Receiver {
   [[nodiscard]] std::uint16_t position_port() const { return position_receiver_->port(); }
 
  private:
+  bool admits(const io::Sender& sender, Stamp received);
+
   mutable std::mutex mutex_;
-  io::UdpReceiver::Packet tap_;
+  Tap tap_;
+  SourcePin pin_;
   Assembler assembler_;
   AssemblerCounters counters_;
   std::string foreign_sensor_;
   std::optional<PositionPacket> position_;
-  std::chrono::steady_clock::time_point heard_{};
+  Stamp heard_{};
   std::unique_ptr<io::UdpReceiver> data_, position_receiver_;  ///< last: their threads use all of the above
 };
 

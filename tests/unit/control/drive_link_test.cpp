@@ -58,6 +58,18 @@ TEST(DriveLink, DrivesAControllerOverASerialLine) {
   EXPECT_EQ(link.counters().damaged, 0U);
 }
 
+TEST(DriveLink, ASecondProgramIsKeptOutAndComesInOnceTheFirstHasEnded) {
+  const Device device;
+  auto first = std::make_unique<DriveLink>(DriveLinkOptions{.device = device.cable.name()});
+  ASSERT_TRUE(eventually([&] { return first->is_open(); }));
+  const DriveLink second({.device = device.cable.name()});
+  EXPECT_TRUE(eventually([&] { return second.problem().find("another program") != std::string::npos; }))
+      << second.problem();
+  EXPECT_FALSE(second.is_open());
+  first.reset();
+  EXPECT_TRUE(eventually([&] { return second.is_open(); }));
+}
+
 TEST(DriveLink, WhatCameBeforeThePortWasOpenedIsNotTaken) {
   Device device;
   const int kept_open = ::open(device.cable.name().c_str(), O_RDWR | O_NOCTTY);  // else nothing is buffered

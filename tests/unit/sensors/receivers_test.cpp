@@ -61,6 +61,66 @@ TEST(Vlp16Receiver, CutsRevolutionsFromUdp) {
   EXPECT_THROW(vlp16::Receiver({.address = "no address"}, [](vlp16::Frame&) {}), Error);
 }
 
+/// A VLP-16 that sends from a socket of its own, one packet after the other.
+class UdpLidar {
+ public:
+  UdpLidar() : socket_(context_, udp::endpoint(asio::ip::make_address("127.0.0.1"), 0)) {}
+  void send(std::uint16_t port) {
+    for (std::size_t b = 0; b < vlp16::kBlocks; ++b) {
+      packet_.blocks[b].azimuth_cdeg =
+          static_cast<std::uint16_t>(azimuth_cdeg_ = (azimuth_cdeg_ + 40) % 36'000);
+      packet_.blocks[b].returns.fill({500, 1});
+    }
+    packet_.time_us += 1327;
+    const auto bytes = vlp16::encode(packet_);
+    send(port, {bytes.begin(), bytes.end()});
+  }
+  void send(std::uint16_t port, const std::vector<std::uint8_t>& bytes) {
+    socket_.send_to(asio::buffer(bytes), udp::endpoint(asio::ip::make_address("127.0.0.1"), port));
+  }
+  [[nodiscard]] std::string name() const {
+    return "127.0.0.1:" + std::to_string(socket_.local_endpoint().port());
+  }
+
+ private:
+  asio::io_context context_;
+  udp::socket socket_;
+  vlp16::DataPacket packet_;
+  int azimuth_cdeg_ = 0;
+};
+
+TEST(Vlp16Receiver, HearsTheFirstSenderAloneAndAnotherOnceThatOneIsSilent) {
+  std::atomic<int> tapped = 0;
+  vlp16::Receiver receiver(
+      {.address = "127.0.0.1", .data_port = 0, .position_port = 0}, [](auto&) {},
+      [&](auto, auto) { ++tapped; });
+  UdpLidar lidar, stranger;
+  const auto taken = [&] { return receiver.counters().packets; };
+  const std::uint16_t port = receiver.data_port();
+  for (std::uint64_t i = 1; i <= 50; ++i) {
+    stranger.send(i > 10 ? port : 9);  // valid packets, from another sender
+    lidar.send(port);
+    ASSERT_TRUE(eventually([&] { return taken() == i; })) << i;
+  }
+  EXPECT_TRUE(eventually([&] { return receiver.stranger() == stranger.name(); }));
+  EXPECT_EQ(receiver.counters().late + receiver.counters().duplicates + receiver.counters().refused, 0U);
+  EXPECT_EQ(tapped, 50);
+  lidar.send(port, std::vector<std::uint8_t>(1000, 7));  // of a wrong length: refused, and not recorded
+  ASSERT_TRUE(eventually([&] { return receiver.counters().refused == 1; }));
+  EXPECT_EQ(tapped, 50);
+  EXPECT_TRUE(eventually([&] { return receiver.silence() > std::chrono::milliseconds(1'100); }));
+  stranger.send(port);
+  EXPECT_TRUE(eventually([&] { return taken() == 51; })) << "the first one has gone";
+}
+
+TEST(Vlp16Receiver, ASecondProgramOnItsPortIsRefused) {
+  vlp16::Receiver first({.address = "127.0.0.1", .data_port = 0, .position_port = 0}, [](auto&) {});
+  for (const char* address : {"127.0.0.1", "0.0.0.0"})
+    EXPECT_THROW(vlp16::Receiver({.address = address, .data_port = first.data_port(), .position_port = 0},
+                                 [](auto&) {}),
+                 Error);
+}
+
 /// An LMS1xx that answers each command, sends three scans, and hangs up.
 class FakeScanner {
  public:

@@ -127,6 +127,25 @@ TEST(Vlp16Capture, AnHdl32IsRefusedByName) {
   EXPECT_TRUE(got.frames.empty());
 }
 
+TEST(Vlp16Assembler, AnotherModelThatHasGoneIsForgotten) {
+  Collected got;
+  Assembler assembler(got.sink);
+  Sensor other, lidar;
+  for (int i = 0; i < 20; ++i) {  // as an HDL-32E sends: every 553 us
+    const auto packet = other.next();
+    other.set_time_us(1'000'000.0 + 553.0 * (i + 1));
+    assembler.push(packet, at_us(other.time_us()));
+  }
+  ASSERT_FALSE(assembler.foreign_sensor().empty());
+  lidar.set_time_us(2'000'000.0);
+  for (int i = 0; i < 1'000; ++i) {
+    const auto packet = lidar.next();
+    assembler.push(packet, at_us(lidar.time_us()));
+  }
+  EXPECT_EQ(assembler.foreign_sensor(), "");
+  EXPECT_GE(got.frames.size(), 2U);
+}
+
 TEST(Vlp16Capture, ThePositionPacketTellsTheTime) {
   const auto file = shared("position.pcap");
   if (!fs::exists(file)) GTEST_SKIP() << file << " is absent";
