@@ -31,9 +31,11 @@ std::vector<ScaleEstimate> given_sources(const ScaleInputs& inputs, const mappin
   std::vector<ScaleEstimate> sources;
   std::vector<mapping::KnownLength> lengths;
   for (const auto& text : inputs.known) lengths.push_back(mapping::parse_known_length(text));
+  mapping::require_on_drawing(lengths, site.drawing);
   if (!lengths.empty()) sources.push_back(mapping::fit_known_lengths(lengths));
   std::vector<mapping::ControlPoint> points;
   for (const auto& text : inputs.control) points.push_back(mapping::parse_control_point(text));
+  mapping::require_on_drawing(points, site.drawing);
   if (!points.empty()) sources.push_back(mapping::fit_control_points(points, site.drawing.height_px));
   if (!inputs.overlay.empty())
     sources.push_back(mapping::fit_overlay(mapping::parse_overlay(inputs.overlay), site.drawing.width_px,

@@ -19,7 +19,7 @@ using mapping::ScaleEstimate;
 using nlohmann::json;
 
 /// known: [u1, v1, u2, v2, metres] each.
-mapping::ScaleEstimate fit_known(const json& rows) {
+mapping::ScaleEstimate fit_known(const json& rows, const mapping::DrawingRecord& drawing) {
   std::vector<mapping::KnownLength> lengths;
   for (const auto& row : rows) {
     std::ostringstream text;
@@ -28,11 +28,12 @@ mapping::ScaleEstimate fit_known(const json& rows) {
          << row.at(3).get<double>() << '=' << row.at(4).get<double>();
     lengths.push_back(mapping::parse_known_length(text.str()));
   }
+  mapping::require_on_drawing(lengths, drawing);
   return mapping::fit_known_lengths(lengths);
 }
 
 /// control: [u, v, latitude, longitude] each.
-mapping::ScaleEstimate fit_control(const json& rows, int height_px) {
+mapping::ScaleEstimate fit_control(const json& rows, const mapping::DrawingRecord& drawing) {
   std::vector<mapping::ControlPoint> points;
   for (const auto& row : rows) {
     std::ostringstream text;
@@ -41,7 +42,8 @@ mapping::ScaleEstimate fit_control(const json& rows, int height_px) {
          << row.at(3).get<double>();
     points.push_back(mapping::parse_control_point(text.str()));
   }
-  return mapping::fit_control_points(points, height_px);
+  mapping::require_on_drawing(points, drawing);
+  return mapping::fit_control_points(points, drawing.height_px);
 }
 
 /// Overlay of hmi/schema, by the same parser and limits as `madori scale --overlay`.
@@ -140,8 +142,8 @@ json measure(ApiContext& context, const json& request) {
   const mapping::Site site = mapping::load_site(folder);
   std::optional<mapping::Overlay> view;
   std::vector<ScaleEstimate> sources;
-  if (given(request, "known")) sources.push_back(fit_known(request["known"]));
-  if (given(request, "control")) sources.push_back(fit_control(request["control"], site.drawing.height_px));
+  if (given(request, "known")) sources.push_back(fit_known(request["known"], site.drawing));
+  if (given(request, "control")) sources.push_back(fit_control(request["control"], site.drawing));
   if (given(request, "overlay")) {
     view = overlay_from(request["overlay"]);
     sources.push_back(mapping::fit_overlay(*view, site.drawing.width_px, site.drawing.height_px));

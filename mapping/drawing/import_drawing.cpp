@@ -124,12 +124,22 @@ ScaleRecord scale_of_paper(const ImportOptions& options, const Plan& plan) {
 }
 
 /// Where the scale comes from, strongest first: the options, the paper, the file's own units.
-std::optional<ScaleRecord> find_scale(const ImportOptions& options, const Plan& plan) {
+std::optional<ScaleRecord> given_scale(const ImportOptions& options, const Plan& plan) {
   if (options.m_per_px)
     return ScaleRecord{*options.m_per_px, options.scale_method, 0, 0, options.date, options.scale_inputs};
   if (options.paper_scale) return scale_of_paper(options, plan);
   if (plan.m_per_px) return ScaleRecord{*plan.m_per_px, plan.scale_method, 0, 0, options.date, plan.notes};
   return std::nullopt;
+}
+
+std::optional<ScaleRecord> find_scale(const ImportOptions& options, const Plan& plan) {
+  auto scale = given_scale(options, plan);
+  if (scale) {
+    const GrayImage& picture = plan.picture;
+    require_possible_size(options.drawing.string(), {"", picture.width_px, picture.height_px, 1, picture.dpi},
+                          scale->m_per_px);
+  }
+  return scale;
 }
 
 Site make_site(const ImportOptions& options, const Plan& plan, const std::string& drawing_name) {

@@ -41,6 +41,7 @@ double apply_scale(const fs::path& folder, const ScaleEstimate& estimate, const 
   Site site = load_site(folder);  // before the transaction: an Error here leaves no trace
   SiteTransaction change(folder);
   site = load_site(folder);
+  require_possible_size(folder.string(), site.drawing, estimate.m_per_px);
   const double factor = estimate.m_per_px / (site.scale ? site.scale->m_per_px : 1.0);
   site.scale = ScaleRecord{
       estimate.m_per_px, estimate.method,     estimate.relative_uncertainty, estimate.error_m, date,

@@ -110,6 +110,13 @@ ControlPoint parse_control_point(const std::string& text) {
   return point;
 }
 
+void require_on_drawing(const std::vector<ControlPoint>& points, const DrawingRecord& drawing) {
+  for (const auto& p : points)
+    require_on_drawing(
+        fmt::format("--control {:g},{:g}={:g},{:g}", p.u, p.v, p.place.latitude_deg, p.place.longitude_deg),
+        p.u, p.v, drawing);
+}
+
 ScaleEstimate fit_control_points(const std::vector<ControlPoint>& points, int height_px) {
   if (points.size() < 2) throw Error("--control", "one point is not enough", "give two, better four or more");
   const LocalPlane plane(points.front().place);

@@ -17,6 +17,9 @@ struct ControlPoint {
 /// "u,v=LAT,LON". Throws Error on anything else.
 [[nodiscard]] ControlPoint parse_control_point(const std::string& text);
 
+/// Throws Error on a point that lies off the drawing.
+void require_on_drawing(const std::vector<ControlPoint>& points, const DrawingRecord& drawing);
+
 /// N-point similarity between drawing and ground (S. Umeyama, "Least-squares estimation of transformation
 /// parameters between two point patterns", PAMI 1991, eq. 40-43) in a local east-north-up plane
 /// (GeographicLib). error = sqrt(sum r^2 / (n - 2)). Two points fit exactly and are called unverified; of

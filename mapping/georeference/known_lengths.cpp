@@ -86,6 +86,14 @@ KnownLength parse_known_length(const std::string& text) {
   return known;
 }
 
+void require_on_drawing(const std::vector<KnownLength>& lengths, const DrawingRecord& drawing) {
+  for (const auto& k : lengths) {
+    const auto where = fmt::format("--known {:g},{:g},{:g},{:g}={:g}", k.u1, k.v1, k.u2, k.v2, k.metres);
+    require_on_drawing(where, k.u1, k.v1, drawing);
+    require_on_drawing(where, k.u2, k.v2, drawing);
+  }
+}
+
 ScaleEstimate fit_known_lengths(const std::vector<KnownLength>& lengths) {
   if (lengths.empty()) throw Error("--known", "no length was given", "give at least one");
   ScaleEstimate e;

@@ -23,6 +23,9 @@ struct KnownLength {
 /// points.
 [[nodiscard]] KnownLength parse_known_length(const std::string& text);
 
+/// Throws Error on an end that lies off the drawing.
+void require_on_drawing(const std::vector<KnownLength>& lengths, const DrawingRecord& drawing);
+
 /// Least squares of metres = scale * pixels. A length that contradicts the others is named when there are at
 /// least three (leave-one-out); of two it cannot be told which one is wrong, and that is said. Throws Error
 /// on an empty list.

@@ -1,6 +1,8 @@
 #include "mapping/site/site.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <sstream>
 
 #include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -130,7 +132,10 @@ Site read_site_file(const std::filesystem::path& file) {
   Site site;
   site.name = yaml.text("name");
   site.drawing = read_drawing(yaml.section("drawing"));
-  if (yaml.has("scale")) site.scale = read_scale(yaml.section("scale"));
+  if (yaml.has("scale")) {
+    site.scale = read_scale(yaml.section("scale"));
+    require_possible_size(file.string() + ": scale.m_per_px", site.drawing, site.scale->m_per_px);
+  }
   if (yaml.has("georeference")) site.georeference = read_georeference(yaml.section("georeference"));
   if (yaml.has("vehicle")) site.vehicle = read_vehicle(yaml.section("vehicle"));
   for (StrictYaml& sensor : yaml.list("sensors")) site.sensors.push_back(read_sensor(sensor));
@@ -146,6 +151,16 @@ Site load_scaled_site(const std::filesystem::path& folder) {
         folder.string(), "the drawing has no scale yet, so nothing may drive on it",
         "measure one length: madori scale " + folder.string() + " --known u1,v1,u2,v2=METRES --apply");
   return site;
+}
+
+void require_possible_size(const std::string& where, const DrawingRecord& drawing, double m_per_px) {
+  constexpr double kShortest_m = 1.0;
+  constexpr double kLongest_m = 10'000.0;
+  const double side_m = m_per_px * std::max(drawing.width_px, drawing.height_px);
+  if (side_m >= kShortest_m && side_m <= kLongest_m) return;
+  std::ostringstream what;
+  what << "at " << m_per_px << " m/px the drawing would be " << side_m << " m long, which no building is";
+  throw Error(where, what.str(), "check the measured length and its unit (metres)");
 }
 
 std::string site_yaml(const Site& site) {

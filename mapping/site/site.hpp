@@ -78,6 +78,9 @@ struct Site {
 [[nodiscard]] Site load_scaled_site(const std::filesystem::path& folder);
 /// The text of site.yaml.
 [[nodiscard]] std::string site_yaml(const Site& site);
+/// Throws Error, naming `where`, unless a building can be as large as the drawing is at this scale: 1 m to
+/// 10 km along its longer side.
+void require_possible_size(const std::string& where, const DrawingRecord& drawing, double m_per_px);
 /// Writes `folder`/site.yaml atomically.
 void save_site(const std::filesystem::path& folder, const Site& site);
 

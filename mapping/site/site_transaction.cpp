@@ -12,6 +12,8 @@
 
 #include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
+#include "mapping/site/site_file.hpp"
+#include "mapping/wall_map/wall.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -110,7 +112,15 @@ void SiteTransaction::remove(const std::string& name) {
   removals_.push_back(name);
 }
 
+/// Whatever was staged must not make a site that every later command refuses.
+void SiteTransaction::read_back() const {
+  const auto put = [this](const char* name) { return std::ranges::find(puts_, name) != puts_.end(); };
+  if (put("site.yaml")) (void)read_site_file(site_ / kStaging / "site.yaml");
+  if (put("walls.csv")) (void)load_walls(site_ / kStaging / "walls.csv");
+}
+
 void SiteTransaction::commit() {
+  read_back();
   std::string journal;
   for (const auto& name : removals_) journal += "- " + name + "\n";
   for (const auto& name : puts_) {

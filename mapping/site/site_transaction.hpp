@@ -24,10 +24,13 @@ class SiteTransaction {
   void write(const std::string& name, std::string_view content);
   /// The file disappears with the commit; a missing one is fine.
   void remove(const std::string& name);
-  /// All or nothing. Throws Error (disk full, no permission) with the site as it was.
+  /// All or nothing. What would become site.yaml or walls.csv is read back first, as the next command will.
+  /// Throws Error (it cannot be read, disk full, no permission) with the site as it was.
   void commit();
 
  private:
+  void read_back() const;
+
   std::filesystem::path site_;
   std::vector<std::string> puts_;
   std::vector<std::string> removals_;

@@ -54,6 +54,15 @@ TEST(Site, RefusesValuesOutOfRange) {
               HasSubstr("m_per_px"));
 }
 
+TEST(Site, RefusesASizeThatNoBuildingHas) {
+  for (const char* scale : {"1e-300", "5.6e-10", "0.0001", "100000"})
+    EXPECT_THAT(error_of("madori_site: 1\nname: hall\ndrawing: {file: a.png, width_px: 1000, height_px: 5}\n"
+                         "scale: {m_per_px: " +
+                         std::string(scale) + ", method: option}\n"),
+                HasSubstr("m_per_px"))
+        << scale;
+}
+
 TEST(Site, SaysHowToScaleAnUnscaledSite) {
   const TemporaryFolder folder;
   folder.write("site.yaml", kMinimal);
