@@ -1,8 +1,37 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 
 #include "app/commands.hpp"
+#include "core/result.hpp"
+
+namespace {
+
+/// Whether everything that was printed has gone out. Throws Error where it has not: a full disk, a closed
+/// pipe.
+void finish_stdout() {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return;
+  throw madori::Error("standard output",
+                      std::string("could not be written to its end: ") + std::strerror(errno),
+                      "make room where it goes, and run the command again");
+}
+
+/// What a library says on several lines.
+std::string on_one_line(std::string text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::replace(text.begin(), text.end(), '\r', ' ');
+  return text;
+}
+
+}  // namespace
 
 /// Exit status: 0 done, 1 failed (one line says what, where and how to mend it), 2 wrong usage.
 int main(int argc, char** argv) {
@@ -27,12 +56,17 @@ int main(int argc, char** argv) {
   madori::app::add_doctor(app);
   madori::app::add_record(app);
   madori::app::add_version(app);
+  // A file that has reached its limit is a write that fails, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      if (app.exit(e) != 0) return 2;
+    }
+    finish_stdout();
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "madori: %s\n", e.what());
+    std::fprintf(stderr, "madori: %s\n", on_one_line(e.what()).c_str());
     return 1;
   }
   return 0;

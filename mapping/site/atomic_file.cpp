@@ -1,6 +1,7 @@
 #include "mapping/site/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -49,6 +50,24 @@ void write_whole(const std::string& path, const std::filesystem::path& file, std
   fail(file, "cannot be written");
 }
 
+/// A device, a pipe or a terminal: in place, and without a sync that many of them do not know.
+void write_into(const std::filesystem::path& file, std::string_view content) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  errno = descriptor < 0 ? errno : 0;
+  if (descriptor < 0 || !write_and_close(descriptor, content, false)) fail(file, "cannot be written");
+}
+
+/// What a chain of symbolic links leads to; it need not exist.
+std::filesystem::path end_of_links(std::filesystem::path file) {
+  constexpr int kMostLinks = 40;  // as the kernel follows
+  std::error_code none;
+  for (int links = 0; links < kMostLinks && std::filesystem::is_symlink(file, none); ++links) {
+    const auto to = std::filesystem::read_symlink(file, none);
+    file = to.is_absolute() ? to : file.parent_path() / to;
+  }
+  return file;
+}
+
 }  // namespace
 
 void write_new_file(const std::filesystem::path& file, std::string_view content) {
@@ -60,9 +79,12 @@ void write_file_atomically(const std::filesystem::path& file, std::span<const st
                         std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
 }
 
-void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
+void write_file_atomically(const std::filesystem::path& named, std::string_view content) {
+  struct stat there {};
+  if (::stat(named.c_str(), &there) == 0 && !S_ISREG(there.st_mode)) return write_into(named, content);
+  const std::filesystem::path file = end_of_links(named);
   const std::string temporary = file.string() + ".tmp" + std::to_string(::getpid());
-  write_whole(temporary, file, content, true);
+  write_whole(temporary, named, content, true);
   if (::rename(temporary.c_str(), file.c_str()) != 0) {
     const int error = errno;
     ::unlink(temporary.c_str());

@@ -9,7 +9,9 @@
 namespace madori::mapping {
 
 /// Writes the whole file or leaves the old one: temporary file beside it, fsync, rename, fsync of the folder.
-/// Throws Error (disk full, no permission) and leaves no temporary file behind.
+/// A symbolic link stays: the file that it leads to is replaced. What is no regular file (a device, a pipe)
+/// is never replaced: it is written into. Throws Error (disk full, no permission) and leaves no temporary
+/// file.
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 void write_file_atomically(const std::filesystem::path& file, std::span<const std::uint8_t> content);
 
