@@ -24,7 +24,7 @@ struct Bag {
 void add_bags(const fs::path& folder, std::vector<Bag>& bags) {
   if (!fs::is_directory(folder)) return;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".bag")
+    if (entry.path().extension() == ".bag" || entry.path().extension() == ".active")
       bags.push_back({entry.path(), entry.file_size(), entry.last_write_time()});
 }
 

@@ -131,11 +131,9 @@ void Recorder::keep(const fs::path& bag) const {
   if (fs::exists(bag) && !fs::exists(kept)) fs::create_hard_link(bag, kept);
 }
 
-void Recorder::write(const Record& record) {
+void Recorder::write_step(const Record& record) {
   const Stamp now = record.input.now;
-  if (!bag_) begin_segment();
   if (!record.input.packets.empty()) bag_->write(kPacketTopic, record.input.packets, now);
-  remember(record.input.packets);
   if (record.thinned) bag_->write(kThinTopic, *record.thinned);
   for (const auto& cloud : record.input.clouds) bag_->write(kCloudTopic, cloud);
   if (!record.input.drive.empty()) bag_->write("/odom", record.odometry);
@@ -145,13 +143,31 @@ void Recorder::write(const Record& record) {
   bag_->write(kCommandTopic, command_text(record.output, now), now);
   for (const std::string& event : record.output.events) bag_->write(kEventTopic, event, now);
   keep_ = keep_ || record.stop;
-  if (record.state.empty()) return;
-  end_segment();
+}
+
+/// Whether the step is in a bag. After a failure the next bag begins where the cycle's state is at hand.
+bool Recorder::write(const Record& record) {
+  if (!bag_ && number_ == 0) begin_segment();
+  const bool kept = bag_ != nullptr;
+  remember(record.input.packets);
+  if (kept) write_step(record);
+  if (record.state.empty()) return kept;
+  if (kept) end_segment();
   begin_segment();
-  const Stamp after = now + Duration(1);  // before everything of the next step
+  const Stamp after = record.input.now + Duration(1);  // before everything of the next step
   bag_->write(kStateTopic, record.state, after);
   if (!newest_.empty())
     bag_->write(kEarlierTopic, std::vector<sensors::RawPacket>(newest_.begin(), newest_.end()), after);
+  return kept;
+}
+
+/// The disk did not take it: the bag ends where it is, without its index. It gets the ending that ROS tools
+/// know for such a one (rosbag reindex).
+void Recorder::give_up_segment() {
+  bag_.reset();
+  std::error_code ignored;
+  fs::rename(bag_name(number_), fs::path(bag_name(number_)) += ".active", ignored);
+  ++number_;
 }
 
 void Recorder::run() {
@@ -165,10 +181,11 @@ void Recorder::run() {
     std::uint64_t failed = 0;
     for (const Record& record : batch) {
       try {
-        write(record);
+        if (!write(record)) ++failed;
       } catch (const std::exception& e) {
         problem = e.what();
         ++failed;
+        give_up_segment();
       }
     }
     lock.lock();
@@ -182,6 +199,7 @@ void Recorder::run() {
     const std::scoped_lock relock(mutex_);
     problem_ = e.what();
   }
+  bag_.reset();
 }
 
 }  // namespace madori::app

@@ -71,7 +71,9 @@ class Recorder {
   };
 
   void run();
-  void write(const Record& record);
+  bool write(const Record& record);
+  void write_step(const Record& record);
+  void give_up_segment();
   void remember(const std::vector<sensors::RawPacket>& packets);
   void begin_segment();
   void end_segment();

@@ -1,5 +1,6 @@
 #include "sensors/rosbag/bridge.hpp"
 
+#include <fcntl.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
@@ -8,9 +9,14 @@
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/String.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "sensors/rosbag/velodyne_scan.hpp"
 
@@ -139,13 +145,51 @@ bool Input::next(const Sinks& sinks) {
 
 struct Output::State {
   rosbag::Bag bag;
+  int descriptor = -1;  ///< of its file; the bag's own
 };
+
+namespace {
+
+/// The open descriptor of a file, which the library keeps to itself; -1 where it cannot be told.
+int descriptor_of(const std::string& file) {
+  struct stat wanted {};
+  if (::stat(file.c_str(), &wanted) != 0) return -1;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", none)) {
+    const int descriptor = std::atoi(entry.path().filename().c_str());
+    struct stat there {};
+    if (::fstat(descriptor, &there) == 0 && there.st_dev == wanted.st_dev && there.st_ino == wanted.st_ino)
+      return descriptor;
+  }
+  return -1;
+}
+
+bool closes(rosbag::Bag& bag) {
+  try {
+    bag.close();
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace
 
 Output::Output(const std::string& file) : state_(std::make_unique<State>()) {
   state_->bag.open(file, rosbag::bagmode::Write);
   state_->bag.setCompression(rosbag::compression::LZ4);
+  state_->descriptor = descriptor_of(file);
 }
-Output::~Output() = default;
+
+/// A bag that cannot be closed (the disk is full) would throw from its destructor and end the program: what
+/// it still wants to write then goes nowhere. Where even that fails, its memory is given up instead.
+Output::~Output() {
+  if (closes(state_->bag)) return;
+  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  const bool diverted = nowhere >= 0 && state_->descriptor >= 0 && ::dup2(nowhere, state_->descriptor) >= 0;
+  if (nowhere >= 0) ::close(nowhere);
+  if (!diverted || !closes(state_->bag)) (void)state_.release();
+}
 
 void Output::write(const std::string& topic, const Scan& scan) {
   sensor_msgs::LaserScan message;

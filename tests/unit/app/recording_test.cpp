@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/recording/input_text.hpp"
@@ -131,6 +135,42 @@ void lay_out_runs(const test::TemporaryFolder& folder) {
     folder.write(name, "0123456789");
     fs::last_write_time(folder.path() / name, now - std::chrono::hours(hours--));
   }
+}
+
+/// A disk that takes no more than 20 kB a file for a while, as a full one: neither the steps nor the end of
+/// the program are disturbed, and once there is room again the recording goes on and can be replayed.
+TEST(Recording, AFullDiskEndsABagAndNotTheProgram) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto limit_files = [](rlim_t bytes) {
+    rlimit limit{};
+    ::getrlimit(RLIMIT_FSIZE, &limit);
+    limit.rlim_cur = bytes;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  };
+  const auto life = [&](bool room_again) {
+    const test::TemporaryFolder folder;
+    std::signal(SIGXFSZ, SIG_IGN);
+    limit_files(20'000);
+    std::uint64_t lost = 0;
+    {
+      Recorder recorder(folder.path(), {.segment_s = 1.0, .room = {}, .max_waiting = 100'000});
+      test::ToyVehicle vehicle(config(), {0.0, 0.0, 0.0});
+      vehicle.set_source(std::make_unique<WheelPose>());
+      vehicle.on_step = [&](const auto& in, const auto& out, const auto& s) { recorder.add(in, out, s); };
+      vehicle.run_until([] { return false; }, 4.0);
+      while (recorder.problem().empty()) std::this_thread::yield();
+      if (room_again) limit_files(RLIM_INFINITY);
+      vehicle.run_until([] { return false; }, 4.0);
+      lost = recorder.lost();
+    }
+    limit_files(RLIM_INFINITY);
+    if (lost == 0) std::_Exit(1);
+    if (room_again && replay(folder.path(), config(), std::make_unique<WheelPose>()).steps < 50)
+      std::_Exit(2);
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(life(false), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(life(true), testing::ExitedWithCode(0), "");
 }
 
 TEST(Recording, AllRunsShareTheLimitAndTheOldestGo) {
