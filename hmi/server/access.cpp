@@ -2,7 +2,9 @@
 
 #include <sodium.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -46,7 +48,10 @@ std::map<Role, std::string> read_hashes(const std::filesystem::path& file) {
 }  // namespace
 
 Access::Access(std::filesystem::path pin_file, bool open_to_network, Clock clock)
-    : pin_file_(std::move(pin_file)), open_to_network_(open_to_network), clock_(std::move(clock)) {
+    : pin_file_(std::move(pin_file)),
+      open_to_network_(open_to_network),
+      clock_(std::move(clock)),
+      tries_of_all_since_(clock_()) {
   if (sodium_init() < 0) throw Error("libsodium", "cannot be started", "reinstall the package libsodium23");
   hashes_ = read_hashes(pin_file_);
 }
@@ -74,7 +79,24 @@ bool Access::may_try(const std::string& address) {
     std::erase_if(tries_, [&](const auto& t) { return now - t.second.since > kTryWindow; });
   Tries& tries = tries_[address];
   if (now - tries.since > kTryWindow) tries = {0, now};
-  return ++tries.count <= kTries;
+  return ++tries.count <= kTries && (is_known(address) || may_unknown_try());
+}
+
+bool Access::is_known(const std::string& address) const {
+  return known_.contains(address) || address.starts_with("127.") || address == "::1";
+}
+
+/// A bucket that fills up slowly: four digits, tried from everywhere, last a week.
+bool Access::may_unknown_try() {
+  const auto now = clock_();
+  const auto more = (now - tries_of_all_since_) / kTryAgain;
+  if (more > 0) {
+    tries_of_all_since_ += more * kTryAgain;
+    tries_of_all_ = static_cast<int>(std::min<std::int64_t>(kTriesOfAll, tries_of_all_ + std::int64_t{more}));
+  }
+  if (tries_of_all_ == 0) return false;
+  --tries_of_all_;
+  return true;
 }
 
 Access::Login Access::login(const std::string& pin, const std::string& address) {
@@ -95,6 +117,8 @@ Access::Login Access::login(const std::string& pin, const std::string& address) 
   std::erase_if(sessions_, [&](const auto& s) { return s.second.expires <= now; });
   if (sessions_.size() >= kMostSessions) return {std::nullopt, Role::None, true};
   tries_.erase(address);
+  if (!is_known(address)) tries_of_all_ = std::min(kTriesOfAll, tries_of_all_ + 1);
+  if (known_.size() < kMostAddresses) known_.insert(address);
   std::string token = new_token();
   sessions_[token] = {role, now + kSessionLife};
   return {std::move(token), role, false};

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "hmi/server/http.hpp"
@@ -21,6 +22,10 @@ class Access {
   static constexpr std::chrono::minutes kSessionLife{480};  ///< one shift
   static constexpr int kTries = 5;                          ///< wrong PINs an address ...
   static constexpr std::chrono::minutes kTryWindow{1};      ///< ... may give in this time
+  /// Wrong PINs that all unknown addresses together may give at once; then one every kTryAgain. The vehicle's
+  /// own panel (loopback) and addresses that have logged in before are not held up by what others try.
+  static constexpr int kTriesOfAll = 20;
+  static constexpr std::chrono::minutes kTryAgain{1};
 
   /// `pin_file` holds "role hash" lines; absent means no PIN is set. Throws Error on a malformed file.
   Access(std::filesystem::path pin_file, bool open_to_network, Clock clock);
@@ -51,6 +56,8 @@ class Access {
     std::chrono::steady_clock::time_point since;
   };
   bool may_try(const std::string& address);
+  bool may_unknown_try();
+  [[nodiscard]] bool is_known(const std::string& address) const;
 
   std::filesystem::path pin_file_;
   bool open_to_network_;
@@ -59,6 +66,9 @@ class Access {
   std::map<Role, std::string> hashes_;
   std::map<std::string, Session> sessions_;
   std::map<std::string, Tries> tries_;
+  int tries_of_all_ = kTriesOfAll;  ///< that are left
+  std::chrono::steady_clock::time_point tries_of_all_since_;
+  std::set<std::string> known_;  ///< addresses that have logged in
 };
 
 [[nodiscard]] const char* to_string(Role role);

@@ -63,6 +63,28 @@ TEST_F(AccessTest, GuessingIsSlowedDownForThatAddressOnly) {
   EXPECT_TRUE(access.login("4711", "thief").token);
 }
 
+/// 120 PINs from 40 addresses, then more for a day: few are even looked at; who was there before gets in.
+TEST_F(AccessTest, GuessingFromManyAddressesIsSlowedDownAsAWhole) {
+  Access access(file_, true, clock_);
+  access.set_pin(Role::Operator, "4711");
+  ASSERT_TRUE(access.login("4711", "tablet").token);
+  int looked_at = 0;
+  for (int i = 0; i < 120; ++i)
+    looked_at += access.login("0000", "thief" + std::to_string(i % 40)).too_many_tries ? 0 : 1;
+  EXPECT_EQ(looked_at, Access::kTriesOfAll);
+  EXPECT_TRUE(access.login("4711", "new tablet").too_many_tries);
+  EXPECT_TRUE(access.login("4711", "tablet").token);
+  EXPECT_TRUE(access.login("4711", "127.0.0.1").token);
+  for (int minute = 0; minute < 10; ++minute) {
+    now_ += std::chrono::minutes(1);
+    for (int i = 0; i < 10; ++i)
+      looked_at += access.login("0000", "t" + std::to_string(10 * minute + i)).too_many_tries ? 0 : 1;
+  }
+  EXPECT_EQ(looked_at, Access::kTriesOfAll + 10);
+  now_ += std::chrono::minutes(1);
+  EXPECT_TRUE(access.login("4711", "new tablet").token);
+}
+
 TEST_F(AccessTest, PinsAreKeptHashedAndPrivate) {
   Access(file_, true, clock_).set_pin(Role::Integrator, "secret99");
   std::ifstream stream(file_);
