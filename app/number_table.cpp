@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 
 namespace madori::app {
@@ -29,9 +30,10 @@ std::vector<NumberRow> load_number_table(const std::filesystem::path& file, std:
   if (!stream) {
     throw Error(file.string(), std::strerror(errno), "check the file name");
   }
+  constexpr std::size_t kMostInLine = 10'000;
   std::vector<NumberRow> rows;
   std::string line;
-  for (int n = 1; std::getline(stream, line); ++n) {
+  for (int n = 1; next_line(stream, line, file.string(), n, kMostInLine); ++n) {
     const std::string where = file.string() + ":" + std::to_string(n);
     std::istringstream words(line.substr(0, line.find('#')));
     NumberRow row{n, {}};

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "app/number_table.hpp"
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 
 namespace madori::app {
@@ -124,6 +125,7 @@ std::vector<Relation> load_relations(const std::filesystem::path& file) {
 }
 
 Transform2<Map, Map> load_map_from_reference(const std::filesystem::path& file) {
+  require_readable(file, 1'000'000);
   try {
     const YAML::Node root = YAML::LoadFile(file.string());
     const YAML::Node node = root["map_from_reference"] ? root["map_from_reference"] : root;

@@ -4,12 +4,14 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 
 namespace madori::sensors {
 namespace {
 
 constexpr double kLargest = 9e9;
+constexpr std::size_t kMostInLine = 1'000;
 
 /// Exactly three finite numbers.
 bool parse(std::string_view row, std::array<double, 3>& values) {
@@ -31,7 +33,7 @@ WheelsCsv::WheelsCsv(const std::filesystem::path& file, const WheelGeometry& geo
     : file_(file), stream_(file), geometry_(geometry) {
   if (!stream_) throw Error(file.string(), "cannot be opened", "check the path of the wheels' record");
   std::string head;
-  std::getline(stream_, head);
+  (void)madori::next_line(stream_, head, file.string(), 1, kMostInLine);
   if (!head.empty() && head.back() == '\r') head.pop_back();
   if (head != "time_s,left_rad,right_rad")
     throw Error(file.string() + ":1", "is not `time_s,left_rad,right_rad`", "write that line first");
@@ -39,7 +41,7 @@ WheelsCsv::WheelsCsv(const std::filesystem::path& file, const WheelGeometry& geo
 
 std::optional<OdometryReading> WheelsCsv::next() {
   std::string row;
-  if (!std::getline(stream_, row)) return std::nullopt;
+  if (!madori::next_line(stream_, row, file_.string(), line_ + 1, kMostInLine)) return std::nullopt;
   ++line_;
   const std::string place = file_.string() + ":" + std::to_string(line_);
   if (!row.empty() && row.back() == '\r') row.pop_back();

@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/json_output.hpp"
 #include "app/orders/order_store.hpp"
+#include "core/clock.hpp"
 #include "core/result.hpp"
 #include "planning/route_graph/route_csv.hpp"
 
@@ -51,9 +52,10 @@ OrderStop stop_from(const planning::RouteGraph& routes, const std::string& text)
     stop.action = value;
     stop.wait_s = wait_s;
     if (equals == std::string::npos) return stop;
+    const char* const begin = action.c_str() + equals + 1;
     char* end = nullptr;
-    stop.wait_s = std::strtod(action.c_str() + equals + 1, &end);
-    if (*end == '\0' && stop.wait_s >= 0.0 && stop.wait_s <= 86'400.0) return stop;
+    stop.wait_s = std::strtod(begin, &end);
+    if (end != begin && *end == '\0' && stop.wait_s >= 0.0 && stop.wait_s <= 86'400.0) return stop;
   }
   throw Error("--to " + text, "is no stop", "write NODE, NODE:load, NODE:unload or NODE:wait=SECONDS");
 }
@@ -85,7 +87,7 @@ void run(const OrderArguments& arguments) {
                 "make one: madori import DRAWING --site DIR");
   const auto routes = planning::load_routes(folder / "routes");
   OrderStore store(folder / "madori.db");
-  const Stamp now = std::chrono::system_clock::now();
+  const Stamp now = time_of_day();
   nlohmann::json result;
   if (!arguments.to.empty()) {
     std::vector<OrderStop> stops;

@@ -38,9 +38,12 @@ struct RouteArguments {
 };
 
 void print_findings(const std::vector<planning::RouteFinding>& findings) {
-  for (const auto& finding : findings)
-    std::fprintf(stderr, "%s: %s\n", finding.severity == planning::Severity::Error ? "error" : "warning",
-                 finding.text().c_str());
+  constexpr std::size_t kMostPrinted = 20;  // --json holds all of them
+  for (std::size_t i = 0; i < std::min(findings.size(), kMostPrinted); ++i)
+    std::fprintf(stderr, "%s: %s\n", findings[i].severity == planning::Severity::Error ? "error" : "warning",
+                 findings[i].text().c_str());
+  if (findings.size() > kMostPrinted)
+    std::fprintf(stderr, "... and %zu more\n", findings.size() - kMostPrinted);
 }
 
 json findings_json(const std::vector<planning::RouteFinding>& findings) {
@@ -67,6 +70,9 @@ void check(const RouteArguments& arguments, const planning::ParsedRoutes& routes
   if (fs::exists(folder / "site.yaml")) {
     options.half_width_m = mapping::load_scaled_site(folder).vehicle.width_m / 2.0;
     for (const auto& wall : mapping::load_walls(folder / "walls.csv")) walls.push_back(wall.segment);
+    if (walls.empty())
+      throw Error((folder / "walls.csv").string(), "holds no wall to check the routes against",
+                  "import the drawing anew");
   }
   std::vector<planning::RouteFinding> findings = routes.findings;
   for (auto& finding : planning::check_routes(routes.graph, walls, options))

@@ -88,6 +88,22 @@ json to_wire(const mapping::ImportReport& report) {
           {"notes", report.notes}};
 }
 
+/// The operator knows the drawing by the name that it was uploaded with.
+mapping::ImportReport import_as(const std::string& name, const mapping::ImportOptions& options,
+                                const Job::Progress& progress) {
+  try {
+    return mapping::import_drawing(options, progress);
+  } catch (const Error& e) {
+    std::string text = e.what();
+    const std::string temporary = options.drawing.string();
+    const std::string shown = name.empty() ? "the drawing" : name;
+    for (auto at = text.find(temporary); at != std::string::npos;
+         at = text.find(temporary, at + shown.size()))
+      text.replace(at, temporary.size(), shown);
+    throw Error(text);
+  }
+}
+
 Response start_import(ApiContext& context, const Request& request) {
   const Reply may = context.vehicle.may_change_site();
   if (!may.accepted) return answer(may);
@@ -97,11 +113,13 @@ Response start_import(ApiContext& context, const Request& request) {
   options.site = context.editor.folder();
   options.force = true;  // the panel replaces the drawing of its own site; routes and tiles stay
   options.date = context.iso_time();
-  const bool started = context.job.start("import", [options, file, &context](const Job::Progress& progress) {
-    const auto report = mapping::import_drawing(options, progress);
-    context.vehicle.reload_site();
-    return Job::Outcome{std::to_string(report.walls) + " walls", to_wire(report)};
-  });
+  const std::string shown = fs::path(query_of(request, "name")).filename().string();
+  const bool started =
+      context.job.start("import", [options, file, shown, &context](const Job::Progress& progress) {
+        const auto report = import_as(shown, options, progress);
+        context.vehicle.reload_site();
+        return Job::Outcome{std::to_string(report.walls) + " walls", to_wire(report)};
+      });
   if (!started) return Response::error(409, "busy", "another drawing is being imported");
   return answer(context.job.state());
 }

@@ -4,6 +4,8 @@
 #include <sstream>
 #include <utility>
 
+#include "core/input_file.hpp"
+
 namespace madori::mapping {
 
 StrictYaml::StrictYaml(std::string file, std::string name, const YAML::Node& node)
@@ -11,14 +13,28 @@ StrictYaml::StrictYaml(std::string file, std::string name, const YAML::Node& nod
   if (!node_.IsMap())
     throw Error(file_ + ":" + std::to_string(node_.Mark().line + 1), name_ + " is no list of `key: value`",
                 "");
+  std::set<std::string> seen;
+  for (const auto& entry : node_) {
+    const bool plain = entry.first.IsScalar();
+    if (plain && seen.insert(entry.first.Scalar()).second) continue;
+    throw Error(file_ + ":" + std::to_string(entry.first.Mark().line + 1),
+                plain ? entry.first.Scalar() + ": stands twice" : "a key is no plain word",
+                plain ? "remove one of them" : "mend that line");
+  }
 }
 
 StrictYaml StrictYaml::load(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMostBytes =
+      1'000'000;  // what YAML of this size takes in memory is a hundred times more
+  require_readable(file, kMostBytes);
   try {
     return {file.string(), "", YAML::LoadFile(file.string())};
   } catch (const YAML::BadFile&) {
     throw Error(file.string(), "cannot be opened", "check the path and its permissions");
   } catch (const YAML::ParserException& e) {
+    throw Error(file.string() + ":" + std::to_string(e.mark.line + 1), "is no valid YAML: " + e.msg,
+                "mend that line");
+  } catch (const YAML::Exception& e) {
     throw Error(file.string() + ":" + std::to_string(e.mark.line + 1), "is no valid YAML: " + e.msg,
                 "mend that line");
   }

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 
 namespace madori::mapping {
@@ -26,11 +27,16 @@ bool take_number(std::string_view& row, T& value) {
 }  // namespace
 
 Walls load_walls(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMostBytes = 256'000'000;
+  constexpr std::size_t kMostInLine = 1'000;
+  require_readable(file, kMostBytes, "import the drawing first: madori import");
   std::ifstream stream(file);
-  if (!stream) throw Error(file.string(), "cannot be opened", "import the drawing first: madori import");
   Walls walls;
   std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
+  int number = 1;
+  for (; next_line(stream, line, file.string(), number, kMostInLine); ++number) {
+    if (number == 1 && !line.starts_with("id,") && !line.starts_with("\xEF\xBB\xBFid,"))
+      throw Error(file.string() + ":1", "is not `id,x1,y1,x2,y2[,probability]`", "import the drawing anew");
     if (number == 1 || line.empty() || line == "\r") continue;
     Wall wall;
     double probability = 1;  // that it is a wall; every line here was taken for one
@@ -45,6 +51,7 @@ Walls load_walls(const std::filesystem::path& file) {
                   "mend or remove that line");
     walls.push_back(wall);
   }
+  if (number == 1) throw Error(file.string(), "is empty", "import the drawing anew");
   return walls;
 }
 

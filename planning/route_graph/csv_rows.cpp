@@ -15,9 +15,8 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \r\n") - first + 1);
 }
 
-std::vector<std::string> split(std::string_view line) {
+std::vector<std::string> split(std::string_view line, bool& quoted) {
   std::vector<std::string> fields(1);
-  bool quoted = false;
   for (const char c : line) {
     if (c == '"')
       quoted = !quoted;
@@ -39,7 +38,8 @@ std::vector<CsvRow> csv_rows(std::string_view text) {
   std::vector<CsvRow> rows;
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
-    CsvRow row{line, split(text.substr(0, end))};
+    CsvRow row{line, {}};
+    row.fields = split(text.substr(0, end), row.open_quote);
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
     if (row.fields.size() > 1 || !row.fields.front().empty()) rows.push_back(std::move(row));
   }

@@ -11,6 +11,7 @@ namespace madori::planning {
 struct CsvRow {
   int line = 0;
   std::vector<std::string> fields;
+  bool open_quote = false;  ///< a double quote begins and does not end: the fields cannot be told
 };
 
 /// Splits a CSV text. A byte-order mark, CRLF, blank lines, spaces and `# comments` are tolerated;

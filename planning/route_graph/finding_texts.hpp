@@ -30,6 +30,8 @@ enum class Fault {
   OutOfReach,
   ShortLeg,
   OneWay,
+  OpenQuote,
+  NotText,
 };
 
 /// The panel's catalogues know a finding by its code; `english` holds {placeholders}.
@@ -65,6 +67,8 @@ inline constexpr std::array kFindingTexts{
     FindingText{"out-of-reach", "node {node} cannot be reached from the other nodes"},
     FindingText{"short-leg", "leg {from} -> {to} is only {length} m long"},
     FindingText{"one-way", "leg {from} -> {to} is one-way: node {to} does not list node {from}"},
+    FindingText{"open-quote", "a double quote begins and does not end - close it or remove it"},
+    FindingText{"not-text", "is no text in UTF-8 (UTF-16, or no text at all) - save it as CSV in UTF-8"},
 };
 
 /// A finding with its English text. Precondition: `values` names every placeholder of the fault's text.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/angle.hpp"
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 #include "planning/route_graph/csv_rows.hpp"
 #include "planning/route_graph/finding_texts.hpp"
@@ -136,6 +137,10 @@ std::vector<RouteNode> read_nodes(std::string_view text, Findings findings) {
   std::vector<RouteNode> nodes;
   std::map<int, int> line_of;
   for (const CsvRow& row : rows) {
+    if (row.open_quote) {
+      findings.error(row.line, Fault::OpenQuote);
+      continue;
+    }
     auto node = read_node(row, columns, findings);
     if (!node) continue;
     const auto [first, fresh] = line_of.emplace(node->id, node->line);
@@ -184,6 +189,10 @@ std::vector<RouteLeg> read_legs(std::string_view text, const std::vector<RouteNo
   std::map<int, int> line_of;
   bool first = true;
   for (const CsvRow& row : csv_rows(text)) {
+    if (row.open_quote) {
+      findings.error(row.line, Fault::OpenQuote);
+      continue;
+    }
     const auto id = csv_integer(row.fields.front());
     if (std::exchange(first, false) && !id) continue;  // the header
     if (id) {
@@ -200,10 +209,9 @@ std::vector<RouteLeg> read_legs(std::string_view text, const std::vector<RouteNo
 }
 
 std::string read_file(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMostBytes = 16'000'000;
+  require_readable(file, kMostBytes, "draw routes on the panel, or write both route files by hand");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw Error(file.string(), "cannot be opened",
-                "draw routes on the panel, or write both route files by hand");
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
@@ -221,6 +229,9 @@ bool ParsedRoutes::good() const {
 ParsedRoutes parse_routes(std::string_view tree, std::string_view path, const std::string& tree_file,
                           const std::string& path_file) {
   ParsedRoutes parsed;
+  for (const auto& [text, file] : {std::pair(tree, tree_file), std::pair(path, path_file)})
+    if (!is_utf8(text)) Findings(file, parsed.findings).error(0, Fault::NotText);
+  if (!parsed.findings.empty()) return parsed;
   auto nodes = read_nodes(path, Findings(path_file, parsed.findings));
   auto legs = read_legs(tree, nodes, Findings(tree_file, parsed.findings));
   parsed.graph = RouteGraph(std::move(nodes), std::move(legs));
