@@ -82,6 +82,13 @@ bool is_too_old(const PointCloud<Lidar>& cloud, const std::deque<OdometryReading
          to_seconds(track.back().stamp - track.front().stamp) > kWholeTrackS;
 }
 
+/// After a gap the stamps of lidar and drive may need a while to follow the computer's clock: only those that
+/// are as young as they must be tell of now, and fit together.
+bool ends_gap(const CycleState& state, Stamp measured, Stamp now, const CycleConfig& config) {
+  return state.gap && measured >= *state.gap && to_seconds(now - measured) < config.lidar_silent_s &&
+         to_seconds(now - state.odometry.reading().stamp) < config.drive_silent_s;
+}
+
 /// What is no pose is refused here: it reaches the cycle from a panel.
 void take_given_pose(CycleState& state, const GivenPose& given) {
   const Transform2<Map, Base> pose(given.position.x_m, given.position.y_m, given.yaw_rad);
@@ -117,7 +124,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     if (is_too_old(cloud, state.track)) continue;
     const PointCloud<Base> base = in_base(cloud, state.track, config);
     state.lidar_heard = input.now;
-    if (state.gap && base.stamp >= *state.gap) state.gap.reset();
+    if (ends_gap(state, base.stamp, input.now, config)) state.gap.reset();
     output.computed_lidar = true;
     const auto odom_from_base =
         state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);

@@ -3,14 +3,25 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <utility>
 
 #include "core/result.hpp"
 #include "mapping/drawing/raster/load_image.hpp"
+#include "mapping/drawing/vector/bounded_load.hpp"
 #include "mapping/drawing/vector/load_dxf.hpp"
 #include "mapping/drawing/vector/load_pdf.hpp"
 #include "mapping/drawing/vector/load_svg.hpp"
 
 namespace madori::mapping {
+namespace {
+
+Plan picture_alone(GrayImage picture) {
+  Plan plan;
+  plan.picture = std::move(picture);
+  return plan;
+}
+
+}  // namespace
 
 Plan load_plan(const std::filesystem::path& file, const PlanOptions& options) {
   std::string extension = file.extension().string();
@@ -25,15 +36,12 @@ Plan load_plan(const std::filesystem::path& file, const PlanOptions& options) {
   if (extension == ".dwg")
     throw Error(file.string(), "is a DWG drawing, which only CAD programs can open",
                 "save it as DXF there and import that");
-  if (extension == ".dxf") return load_dxf(file, options);
-  Plan plan;
+  if (extension == ".dxf") return load_bounded(file, [&] { return load_dxf(file, options); });
   if (extension == ".pdf")
-    plan.picture = load_pdf(file, options.page, options.dpi);
-  else if (extension == ".svg")
-    plan.picture = load_svg(file, options.dpi);
-  else
-    plan.picture = load_image(file);
-  return plan;
+    return load_bounded(file, [&] { return picture_alone(load_pdf(file, options.page, options.dpi)); });
+  if (extension == ".svg")
+    return load_bounded(file, [&] { return picture_alone(load_svg(file, options.dpi)); });
+  return picture_alone(load_image(file));
 }
 
 }  // namespace madori::mapping
