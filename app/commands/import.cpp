@@ -1,11 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/import_report.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
+#include "core/result.hpp"
 #include "mapping/drawing/import_drawing.hpp"
 
 namespace madori::app {
@@ -13,20 +17,43 @@ namespace {
 
 struct ImportArguments {
   mapping::ImportOptions options;
+  std::vector<std::string> like, unlike;
   std::string json_file;
 };
+
+/// "u,v", pixels of the drawing.
+mapping::LineTouch touch_at(const std::string& text, bool wall) {
+  std::istringstream stream(text);
+  mapping::LineTouch touch{.wall = wall};
+  char comma = 0;
+  if (!(stream >> touch.u >> comma >> touch.v) || comma != ',' || !(stream >> std::ws).eof())
+    throw Error(text, "is no place of the drawing", "write u,v in its pixels, e.g. --like 812,340");
+  return touch;
+}
+
+void add_touches(CLI::App& command, ImportArguments& arguments) {
+  command.add_option("--like", arguments.like,
+                     "u,v of a line that is a wall: lines like it are walls (repeat)");
+  command.add_option("--unlike", arguments.unlike,
+                     "u,v of a line that is no wall: lines like it are none (repeat)");
+}
 
 void add_detection_options(CLI::App& command, mapping::DetectionOptions& d) {
   command.add_option("--threshold", d.threshold, "ink is darker than this, 1..254 (default: measured)");
   command.add_option("--min-wall-length", d.min_wall_length_px, "shortest wall, pixels (default: measured)");
   command.add_option("--min-thickness", d.min_thickness_px, "solid walls are at least this thick, pixels");
   command.add_option("--close-gap", d.close_gap_px, "gaps up to this are closed, pixels");
-  command.add_option("--model", d.model, "choose the walls by this wall model instead of by rules")
+  command.add_option("--model", d.model, "judge the lines by this wall model instead of the built-in one")
       ->check(CLI::ExistingFile);
   command.add_flag("--keep-furniture", d.keep_furniture, "furniture, machines and stairs are walls too");
   command.add_flag("--keep-dashed", d.keep_dashed, "dashed lines are walls too");
   command.add_flag("--keep-dimensions", d.keep_dimensions, "dimension lines are walls too");
   command.add_flag("--keep-outer-faces", d.keep_outer_faces, "outside faces of thick outer walls too");
+  command
+      .add_option(
+          "--strictness", d.strictness,
+          "what a wrong wall weighs against a missed one: 0 keeps all lines, 3 the sure ones (default 1)")
+      ->check(CLI::Range(0.0, 1000.0));
   command.add_flag("!--no-straighten", d.straighten, "leave walls as they are drawn");
 }
 
@@ -62,8 +89,12 @@ void add_import(CLI::App& app) {
   command->add_flag("--debug-images", o.debug_images, "one picture a stage in DIR/debug");
   command->add_option("--json", arguments->json_file, "write the figures to a file; - for stdout");
   add_detection_options(*command, o.detection);
+  add_touches(*command, *arguments);
   command->callback([arguments] {
     arguments->options.date = iso_time_utc();
+    auto& touches = arguments->options.detection.touches;
+    for (const std::string& place : arguments->like) touches.push_back(touch_at(place, true));
+    for (const std::string& place : arguments->unlike) touches.push_back(touch_at(place, false));
     const mapping::Progress progress = terminal_progress();
     const auto report = mapping::import_drawing(arguments->options, progress);
     if (progress) progress("done", 1.0);

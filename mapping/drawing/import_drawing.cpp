@@ -4,7 +4,6 @@
 #include <chrono>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
 #include <utility>
 
 #include "core/result.hpp"
@@ -14,6 +13,7 @@
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/wall_map/wall.hpp"
 #include "mapping/wall_map/wall_files.hpp"
+#include "mapping/wall_map/wall_probabilities.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -79,20 +79,6 @@ Walls to_map(const std::vector<PixelSegment>& segments, int height_px, double m_
   return walls;
 }
 
-/// The rows of walls.csv, each with the probability of its wall; as they are where nothing was judged.
-std::string with_probabilities(const std::string& rows, const std::vector<double>& probabilities) {
-  if (probabilities.empty()) return rows;
-  std::istringstream in(rows);
-  std::ostringstream out;
-  out.precision(3);
-  std::string row;
-  for (std::size_t i = 0; std::getline(in, row); ++i) {
-    out << row << ',';
-    i == 0 ? out << "probability\n" : out << probabilities[i - 1] << '\n';
-  }
-  return out.str();
-}
-
 /// One colour from edge to edge, as an empty page or a failed scan has it.
 void refuse_blank(const ImportOptions& options, const GrayImage& picture) {
   std::uint8_t darkest = 255, brightest = 0;
@@ -112,7 +98,7 @@ void refuse_blank(const ImportOptions& options, const GrayImage& picture) {
               vectors
                   ? "name the layers of the walls with --layers"
                   : "look at the stages with --debug-images; fainter lines: --threshold 220; small drawings: "
-                    "--min-wall-length 10; drawings of furniture lines: --keep-furniture");
+                    "--min-wall-length 10; doubtful walls: --strictness 0.3");
 }
 
 /// From a printed scale: one pixel is 1/dpi inch of paper.

@@ -3,6 +3,7 @@
 #include "mapping/drawing/import_picture.hpp"
 #include "mapping/drawing/plan.hpp"
 #include "mapping/wall_map/wall_files.hpp"
+#include "mapping/wall_map/wall_probabilities.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -51,6 +52,7 @@ double apply_scale(const fs::path& folder, const ScaleEstimate& estimate, const 
   scale_walls(walls, factor);
   (void)stage_wall_files(change, walls, site.drawing.width_px * estimate.m_per_px,
                          site.drawing.height_px * estimate.m_per_px, {});
+  change.write("walls.csv", with_probabilities(walls_csv(walls), load_probabilities(folder / "walls.csv")));
   if (fs::exists(folder / "import.png")) stage_picture(change, folder, site, walls);
   if (others) others(change, factor);
   change.write("site.yaml", site_yaml(site));

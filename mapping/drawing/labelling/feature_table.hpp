@@ -17,6 +17,10 @@ class FeatureTable {
     names_.push_back(std::move(name));
     columns_.push_back(std::move(column));
   }
+  /// The columns of another table of the same lines behind these.
+  void add(const FeatureTable& other) {
+    for (std::size_t k = 0; k < other.names_.size(); ++k) add(other.names_[k], other.columns_[k]);
+  }
   [[nodiscard]] std::size_t rows() const { return rows_; }
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] float at(std::size_t row, std::size_t column) const { return columns_[column][row]; }

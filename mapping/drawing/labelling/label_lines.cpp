@@ -96,7 +96,9 @@ LabelSheet label_sheet(const GrayImage& drawing) {
 std::vector<float> judge_edges(const LabelSheet& sheet, const WallModel& model) {
   std::vector<PixelSegment> segments;
   for (const Edge& edge : sheet.edges.edges) segments.push_back(edge.segment);
-  return model.second(sheet_context(segments, sheet.groups, model.first(sheet.features)));
+  FeatureTable context = sheet_context(segments, sheet.groups, model.first(sheet.features));
+  context.add(sheet.features);
+  return model.second(context);
 }
 
 DrawnLines label_lines(const LabelSheet& sheet, const std::vector<float>& probabilities,

@@ -20,7 +20,7 @@ class WallModel {
 
   /// One an edge, 0..1, by edge_features. Throws Error where those are not what the model was trained on.
   [[nodiscard]] std::vector<float> first(const FeatureTable& features) const;
-  /// By sheet_context of the first judgement.
+  /// By the sheet_context of the first judgement and edge_features.
   [[nodiscard]] std::vector<float> second(const FeatureTable& context) const;
 
  private:

@@ -5,6 +5,8 @@
 
 #include "core/result.hpp"
 #include "mapping/drawing/labelling/label_lines.hpp"
+#include "mapping/drawing/labelling/line_cover.hpp"
+#include "mapping/drawing/labelling/taught_edges.hpp"
 #include "mapping/drawing/labelling/wall_threshold.hpp"
 #include "mapping/drawing/raster/choose_walls.hpp"
 #include "mapping/drawing/raster/clean_marks.hpp"
@@ -52,18 +54,59 @@ RuledLines rule_lines(const GrayImage& image, const DetectionOptions& chosen, St
   return ruled;
 }
 
+constexpr double kAsGood = 0.75;  // of the F measure that the model expects of its own walls
+
+/// What the model makes of a sheet.
+struct JudgedSheet {
+  LabelSheet sheet;
+  std::vector<float> probabilities;
+  double wall_from = 0.5;
+};
+
+JudgedSheet judge(const GrayImage& image, const DetectionOptions& chosen) {
+  JudgedSheet judged;
+  judged.sheet = label_sheet(image);
+  const WallModel model = chosen.model.empty() ? WallModel::shipped() : WallModel::load(chosen.model);
+  judged.probabilities = taught_edges(judged.sheet, judge_edges(judged.sheet, model), chosen.touches);
+  judged.wall_from =
+      wall_threshold(judged.probabilities, judged.sheet.edges.edges, chosen.strictness.value_or(1));
+  return judged;
+}
+
+/// The F measure that the model expects, where an edge is taken by this share (0..1).
+double expected_f(const JudgedSheet& judged, const std::vector<float>& taken) {
+  double right = 0, all = 0, expected = 0;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    const double length = judged.sheet.edges.edges[i].length_px;
+    right += taken[i] * judged.probabilities[i] * length;
+    all += taken[i] * length;
+    expected += judged.probabilities[i] * length;
+  }
+  return all + expected > 0 ? 2 * right / (all + expected) : 0;
+}
+
+/// The walls of the rules stay where the model itself expects hardly more of its own.
+bool rules_do(const JudgedSheet& judged, const RuledLines& ruled, const DetectionOptions& chosen) {
+  if (!chosen.model.empty() || chosen.strictness || !chosen.touches.empty()) return false;
+  std::vector<bool> walls;
+  for (const DrawnLine& line : ruled.drawn) walls.push_back(!line.rejected);
+  if (std::find(walls.begin(), walls.end(), true) == walls.end()) return false;
+  const double factor = judged.sheet.edges.factor;
+  const LineCover cover(ruled.drawn, judged.sheet.edges, ruled.u_scale * factor, ruled.v_scale * factor);
+  std::vector<float> own;
+  for (const float p : judged.probabilities) own.push_back(p >= judged.wall_from ? 1.0F : 0.0F);
+  return expected_f(judged, cover.covered(walls)) >= kAsGood * expected_f(judged, own);
+}
+
 /// The lines by the model: walls and others; where somebody asked to keep a kind of lines, it stays.
-DrawnLines judged(const GrayImage& image, const RuledLines& ruled, const DetectionOptions& chosen) {
-  const LabelSheet sheet = label_sheet(image);
-  const auto probabilities =
-      judge_edges(sheet, chosen.model.empty() ? WallModel::shipped() : WallModel::load(chosen.model));
-  const double wall_from = wall_threshold(probabilities, sheet.edges.edges, chosen.strictness);
-  DrawnLines lines = label_lines(sheet, probabilities, ruled.drawn, ruled.u_scale, ruled.v_scale, wall_from);
+DrawnLines labelled(const JudgedSheet& judged, const RuledLines& ruled, const DetectionOptions& chosen) {
+  DrawnLines lines = label_lines(judged.sheet, judged.probabilities, ruled.drawn, ruled.u_scale,
+                                 ruled.v_scale, judged.wall_from);
   const DetectionOptions options = resized(chosen, ruled.working.factor);
   const bool keeps = options.keep_furniture || options.keep_dashed || options.keep_dimensions;
   for (DrawnLine& line : lines) {
     const bool kept = keeps && !line.rejected && !line.pale;
-    if (line.probability >= wall_from || kept) {
+    if (line.probability >= judged.wall_from || kept) {
       line.rejected.reset();
     } else if (!line.rejected) {
       line.rejected = RejectReason::Other;
@@ -84,11 +127,10 @@ DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& chose
   StageClock clock(found, sink, progress);
   RuledLines ruled = rule_lines(image, chosen, clock);
 
-  clock.begin("label", 0.85);  // by the wall model where one is named, or where the rules find nothing
-  const bool by_rules =
-      chosen.model.empty() && std::any_of(ruled.drawn.begin(), ruled.drawn.end(),
-                                          [](const DrawnLine& line) { return !line.rejected; });
-  DrawnLines drawn = by_rules ? std::move(ruled.drawn) : judged(image, ruled, chosen);
+  clock.begin("label", 0.85);  // by the wall model, unless it finds the walls of the rules about as good
+  const JudgedSheet judged = judge(image, chosen);
+  const bool by_rules = rules_do(judged, ruled, chosen);
+  DrawnLines drawn = by_rules ? std::move(ruled.drawn) : labelled(judged, ruled, chosen);
   clock.end(drawn.size());
 
   clock.begin("settle", 0.95);  // to a fraction of a pixel

@@ -3,8 +3,15 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace madori::mapping {
+
+/// Somebody points at a line of the drawing and says what it is. Pixels of the drawing.
+struct LineTouch {
+  double u = 0, v = 0;
+  bool wall = true;
+};
 
 /// Every automatic choice of detect_walls. An empty optional means: measured on the drawing itself.
 struct DetectionOptions {
@@ -18,10 +25,14 @@ struct DetectionOptions {
   std::optional<double> close_gap_px;
   /// Scale where it is known already; guards only against absurd wall thicknesses.
   std::optional<double> m_per_px;
-  /// The wall model that decides; empty: the rules, and the shipped model where they find no wall.
+  /// The wall model that decides; empty: the one that is built in, where it does not find the rules' walls
+  /// about as good.
   std::filesystem::path model;
-  /// What a wrong wall weighs against a missed one. Higher leaves more out.
-  double strictness = 1;
+  /// What a wrong wall weighs against a missed one. Higher leaves more out, 0 keeps every line; the model
+  /// decides.
+  std::optional<double> strictness;
+  /// Lines that somebody has named: those like them are judged alike; the model decides.
+  std::vector<LineTouch> touches;
   bool keep_furniture = false;    ///< furniture, machines and stairs stay walls
   bool keep_dashed = false;       ///< dashed and dash-dot lines stay walls
   bool keep_dimensions = false;   ///< dimension, leader and extension lines stay walls

@@ -1,5 +1,5 @@
 // Draws plans in many styles, their walls known: what the wall model is trained on beside real drawings.
-//   draughtsman FOLDER --plans N [--first-seed S]
+//   draughtsman FOLDER --plans N [--first-seed S] [--sketches]
 // writes FOLDER/plan_SEED.png, plan_SEED.csv (u1,v1,u2,v2) and FOLDER/list.csv (the rows that train_walls
 // reads). A seed is a plan: the same seed draws the same picture.
 #include <algorithm>
@@ -27,7 +27,8 @@ struct Placed {
 
 class Plan {
  public:
-  explicit Plan(unsigned seed) : chance_(seed), style_(random_style(chance_)) {
+  Plan(unsigned seed, bool sketch)
+      : chance_(seed), style_(sketch ? random_sketch(chance_) : random_style(chance_)) {
     choose_wings();
     Box whole = extent();
     const double margin = chance_.between(12, 60) + (style_.dimensions > 0 ? 45 : 0);
@@ -87,7 +88,7 @@ class Plan {
           return {chance_.between(35, 110), chance_.between(25, 60)};
       }
     };
-    const int count = chance_.one_in(0.55) ? 1 : 2 + chance_.below(3);
+    const int count = style_.few_rooms || chance_.one_in(0.55) ? 1 : 2 + chance_.below(3);
     const bool oblique = chance_.one_in(0.4);
     Point at(0, 0);
     double turn = style_.turn_rad;
@@ -254,25 +255,28 @@ class Plan {
 int main(int count, char** words) {
   std::string folder;
   unsigned first = 1, plans = 0;
+  bool sketches = false;
   for (int i = 1; i < count; ++i) {
     const std::string word = words[i];
     if (word == "--plans" && i + 1 < count) {
       plans = static_cast<unsigned>(std::stoul(words[++i]));
     } else if (word == "--first-seed" && i + 1 < count) {
       first = static_cast<unsigned>(std::stoul(words[++i]));
+    } else if (word == "--sketches") {
+      sketches = true;
     } else {
       folder = word;
     }
   }
   if (folder.empty() || plans == 0) {
-    std::fprintf(stderr, "draughtsman FOLDER --plans N [--first-seed S]\n");
+    std::fprintf(stderr, "draughtsman FOLDER --plans N [--first-seed S] [--sketches]\n");
     return 2;
   }
   std::filesystem::create_directories(folder);
   std::ofstream list(folder + "/list.csv");
   list << "name,source,weight,drawing,walls,tolerance_px,truth,ignore\n";
   for (unsigned seed = first; seed < first + plans; ++seed) {
-    Plan plan(seed);
+    Plan plan(seed, sketches);
     const std::string stem = folder + "/plan_" + std::to_string(seed);
     std::vector<std::pair<Point, Point>> truth;
     cv::imwrite(stem + ".png", plan.draw(truth));

@@ -109,7 +109,7 @@ void PlanCanvas::text(Point at, const std::string& words, double height_px, cons
   const cv::Point p = fine(at);
   const double size = height_px * fine_ / 22;
   cv::putText(picture_, words, {p.x >> kBits, p.y >> kBits}, face, size, colour,
-              std::max(1, static_cast<int>(std::lround(height_px * fine_ * 0.09))), cv::LINE_AA);
+              pen(style_.text_pen > 0 ? style_.text_pen : 0.09 * height_px), cv::LINE_AA);
 }
 
 void PlanCanvas::wall_body(const std::vector<Point>& points, bool cut) {

@@ -23,6 +23,7 @@ class Splitter {
         least_ = chance.between(5, 12), stop_ = 0.7;
         break;
     }
+    if (style.few_rooms || chance.one_in(0.2)) least_ *= chance.between(1.5, 4);  // a few large rooms
   }
 
   void run() {

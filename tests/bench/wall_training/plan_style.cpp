@@ -94,6 +94,12 @@ void choose_copying(PlanStyle& s, Chance& chance) {
   s.jpeg = chance.one_in(0.45) ? 45 + chance.below(50) : 0;
 }
 
+/// One pen and one ink for everything, as on a plan from a single layer.
+void draw_all_alike(PlanStyle& s) {
+  s.thing = s.door = s.window = s.text = s.dimension = s.grid = s.outline = s.wall;
+  s.thing_pen = s.thin_pen = s.text_pen = s.wall_pen = std::min(s.wall_pen, 2.5);
+}
+
 }  // namespace
 
 cv::Scalar blend(const cv::Scalar& a, const cv::Scalar& b, double t) {
@@ -126,6 +132,22 @@ PlanStyle random_style(Chance& chance) {
   choose_pens(s, chance);
   choose_contents(s, chance);
   choose_copying(s, chance);
+  if (chance.one_in(0.2)) draw_all_alike(s);
+  return s;
+}
+
+PlanStyle random_sketch(Chance& chance) {
+  PlanStyle s = random_style(chance);
+  s.building = chance.one_in(0.5) ? Building::Flat : Building::Office;
+  s.few_rooms = true;
+  if (chance.one_in(0.7)) draw_all_alike(s);
+  s.furniture = chance.between(0, 0.3);
+  s.labels = chance.between(0, 1);
+  s.overhead = chance.between(0, 0.8);
+  s.windows *= 0.3;
+  s.columns = s.room_colours = 0;
+  s.axes = s.frame = s.title = s.outdoors = s.tiles = s.ceiling = 0;
+  s.dimensions *= 0.3;
   return s;
 }
 

@@ -16,12 +16,15 @@ struct PlanStyle {
   Body body = Body::Double;
   double px_per_m = 20;
   cv::Scalar ground, wall, wall_fill, outline, thing, thing_fill, text, dimension, grid, door, window;
-  double wall_pen = 1.5, thing_pen = 1, thin_pen = 1, text_px = 12;
+  double wall_pen = 1.5, thing_pen = 1, thin_pen = 1, text_pen = 0,
+         text_px = 12;  ///< text_pen: 0 = as its height asks for
   double outer_m = 0.4, inner_m = 0.15;
   double furniture = 0.5, labels = 0.5, windows = 0.5, filled_things = 0.2;
   int window_lines = 2, door_kind = 0, columns = 0;  ///< columns: 0 none, 1 filled, 2 open, 3 crossed
   int room_colours = 0;                              ///< 0 none, 1 pale each its own, 2 all alike, 3 strong
   double dimensions = 0, axes = 0, frame = 0, title = 0, outdoors = 0, routes = 0, tiles = 0, ceiling = 0;
+  double overhead = 0.12;  ///< share of rooms with a dashed line above
+  bool few_rooms = false;
   double turn_rad = 0;
   bool aliased = false;
   double blur_px = 0, noise = 0, shade = 0, fold = 0;
@@ -34,6 +37,8 @@ struct PlanStyle {
 };
 
 [[nodiscard]] PlanStyle random_style(Chance& chance);
+/// A few rooms and hardly anything in them, mostly with a single pen.
+[[nodiscard]] PlanStyle random_sketch(Chance& chance);
 /// A colour between two others.
 [[nodiscard]] cv::Scalar blend(const cv::Scalar& a, const cv::Scalar& b, double t);
 [[nodiscard]] cv::Scalar bright_colour(Chance& chance);

@@ -24,6 +24,7 @@ class Furnisher {
     if (chance_.one_in(0.03)) return lift();
     if (s_.building == Building::Warehouse && in_.area() > 60) return racks();
     if (s_.furniture > 0 && in_.area() > 2) furniture();
+    if (chance_.one_in(s_.overhead)) overhead();
     if (chance_.one_in(s_.labels)) label();
   }
 
@@ -96,6 +97,17 @@ class Furnisher {
       const double a = k * kTurn / leaves;
       canvas_.line(m, m + radius * Point(std::cos(a), std::sin(a)), s_.thing, s_.thin_pen);
     }
+  }
+
+  /// What hangs above: a beam, a crane's way, the edge of a gallery.
+  void overhead() {
+    const double y = chance_.between(in_.y, in_.y + in_.height),
+                 x = chance_.between(in_.x, in_.x + in_.width);
+    const double dash = chance_.between(4, 30);
+    chance_.one_in(0.5)
+        ? canvas_.dashed({in_.x, y}, {in_.x + in_.width, y}, s_.thing, s_.thing_pen, dash, false)
+        : canvas_.dashed({x, in_.y}, {x, in_.y + in_.height}, s_.thing, s_.thing_pen, dash,
+                         chance_.one_in(0.3));
   }
 
   /// A kitchen's or laboratory's counter runs along a wall, as a face of it would.

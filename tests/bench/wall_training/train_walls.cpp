@@ -21,10 +21,11 @@ namespace {
 
 using namespace madori::training;
 
-constexpr int kTrees = 100, kSecondTrees = 80;
-constexpr const char *kDepth = "5", *kSecondDepth = "4";
+constexpr int kTrees = 120, kSecondTrees = 80;
+constexpr const char *kDepth = "6", *kSecondDepth = "5";
 constexpr std::size_t kFolds = 5;
-constexpr std::size_t kMostOfReal = 1800, kMostOfDrawn = 400;  // edges of a sheet that are looked at
+constexpr std::size_t kMostOfHome = 20000, kMostOfReal = 1800,
+                      kMostOfDrawn = 300;  // edges of a sheet that are looked at
 constexpr double kSheetWeight = 1000;
 
 struct Examples {
@@ -58,17 +59,17 @@ std::vector<std::size_t> sample(const ExampleSheet& sheet, std::size_t most) {
   return rows;
 }
 
-/// Every sheet weighs the same for its kind, however many edges it has; an edge by its length.
+/// Every sheet weighs the same for its kind, however many edges it has; an edge by the root of its length.
 void append(Examples& examples, const ExampleSheet& sheet) {
-  const bool drawn = sheet.source == "synthetic";
-  const auto rows = sample(sheet, drawn ? kMostOfDrawn : kMostOfReal);
+  const bool drawn = sheet.source == "synthetic", home = sheet.source == "home";
+  const auto rows = sample(sheet, drawn ? kMostOfDrawn : home ? kMostOfHome : kMostOfReal);
   const std::size_t columns = sheet.features.size();
   const bool sampled = rows.size() < static_cast<std::size_t>(std::count_if(
                                          sheet.used.begin(), sheet.used.end(), [](int u) { return u != 0; }));
   std::vector<double> weights;
   for (const std::size_t i : rows) {
     const double length = length_of(sheet, i);
-    weights.push_back(sampled ? std::sqrt(length) : length);
+    weights.push_back(sampled ? 1 : std::sqrt(length));  // walls are long, what is no wall must count too
     const auto from = sheet.values.begin() + static_cast<std::ptrdiff_t>(i * columns);
     examples.values.insert(examples.values.end(), from, from + static_cast<std::ptrdiff_t>(columns));
     examples.labels.push_back(sheet.near[i] > 0.5F ? 1 : 0);
@@ -162,10 +163,13 @@ ExampleSheet in_context(const ExampleSheet& sheet, const std::vector<float>& fir
   }
   const auto context = madori::mapping::sheet_context(segments, groups, first);
   second.features = context.names();
+  second.features.insert(second.features.end(), sheet.features.begin(), sheet.features.end());
   second.values.clear();
   for (std::size_t i = 0; i < sheet.rows(); ++i) {
     const auto row = context.row(i);
     second.values.insert(second.values.end(), row.begin(), row.end());
+    const auto own = sheet.values.begin() + static_cast<std::ptrdiff_t>(i * sheet.features.size());
+    second.values.insert(second.values.end(), own, own + static_cast<std::ptrdiff_t>(sheet.features.size()));
   }
   return second;
 }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/result.hpp"
+#include "mapping/drawing/labelling/taught_edges.hpp"
 #include "mapping/drawing/labelling/wall_threshold.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -154,6 +155,33 @@ TEST(WallThreshold, IsLowWhereAllIsDoubtfulAndHigherForTheStrict) {
   EXPECT_GT(wall_threshold({0.95F, 0.9F, 0.3F, 0.01F}, edges), 0.5);
   const std::vector<float> p{0.9F, 0.7F, 0.5F, 0.3F};
   EXPECT_LT(wall_threshold(p, edges, 0.1), wall_threshold(p, edges, 5));
+}
+
+/// Two kinds of boxes: a touch on one of a kind speaks for the others of its kind more than for the other
+/// kind.
+TEST(TaughtEdges, ATouchSpeaksForWhatIsAlike) {
+  GrayImage image = paper(1000, 700);
+  for (const int u : {50, 350, 650}) {
+    cv::rectangle(canvas(image), {u, 50}, {u + 250, 300}, 0, 6);
+    cv::rectangle(canvas(image), {u + 100, 450}, {u + 130, 480}, 150, 1);
+  }
+  const LabelSheet sheet = label_sheet(image);
+  const std::vector<float> doubtful(sheet.edges.edges.size(), 0.5F);
+  const auto after = taught_edges(sheet, doubtful, {{.u = 475, .v = 50, .wall = true}});
+  double large = 0, small = 0, large_length = 0, small_length = 0;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const Edge& e = sheet.edges.edges[i];
+    const bool box = e.segment.v1 / sheet.edges.factor < 400;
+    (box ? large : small) += after[i] * e.length_px;
+    (box ? large_length : small_length) += e.length_px;
+    EXPECT_GE(after[i], 0.5F) << "no touch of a wall makes anything less of a wall";
+  }
+  ASSERT_GT(small_length, 0);
+  EXPECT_GT(large / large_length, 0.8);
+  EXPECT_LT(small / small_length, 0.65);
+  const auto back = taught_edges(sheet, after, {{.u = 475, .v = 50, .wall = false}});
+  for (std::size_t i = 0; i < back.size(); ++i) EXPECT_NEAR(back[i], 0.5, 1e-3) << "both touches cancel";
+  EXPECT_EQ(taught_edges(sheet, doubtful, {}), doubtful);
 }
 
 /// Numbers and order of edges mean nothing: the context of an edge moves with it.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/result.hpp"
+#include "mapping/wall_map/wall_probabilities.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::mapping {
@@ -21,6 +22,15 @@ TEST(Walls, MayHaveAProbability) {
   const Walls walls = load_walls(file);
   ASSERT_EQ(walls.size(), 2U);
   EXPECT_EQ(walls.front().id, 3);
+}
+
+TEST(Walls, KeepTheirProbabilitiesWhenTheyAreWrittenAgain) {
+  const test::TemporaryFolder folder;
+  const Walls walls{{1, {{0.0, 1.5}, {2.25, -3.0}}}, {7, {{10.0, 10.0}, {10.0, 20.125}}}};
+  const auto judged = folder.write("walls.csv", with_probabilities(walls_csv(walls), {0.75, 0.5}));
+  EXPECT_EQ(load_walls(judged), walls);
+  EXPECT_EQ(load_probabilities(judged), (std::vector<double>{0.75, 0.5}));
+  EXPECT_TRUE(load_probabilities(folder.write("plain.csv", with_probabilities(walls_csv(walls), {}))).empty());
 }
 
 TEST(Walls, RefuseABadRowWithItsLine) {
