@@ -8,6 +8,7 @@
 #include "app/learned/learned_drawing.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/route_tools.hpp"
+#include "core/clock.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 
 namespace madori::app {
@@ -24,6 +25,8 @@ class LentLink final : public VehicleLink {
  private:
   VehicleLink& link_;
 };
+
+constexpr Duration kTryAgain = std::chrono::seconds(3);
 
 bool stands(const VehicleView& view) {
   if (drives(view.mode) || view.mode == Mode::Waiting) return false;
@@ -69,14 +72,17 @@ void SiteRun::take(Loaded loaded) {
   keeper_ = std::move(loaded.keeper);
   recall_ = PoseRecall(std::move(loaded.last.pose));
   std::unique_ptr<TransportRun> next;
-  if (loaded.missing.empty()) {
-    next =
-        std::make_unique<TransportRun>(std::move(loaded.site->config), std::move(loaded.pose),
-                                       std::make_unique<LentLink>(*link_), TransportOptions{.site = site_});
-    if (hooks_.opened) hooks_.opened(*next);
-  } else {
-    spdlog::info("not ready to drive: {}", loaded.missing);
-  }
+  if (loaded.missing.empty()) try {
+      next =
+          std::make_unique<TransportRun>(std::move(loaded.site->config), std::move(loaded.pose),
+                                         std::make_unique<LentLink>(*link_), TransportOptions{.site = site_});
+      if (hooks_.opened) hooks_.opened(*next);
+    } catch (const std::exception& e) {  // its database, the recording, few file handles: tried again
+      next.reset();
+      loaded.missing = e.what();
+      again_at_ = clock_now() + kTryAgain;
+    }
+  if (!loaded.missing.empty()) spdlog::info("not ready to drive: {}", loaded.missing);
   {
     const std::scoped_lock lock(mutex_);
     missing_ = loaded.missing;
@@ -93,6 +99,7 @@ void SiteRun::load_now() {
     wanted_ = false;
   }
   take(std::move(loaded));
+  if (!run_) throw std::runtime_error(missing());
 }
 
 void SiteRun::look_for_site() {
@@ -102,7 +109,9 @@ void SiteRun::look_for_site() {
     take(loading_.get());
   }
   const std::scoped_lock lock(mutex_);
+  if (again_at_ && clock_now() > *again_at_) wanted_ = true;
   if (!std::exchange(wanted_, false)) return;
+  again_at_.reset();
   loading_ = std::async(std::launch::async, [site = site_] { return load(site); });
 }
 

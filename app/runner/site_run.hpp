@@ -84,7 +84,8 @@ class SiteRun {
   // of the ticks' thread alone:
   std::unique_ptr<SiteKeeper> keeper_;
   PoseRecall recall_{std::nullopt};
-  std::future<void> kept_;  ///< what the run before learned is being written
+  std::optional<Stamp> again_at_;  ///< a run that could not be begun is tried again
+  std::future<void> kept_;         ///< what the run before learned is being written
 };
 
 }  // namespace madori::app

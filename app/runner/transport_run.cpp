@@ -45,11 +45,33 @@ VehicleView TransportRun::view() const {
 void TransportRun::look_for_orders(Stamp now) {
   if (to_seconds(now - looked_) < options_.store_poll_s) return;
   looked_ = now;
+  if (reached_) note_stop(now);
   if (order_) order_ = store_.find(order_->id);
   if (!order_ || order_->state != OrderState::Running) {
     const bool may_begin = state_.mode == Mode::Idle || state_.mode == Mode::Localizing;
     order_ = may_begin ? store_.begin_next(time_of_day(now)) : std::nullopt;
   }
+}
+
+/// A database that is locked, damaged or gone is told and tried again: the vehicle goes on with the order
+/// that it has, and begins no other.
+void TransportRun::work_on_store(const std::function<void()>& work) {
+  try {
+    work();
+    if (!store_problem_.empty()) spdlog::info("orders can be read and written again");
+    store_problem_.clear();
+  } catch (const std::exception& e) {
+    if (store_problem_ != e.what()) spdlog::error("{}", e.what());
+    store_problem_ = e.what();
+  }
+}
+
+void TransportRun::note_stop(Stamp now) {
+  const Stamp label = time_of_day(now);
+  order_ = store_.stop_done(reached_->order, reached_->round, reached_->stop, label);
+  reached_.reset();
+  events_.add({label, "order",
+               "order " + std::to_string(order_->id) + ": stop reached; " + to_string(order_->state)});
 }
 
 void TransportRun::ask_detour(const planning::DetourRequest& request) {
@@ -63,15 +85,13 @@ void TransportRun::carry_out(const CycleOutput& output, Stamp moment) {
   const Stamp now = time_of_day(moment);
   if (output.detour_wanted) ask_detour(*output.detour_wanted);
   if (output.stop_done) {
-    order_ = store_.stop_done(output.stop_done->order, output.stop_done->round, output.stop_done->stop, now);
-    events_.add({now, "order",
-                 "order " + std::to_string(order_->id) + ": stop reached; " + to_string(order_->state)});
+    reached_ = output.stop_done;
+    work_on_store([&] { note_stop(moment); });
   }
   if (output.order_refused) {
-    store_.close(output.order_refused->first, OrderState::Refused, output.order_refused->second, now);
-    events_.add({now, "order",
-                 "order " + std::to_string(output.order_refused->first) +
-                     " refused: " + output.order_refused->second});
+    const auto& [id, why] = *output.order_refused;
+    work_on_store([&] { store_.close(id, OrderState::Refused, why, now); });
+    events_.add({now, "order", "order " + std::to_string(id) + " refused: " + why});
     order_.reset();
   }
   for (const std::string& text : output.events) {
@@ -84,7 +104,7 @@ void TransportRun::tick(Stamp now) {
   CycleInput input;
   input.now = now;
   link_->collect(input);
-  look_for_orders(now);
+  work_on_store([&] { look_for_orders(now); });
   input.order = order_;
   input.detour = planner_ ? planner_->take() : std::exchange(answer_, std::nullopt);
   {
@@ -105,7 +125,7 @@ void TransportRun::tick(Stamp now) {
            result.output.command,
            state_.way.cross_track_m,
            state_.drive.battery_mv / 1000.0,
-           link_->problem()};
+           store_problem_.empty() ? link_->problem() : "orders: " + store_problem_};
 }
 
 }  // namespace madori::app

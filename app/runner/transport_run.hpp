@@ -58,6 +58,8 @@ class TransportRun {
 
  private:
   void look_for_orders(Stamp now);
+  void work_on_store(const std::function<void()>& work);
+  void note_stop(Stamp now);
   void carry_out(const CycleOutput& output, Stamp moment);
   void ask_detour(const planning::DetourRequest& request);
 
@@ -71,6 +73,8 @@ class TransportRun {
   std::optional<planning::DetourAnswer> answer_;
   CycleState state_;
   std::optional<Order> order_;
+  std::optional<Target> reached_;  ///< a stop that the database does not hold yet
+  std::string store_problem_;      ///< why it cannot be read or written; empty while it can
   Stamp looked_{};
   Tap tap_;
   mutable std::mutex mutex_;

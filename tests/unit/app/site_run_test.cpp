@@ -65,6 +65,21 @@ class SiteRunTest : public testing::Test {
                 .idle = [this](const CycleInput&) { ++idle_; }}};
 };
 
+TEST_F(SiteRunTest, ARunThatCannotBeBegunIsToldAndTriedAgain) {
+  import();
+  draw_routes();
+  mount_lidar();
+  fs::create_directory(site_ / "madori.db");  // what cannot be opened as a database
+  run_.reload();
+  tick_until([this] { return run_.missing().find("madori.db") != std::string::npos; });
+  EXPECT_EQ(opened_, 0);
+  EXPECT_FALSE(run_.view());
+  fs::remove(site_ / "madori.db");
+  tick_until([this] { return run_.view().has_value(); });
+  EXPECT_EQ(opened_, 1);
+  EXPECT_FALSE(enabled_);
+}
+
 TEST_F(SiteRunTest, ItDrivesAsSoonAsNothingIsMissing) {
   const auto told = [this](const char* what) {
     return [this, what] { return run_.missing().find(what) != std::string::npos; };
