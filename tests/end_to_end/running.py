@@ -58,7 +58,8 @@ class Factory:
 class Run:
     """One life of `madori run`. `env`: what is added to its environment."""
 
-    def __init__(self, madori, folder, site, factory, name="run", env=None, more=(), lidar_port=None):
+    def __init__(self, madori, folder, site, factory, name="run", env=None, more=(), lidar_port=None,
+                 drive=None):
         self.madori, self.site, self.log, self.name = madori, site, folder / f"{name}.txt", name
         self.port = free_port(socket.SOCK_STREAM)
         page = folder / "page"
@@ -67,7 +68,7 @@ class Run:
         self.process = subprocess.Popen(
             [madori, "run", site, "--hmi", f"127.0.0.1:{self.port}", "--lidar", "127.0.0.1", "--lidar-port",
              str(lidar_port or factory.lidar_port), "--position-port", str(free_port()), "--drive",
-             factory.devices / "drive", "--panel-folder", page, *more],
+             drive or factory.devices / "drive", "--panel-folder", page, *more],
             stdout=open(self.log, "w"), stderr=subprocess.STDOUT, env={**os.environ, **(env or {})})
 
     def say(self, word):

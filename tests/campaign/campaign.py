@@ -1,0 +1,114 @@
+"""Faults of the running system, from one table (faults.py): `madori run` drives orders at 1 m/s in the virtual factory on
+real sockets; each fault is done to it while it drives. It must stand within the limit or go on as the table says, tell
+the operator why, stay on its route, collide with nothing, and deliver again by itself.
+
+    campaign.py MADORI DATA [--seeds 5] [--only WORD] [--table FILE.md]
+"""
+
+import argparse
+import pathlib
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "end_to_end")]
+
+from faults import FAULTS, DriveWire, LidarWire, Scene  # noqa: E402
+from running import STANDS_MPS, Factory, Routes, Run, free_port, wait_for  # noqa: E402
+from sample_site import make_site  # noqa: E402
+
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+parser.add_argument("madori")
+parser.add_argument("data", type=pathlib.Path)
+parser.add_argument("--seeds", type=int, default=1)
+parser.add_argument("--only", default="", help="faults whose name holds this")
+parser.add_argument("--table", type=pathlib.Path, help="writes what was measured as a table")
+arguments = parser.parse_args()
+OFF_ROUTE_M = 0.3
+
+
+def stands_after(factory, moment, end):
+    for truth in factory.truth.since(moment):
+        if truth["received"] <= end and abs(truth["linear_mps"]) < STANDS_MPS:
+            return truth["received"] - moment
+    return None
+
+
+def try_fault(scene, routes, fault):
+    """One fault; what was seen, and what of it is wrong."""
+    name, act, expected, words, limit_s = fault
+    factory, run = scene.factory, scene.run
+    wait_for(lambda: factory.truth.newest()["linear_mps"] > 0.9 or run.process.poll() is not None,
+             f"{name}: it does not drive:\n{run.log.read_text()[-2000:]}", 90)
+    before, done, moment = run.last_event(), run.stops_done(), time.time()
+    act(scene)
+    acted_s = time.time() - moment
+    begun = time.monotonic()
+    wait_for(lambda: run.stops_done() > done or run.process.poll() is not None, f"{name}: it does not go on", 120)
+    stood_s = stands_after(factory, moment, moment + acted_s)
+    off_m = max(routes.distance_m(t["x_m"], t["y_m"]) for t in factory.truth.since(moment))
+    log = run.events_after(before)
+    told = [word for word in words if any(word in event for event in log)]
+    wrong = []
+    if run.process.poll() is not None:
+        wrong.append(f"the program ended: {run.log.read_text()[-500:]}")
+    if expected == "stands" and (stood_s is None or stood_s > limit_s):
+        wrong.append(f"stood after {stood_s}, not within {limit_s} s")
+    if expected == "goes on" and any("silent" in event or "does not answer" in event for event in log):
+        wrong.append(f"was disturbed: {log}")
+    if words and not told:
+        wrong.append(f"nobody was told: {log}")
+    if off_m > OFF_ROUTE_M:
+        wrong.append(f"{off_m:.2f} m off its route")
+    if factory.truth.newest()["collisions"]:
+        wrong.append("collided")
+    return {"fault": name, "stood_s": stood_s, "told": told, "off_m": off_m, "again_s": time.monotonic() - begun,
+            "wrong": wrong}
+
+
+def campaign(seed, rows):
+    with tempfile.TemporaryDirectory() as name:
+        folder, site = pathlib.Path(name), pathlib.Path(name) / "site"
+        make_site(arguments.madori, arguments.data, site, quiet=True)
+        routes, factory = Routes(site), Factory(arguments.madori, folder, site)
+        run_port = free_port()
+        lidar, drive = LidarWire(factory.lidar_port, run_port), DriveWire(factory.devices / "drive")
+        run = Run(arguments.madori, folder, site, factory, lidar_port=run_port, drive=drive.name)
+        scene = Scene(arguments.madori, site, factory, run, lidar, drive, seed)
+        try:
+            run.order([13, 15], repeat=900)
+            run.resume()
+            for fault in FAULTS:
+                if arguments.only in fault[0]:
+                    rows.append({**try_fault(scene, routes, fault), "seed": seed})
+                    row = rows[-1]
+                    stood = f"stood after {row['stood_s']:.2f} s" if row["stood_s"] is not None else "drove on"
+                    print(f"{row['fault']:>50}: {stood}; {row['off_m']:.2f} m off; {'; '.join(row['wrong']) or 'good'}",
+                          flush=True)
+            run.cancel_orders()
+            run.end()
+        finally:
+            run.kill()
+            factory.end()
+
+
+def table(rows):
+    text = "| fault | stands after (longest) | told | off its route (farthest) | as expected |\n| --- | --- | --- | --- | --- |\n"
+    for name in dict.fromkeys(row["fault"] for row in rows):
+        of = [row for row in rows if row["fault"] == name]
+        stood = [row["stood_s"] for row in of if row["stood_s"] is not None]
+        text += (f"| {name} | {f'{max(stood):.2f} s' if stood else 'drives on'} | {', '.join(of[0]['told']) or '-'} "
+                 f"| {max(row['off_m'] for row in of):.2f} m | {sum(not row['wrong'] for row in of)} of {len(of)} |\n")
+    return text
+
+
+rows = []
+for seed in range(1, arguments.seeds + 1):
+    campaign(seed, rows)
+if arguments.table:
+    arguments.table.write_text(table(rows))
+wrong = [f"{row['fault']}: {'; '.join(row['wrong'])}" for row in rows if row["wrong"]]
+if wrong:
+    raise SystemExit("\n".join(wrong))
+print(f"{len(rows)} faults, each as expected")
