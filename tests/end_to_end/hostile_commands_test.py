@@ -4,11 +4,13 @@ asked to do without a trace elsewhere. Usage: hostile_commands_test.py MADORI DA
 import hashlib
 import os
 import pathlib
+import shutil
 import signal
 import stat
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 from sample_site import make_site
@@ -74,6 +76,46 @@ class Commands(unittest.TestCase):
                 answer = subprocess.run([MADORI, *map(str, words)], stdout=full, stderr=subprocess.PIPE, text=True)
             self.assertEqual(answer.returncode, 1, words)
             self.assertIn("standard output", answer.stderr)
+
+    def spoiled(self, name, content):
+        """A copy of the site with one file replaced; `content` None: a folder in its place."""
+        copy = pathlib.Path(tempfile.mkdtemp(dir=self.here)) / "site"
+        shutil.copytree(self.site, copy)
+        (copy / name).unlink()
+        if content is None:
+            (copy / name).mkdir()
+        else:
+            (copy / name).write_bytes(content)
+        return copy
+
+    def test_spoiled_files_of_a_site_are_refused_in_one_line(self):
+        yaml, path = (self.site / "site.yaml").read_bytes(), (self.site / "routes/path.csv").read_bytes()
+        sensor = b"  - {name: a, type: vlp16}\n"
+        for name, content, *words in (
+                ("walls.csv", b"", "walls.csv", "empty"), ("walls.csv", b"id,x1,y1,x2,y2\n", "no wall"),
+                ("walls.csv", b"id,x1,y1,x2,y2\n" + b"1" * 20_000_000, "longer than"),
+                ("site.yaml", yaml + b"name: again\n", "stands twice"), ("site.yaml", None, "folder"),
+                ("site.yaml", yaml.split(b"sensors:")[0] + b"sensors:\n" + sensor * 200_000, "bytes, more than"),
+                ("walls.csv", None, "folder"), ("routes/path.csv", None, "folder")):
+            begun = time.monotonic()
+            self.refused(madori("route", self.spoiled(name, content), "--check"), *words)
+            self.assertLess(time.monotonic() - begun, 20)
+        for content, word in ((path.decode().encode("utf-16"), "UTF-8"),
+                              (path.replace(b"\n0,", b'\n0,"', 1) if b"\n0," in path else path + b'99,"1,2\n', "quote")):
+            answer = madori("route", self.spoiled("routes/path.csv", content), "--check")
+            self.assertEqual(answer.returncode, 1)
+            self.assertIn(word, answer.stderr)
+            self.assertLessEqual(len(answer.stderr.splitlines()), 22)
+
+    def test_a_pipe_in_place_of_a_file_does_not_hang(self):
+        copy = self.spoiled("site.yaml", b"")
+        (copy / "site.yaml").unlink()
+        os.mkfifo(copy / "site.yaml")
+        self.refused(madori("route", copy, "--check"), "no regular file")
+
+    def test_a_stop_without_its_seconds_is_refused(self):
+        for stop in ("13:wait=", "13:wait=x", "13:wait=nan", "13:wait=-1"):
+            self.refused(madori("order", self.site, "--to", stop), "is no stop")
 
     def test_a_second_run_on_one_site_is_refused(self):
         run = ["run", self.site, "--hmi", "off", "--no-record", "--lidar", "127.0.0.1", "--lidar-port", "0",
