@@ -9,6 +9,7 @@ namespace madori::app {
 CycleState::CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> source)
     : odometry(config.odometry),
       localization(std::move(source)),
+      site(std::make_shared<const SiteInBuilding>(config.routes, config.walls)),
       obstacles(config.field),
       movers(config.movers) {
   pose.health = {LocalizationState::Lost, "no scan yet"};

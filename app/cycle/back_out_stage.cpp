@@ -50,7 +50,7 @@ Path straight_back(const CycleState& state, double length_m, const CycleConfig& 
 }
 
 /// Nothing seen or drawn behind the vehicle all along; what it stands against before it does not count.
-bool is_free_behind(const Path& path, const std::vector<Point2<Map>>& obstacles, double wall_slack_m,
+bool is_free_behind(const CycleState& state, const Path& path, const std::vector<Point2<Map>>& obstacles,
                     const CycleConfig& config) {
   constexpr double kBehindM = 0.15;
   constexpr double kBeforeM = 0.15;
@@ -58,11 +58,11 @@ bool is_free_behind(const Path& path, const std::vector<Point2<Map>>& obstacles,
   check.vehicle.front_m -= kBeforeM + kBehindM;  // the margin is added at both ends
   check.ends_margin_m = kBehindM;
   check.sides_margin_m = 0.0;
-  check.wall_margin_m = -wall_slack_m;
+  check.wall_margin_m = -state.way.squeeze.wall_slack_m;
   return std::all_of(path.points.begin(), path.points.end(), [&](const PathPoint& point) {
     const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m,
                                      wrap_angle(point.heading_rad + kPi));
-    return planning::is_free(pose, obstacles, *config.walls, check);
+    return planning::is_free(pose, obstacles, *state.site->walls(), check);
   });
 }
 
@@ -73,7 +73,7 @@ std::optional<Path> free_way_back(const CycleState& state, const CycleConfig& co
   constexpr double kShorterM = 0.1;
   const auto obstacles = obstacle_points(state);
   const auto is_free = [&](const Path& path) {
-    return is_free_behind(path, obstacles, state.way.squeeze.wall_slack_m, config);
+    return is_free_behind(state, path, obstacles, config);
   };
   auto came = state.way.backing_held ? std::nullopt : way_back(state, config);
   if (came && is_free(*came)) return came;
@@ -89,7 +89,7 @@ bool is_wedged(const CycleState& state, const CycleConfig& config) {
   const bool waits = state.mode == Mode::Waiting && way.blocked_since && !way.arrived && !way.by_mover &&
                      !way.detour_pending && !way.path.empty();
   const bool near = way.stop_along_m - way.along_m < kNearM && !way.detour_failed.empty();
-  return waits && !waits_for_door(way, config) &&
+  return waits && !waits_for_door(state, config) &&
          (way.felt || way.held || !way.turn_free || way.squeeze.share < 1.0 || near);
 }
 

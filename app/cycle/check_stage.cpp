@@ -40,7 +40,7 @@ double wall_slack_m(const CycleState& state, const CycleConfig& config, double s
   constexpr double kStepM = 0.05;
   constexpr double kMostM = 0.1;
   for (double slack_m = 0.0; slack_m <= kMostM + 1e-9; slack_m += kStepM)
-    if (planning::is_free(state.pose.map_from_base, {}, *config.walls,
+    if (planning::is_free(state.pose.map_from_base, {}, *state.site->walls(),
                           planning::with_margins(config.check, {share, slack_m})))
       return slack_m;
   return 0.0;
@@ -54,7 +54,7 @@ planning::Squeeze squeeze_here(const CycleState& state, const std::vector<Point2
   constexpr double kLeast = 0.2;
   const Navigation& way = state.way;
   const auto fits = [&](double share) {
-    return planning::is_free(state.pose.map_from_base, obstacles, *config.walls,
+    return planning::is_free(state.pose.map_from_base, obstacles, *state.site->walls(),
                              planning::with_margins(config.check, {share, 0.0}));
   };
   if (fits(1.0)) return {};
@@ -127,7 +127,7 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
                    to_seconds(input.now - way.asked_detour) >= config.detour_again_s;
   const bool near = stuck || way.stop_along_m - way.along_m < kDetourWithinM;
   const bool going = drives(state.mode) || state.mode == Mode::Waiting;
-  if (!due || !near || !going || waits_for_door(way, config)) return;
+  if (!due || !near || !going || waits_for_door(state, config)) return;
   way.asked_detour = input.now;
   way.detour_pending = true;
   ++way.detour_id;
@@ -135,7 +135,7 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
   if (!check.blocked()) check.first_blocked = check.last_blocked = way.pursuit.index;
   output.detour_wanted = planning::DetourRequest{
       way.detour_id, way.plain, way.pursuit.index, state.pose.map_from_base, check, std::move(obstacles),
-      way.squeeze,   !stuck};
+      way.squeeze,   !stuck, state.site->walls()};
 }
 
 void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
@@ -144,7 +144,7 @@ void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, S
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
   way.squeeze = squeeze_here(state, obstacles, now, config);
   const auto margins = planning::with_margins(config.check, way.squeeze);
-  way.check = planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *config.walls, margins);
+  way.check = planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *state.site->walls(), margins);
   const auto movers = true_movers(state, now, config);
   const auto crossing =
       planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps, movers,

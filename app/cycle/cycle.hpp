@@ -10,6 +10,7 @@
 #include "app/cycle/modes.hpp"
 #include "app/cycle/notice.hpp"
 #include "app/cycle/pose_source.hpp"
+#include "app/cycle/site_in_building.hpp"
 #include "app/orders/order.hpp"
 #include "control/diff_drive/odometry.hpp"
 #include "control/drive_link/wire.hpp"
@@ -28,7 +29,7 @@ namespace madori::app {
 
 /// What does not change while the cycle runs. Times in seconds, lengths in metres.
 struct CycleConfig {
-  planning::RouteGraph routes;
+  planning::RouteGraph routes;  ///< as drawn, and so are the walls
   std::shared_ptr<const planning::WallGrid> walls = std::make_shared<const planning::WallGrid>();
   control::OdometryOptions odometry;
   control::PursuitOptions pursuit;
@@ -197,6 +198,7 @@ struct CycleState {
   control::DiffDriveOdometry odometry;
   std::deque<OdometryReading> track;  ///< of the last seconds, for motion compensation
   std::unique_ptr<PoseSource> localization;
+  std::shared_ptr<const SiteInBuilding> site;  ///< routes and walls where they stand
   PoseEstimate pose;
   planning::ObstacleField obstacles;
   planning::MovingObjects movers;

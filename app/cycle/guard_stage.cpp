@@ -86,7 +86,7 @@ double share_to_go(const CycleState& state, const VelocityCommand& wanted,
   constexpr double kStandsAgainstM = 0.15;
   planning::VehicleOutline outline = config.check.vehicle;
   if (state.way.backing) outline.front_m -= kStandsAgainstM;  // it leaves what it stands against
-  return planning::guarded_share(state.pose.map_from_base, wanted, obstacles, *config.walls, outline,
+  return planning::guarded_share(state.pose.map_from_base, wanted, obstacles, *state.site->walls(), outline,
                                  config.braking, config.guard);
 }
 

@@ -97,6 +97,18 @@ void take_given_pose(CycleState& state, const GivenPose& given) {
   state.localization->set_pose(pose, given.sigma);
 }
 
+/// Routes, walls and the path at hand move with what is believed of how the drawing lies.
+void follow_drawing(CycleState& state, const CycleConfig& config) {
+  if (!state.site->differs(state.localization->bent())) return;
+  auto site = std::make_shared<const SiteInBuilding>(state.site->carried(state.localization->bent()));
+  Navigation& way = state.way;
+  if (!way.path.empty() && !way.backing) {
+    way.plain = state.site->carry_to(*site, std::move(way.plain));
+    way.path = control::TrackedPath(way.plain, config.pursuit.speed);
+  }
+  state.site = std::move(site);
+}
+
 }  // namespace
 
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
@@ -133,6 +145,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     state.obstacles.update(base, config.lidar, odom_from_base);
     state.movers.update(state.obstacles.columns(), base.stamp);
   }
+  follow_drawing(state, config);
 }
 
 }  // namespace madori::app

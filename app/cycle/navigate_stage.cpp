@@ -22,11 +22,11 @@ bool crosses_wall(const planning::WallGrid& walls, const Segment2<Map>& way) {
 
 /// The ends of the legs that the vehicle stands on, as far as they may be driven to. Of a blocked leg that is
 /// the end that the vehicle came from.
-std::set<std::size_t> ends_of_own_legs(const CycleConfig& config, const Point2<Map>& here,
+std::set<std::size_t> ends_of_own_legs(const planning::RouteGraph& routes, const Point2<Map>& here,
                                        const planning::BlockedLegs& blocked) {
-  const auto& nodes = config.routes.nodes();
+  const auto& nodes = routes.nodes();
   std::set<std::size_t> ends;
-  for (const auto& leg : config.routes.legs()) {
+  for (const auto& leg : routes.legs()) {
     if (distance_m(nodes[leg.from].position, here) < kAtNodeM) ends.insert(leg.from);
     const Segment2<Map> way{nodes[leg.from].position, nodes[leg.to].position};
     if (distance_m(way, here) < kOnLegM && !blocked.contains({leg.from, leg.to})) ends.insert(leg.to);
@@ -36,11 +36,11 @@ std::set<std::size_t> ends_of_own_legs(const CycleConfig& config, const Point2<M
 
 /// Nodes that the vehicle could begin its route at: the ends of its own leg; off the routes the nearest nodes
 /// that no drawn wall hides.
-std::vector<std::size_t> first_nodes(const CycleConfig& config, const Point2<Map>& here,
+std::vector<std::size_t> first_nodes(const SiteInBuilding& site, const Point2<Map>& here,
                                      const planning::BlockedLegs& blocked) {
-  const auto own = ends_of_own_legs(config, here, blocked);
+  const auto own = ends_of_own_legs(site.routes(), here, blocked);
   if (!own.empty()) return {own.begin(), own.end()};
-  const auto& nodes = config.routes.nodes();
+  const auto& nodes = site.routes().nodes();
   std::vector<std::size_t> order(nodes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -48,7 +48,7 @@ std::vector<std::size_t> first_nodes(const CycleConfig& config, const Point2<Map
   });
   std::vector<std::size_t> seen;
   for (const std::size_t node : order) {
-    if (crosses_wall(*config.walls, {here, nodes[node].position})) continue;
+    if (crosses_wall(*site.walls(), {here, nodes[node].position})) continue;
     seen.push_back(node);
     if (seen.size() == kCandidates) break;
   }
@@ -61,14 +61,15 @@ planning::BlockedLegs both_ways(planning::BlockedLegs blocked) {
 }
 
 /// The route to `goal` with the least way in all, the way to its first node counted.
-std::optional<planning::Route> best_route(const CycleConfig& config, const Point2<Map>& here,
-                                          std::size_t goal, const planning::BlockedLegs& blocked) {
+std::optional<planning::Route> best_route(const SiteInBuilding& site, planning::RouteMetric metric,
+                                          const Point2<Map>& here, std::size_t goal,
+                                          const planning::BlockedLegs& blocked) {
   std::optional<planning::Route> best;
   double best_m = std::numeric_limits<double>::infinity();
-  for (const std::size_t first : first_nodes(config, here, blocked)) {
-    auto route = planning::find_route(config.routes, first, goal, config.metric, both_ways(blocked));
+  for (const std::size_t first : first_nodes(site, here, blocked)) {
+    auto route = planning::find_route(site.routes(), first, goal, metric, both_ways(blocked));
     if (!route) continue;
-    const double whole_m = route.value().length_m + distance_m(config.routes.nodes()[first].position, here);
+    const double whole_m = route.value().length_m + distance_m(site.routes().nodes()[first].position, here);
     if (whole_m >= best_m) continue;
     best_m = whole_m;
     best = std::move(route).value();
@@ -77,14 +78,15 @@ std::optional<planning::Route> best_route(const CycleConfig& config, const Point
 }
 
 /// The path from the vehicle over a route; a single point where it stands at the goal already.
-Path path_over(const CycleConfig& config, const planning::Route& route, const Transform2<Map, Base>& pose) {
+Path path_over(const CycleState& state, const planning::Route& route, const CycleConfig& config) {
+  const Transform2<Map, Base>& pose = state.pose.map_from_base;
   const Point2<Map> here = pose.translation();
-  auto way = way_corners(config.routes, route);
+  auto way = way_corners(state.site->routes(), route);
   if (way.size() == 1 || distance_m(way.front().position, here) > kAtNodeM)
     way.insert(way.begin(), {here, way.front().speed_limit_mps});
   else
     way.front().position = here;
-  const auto& goal = config.routes.nodes()[route.nodes.back()];
+  const auto& goal = state.site->routes().nodes()[route.nodes.back()];
   const bool there =
       way.size() == 2 && distance_m(here, goal.position) < config.pursuit.goal_tolerance_m * 3.0;
   auto path =
@@ -98,17 +100,17 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
   way.arrived = way.reported = false;
   way.path = {};
   way.plain = {};
-  const auto goal = config.routes.index_of(way.stop.node);
+  const auto goal = state.site->routes().index_of(way.stop.node);
   if (!goal) {
     way.no_way = notice(Cause::UnknownNode, {{"node", std::to_string(way.stop.node)}});
     output.order_refused = {way.target->order, way.no_way.text};
     return;
   }
   const Point2<Map> here = state.pose.map_from_base.translation();
-  auto route = best_route(config, here, *goal, blocked_now(way, input.now, config.forget_block_s));
+  auto route = best_route(*state.site, config.metric, here, *goal, blocked_now(way, input.now, config.forget_block_s));
   if (!route) {
     way.blocked_legs.clear();  // every way is blocked: the vehicle goes to see whether it still is
-    route = best_route(config, here, *goal, {});
+    route = best_route(*state.site, config.metric, here, *goal, {});
   }
   if (!route) {
     way.no_way = notice(Cause::NoWay, {{"node", std::to_string(way.stop.node)}});
@@ -118,16 +120,17 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
   way.nodes = route->nodes;
   way.detour_failed.clear();
   way.blocked_since.reset();
-  take_path(way, path_over(config, *route, state.pose.map_from_base), config);
+  take_path(way, path_over(state, *route, config), config);
 }
 
 /// A way around with a turn on the spot at its end where the goal has a heading: no curve ends in it exactly.
-Path ending_as_asked(Path path, const Navigation& way, const CycleConfig& config) {
-  const auto goal = config.routes.index_of(way.stop.node);
-  if (!goal || !config.routes.nodes()[*goal].heading_rad) return path;
+Path ending_as_asked(Path path, const CycleState& state) {
+  const auto& routes = state.site->routes();
+  const auto goal = routes.index_of(state.way.stop.node);
+  if (!goal || !routes.nodes()[*goal].heading_rad) return path;
   const auto& points = path.points;
   const bool turns = points.size() > 1 && points.back().position == points[points.size() - 2].position;
-  if (!turns) planning::end_in(path, *config.routes.nodes()[*goal].heading_rad);
+  if (!turns) planning::end_in(path, *routes.nodes()[*goal].heading_rad);
   return path;
 }
 
@@ -138,13 +141,13 @@ Point2<Map> place_of_block(const CycleState& state) {
 }
 
 /// The leg of the route that is nearest to what blocks it.
-std::optional<std::pair<std::size_t, std::size_t>> blocked_leg(const CycleConfig& config,
-                                                               const Navigation& way,
+std::optional<std::pair<std::size_t, std::size_t>> blocked_leg(const CycleState& state,
                                                                const Point2<Map>& block) {
+  const Navigation& way = state.way;
   std::optional<std::pair<std::size_t, std::size_t>> leg;
   double nearest_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
-    const auto& nodes = config.routes.nodes();
+    const auto& nodes = state.site->routes().nodes();
     const Segment2<Map> piece{nodes[way.nodes[i]].position, nodes[way.nodes[i + 1]].position};
     const double away_m = distance_m(piece, block);
     if (away_m >= nearest_m) continue;
@@ -159,15 +162,16 @@ void try_another_route(CycleState& state, const CycleInput& input, const CycleCo
                        CycleOutput& output) {
   Navigation& way = state.way;
   way.blocked_since = input.now;  // the next try is as far away
-  const auto leg = blocked_leg(config, way, place_of_block(state));
-  const auto goal = config.routes.index_of(way.stop.node);
+  const auto leg = blocked_leg(state, place_of_block(state));
+  const auto& routes = state.site->routes();
+  const auto goal = routes.index_of(way.stop.node);
   if (!leg || !goal) return;
   auto blocked = blocked_now(way, input.now, config.forget_block_s);
   blocked.insert(*leg);
-  if (!best_route(config, state.pose.map_from_base.translation(), *goal, blocked)) return;
+  if (!best_route(*state.site, config.metric, state.pose.map_from_base.translation(), *goal, blocked)) return;
   way.blocked_legs.emplace_back(*leg, input.now);
-  output.events.push_back("the leg from node " + std::to_string(config.routes.nodes()[leg->first].id) +
-                          " to node " + std::to_string(config.routes.nodes()[leg->second].id) +
+  output.events.push_back("the leg from node " + std::to_string(routes.nodes()[leg->first].id) +
+                          " to node " + std::to_string(routes.nodes()[leg->second].id) +
                           " is blocked: taking another route");
   way.back_outs = 0;  // the other route may need room that this one did not
   plan(state, input, config, output);
@@ -200,16 +204,18 @@ planning::BlockedLegs blocked_now(const Navigation& way, Stamp now, double forge
   return blocked;
 }
 
-bool is_at_door(const CycleConfig& config, const Point2<Map>& place) {
-  return std::any_of(config.routes.nodes().begin(), config.routes.nodes().end(), [&](const auto& node) {
+bool is_at_door(const CycleState& state, const Point2<Map>& place, const CycleConfig& config) {
+  const auto& nodes = state.site->routes().nodes();
+  return std::any_of(nodes.begin(), nodes.end(), [&](const auto& node) {
     return (node.action == planning::NodeAction::Door || node.action == planning::NodeAction::Lift) &&
            distance_m(node.position, place) < config.door_zone_m;
   });
 }
 
-bool waits_for_door(const Navigation& way, const CycleConfig& config) {
+bool waits_for_door(const CycleState& state, const CycleConfig& config) {
+  const Navigation& way = state.way;
   const bool on_route = !way.rejoin_m;  // beside it, what stands there is the wall beside the door
-  return on_route && way.check.blocked() && !way.unseen && is_at_door(config, way.check.where);
+  return on_route && way.check.blocked() && !way.unseen && is_at_door(state, way.check.where, config);
 }
 
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
@@ -238,13 +244,13 @@ void navigate(CycleState& state, const CycleInput& input, const CycleConfig& con
     way.detour_failed = input.detour->path ? "" : input.detour->reason;
     if (input.detour->path) {
       const std::size_t rejoin = std::min(input.detour->rejoin, input.detour->path->points.size() - 1);
-      take_path(way, ending_as_asked(*input.detour->path, way, config), config);
+      take_path(way, ending_as_asked(*input.detour->path, state), config);
       way.rejoin_m = way.path.along_m(rejoin);
     }
   }
   if (sure) back_out(state, input, config, output);
   const double patience_s =
-      waits_for_door(way, config) ? config.door_reroute_after_s : config.reroute_after_s;
+      waits_for_door(state, config) ? config.door_reroute_after_s : config.reroute_after_s;
   const bool stuck = state.mode == Mode::Waiting && way.blocked_since && !way.arrived &&
                      to_seconds(input.now - *way.blocked_since) > patience_s;
   if (sure && stuck) try_another_route(state, input, config, output);

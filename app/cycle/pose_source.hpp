@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/odometry.hpp"
@@ -7,9 +8,15 @@
 #include "core/pose_estimate.hpp"
 #include "core/pose_hypothesis.hpp"
 
+namespace madori::localization {
+struct BentDrawing;
+}
+
 namespace madori::app {
 
-/// What the cycle asks of localization. Deterministic: the same calls give the same poses bit for bit.
+/// What the cycle asks of localization. Estimates are the building's metres, laid rigidly on the drawing; what
+/// a person says and reads are places on the drawing. Deterministic: the same calls give the same poses bit
+/// for bit.
 class PoseSource {
  public:
   PoseSource() = default;
@@ -30,6 +37,8 @@ class PoseSource {
   /// Where the vehicle may be at the newest reading of the wheels, likeliest first; empty before a
   /// revolution.
   [[nodiscard]] virtual std::vector<PoseHypothesis> hypotheses() const = 0;
+  /// How the drawing is believed to lie in the building; null: as drawn.
+  [[nodiscard]] virtual std::shared_ptr<const localization::BentDrawing> bent() const { return nullptr; }
 };
 
 }  // namespace madori::app

@@ -44,10 +44,10 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
 [[nodiscard]] bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s);
 [[nodiscard]] bool may_drive(LocalizationState state);
 /// Whether the place lies at a door or a lift, where the vehicle waits instead of driving around.
-[[nodiscard]] bool is_at_door(const CycleConfig& config, const Point2<Map>& place);
+[[nodiscard]] bool is_at_door(const CycleState& state, const Point2<Map>& place, const CycleConfig& config);
 /// Whether a door or lift may be what blocks the way. What is remembered only, low and too near to be seen,
 /// is none.
-[[nodiscard]] bool waits_for_door(const Navigation& way, const CycleConfig& config);
+[[nodiscard]] bool waits_for_door(const CycleState& state, const CycleConfig& config);
 /// The legs that count as blocked now, in the direction in which the vehicle met what blocks them.
 [[nodiscard]] planning::BlockedLegs blocked_now(const Navigation& way, Stamp now, double forget_s);
 

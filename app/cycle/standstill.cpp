@@ -54,7 +54,7 @@ Standstill why_waiting(const CycleState& state, const CycleInput& input, const C
   if (!way.no_way.empty()) return {way.no_way, notice(Remedy::ClearOrDraw), now};
   if (way.felt) return because(Cause::HeldBack, Remedy::LookAndResume, now);
   if (!way.turn_free) return because(Cause::NoRoomToTurn, Remedy::ClearAround, now);
-  if (waits_for_door(way, config)) return because(Cause::DoorNotOpen, Remedy::OnceOpen, now);
+  if (waits_for_door(state, config)) return because(Cause::DoorNotOpen, Remedy::OnceOpen, now);
   if (way.check.blocked() && way.check.by_wall) return because(Cause::WallInTheWay, Remedy::MoveRoute, now);
   if (way.unseen) return because(Cause::UnseenInTheWay, Remedy::LookAndResume, now);
   if (way.detour_failed.empty()) return because(Cause::SomethingInTheWay, Remedy::OnceClear, now);

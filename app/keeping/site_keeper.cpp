@@ -57,8 +57,8 @@ void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
   pose_known_ = true;
   pose_kept_ = now;
   kept_wheels_ = wheels;
-  const StoredPose pose{time_of_day(now), state.pose.map_from_base, state.pose.covariance, wheels,
-                        fingerprint_};
+  const StoredPose pose{time_of_day(now), state.site->on_drawing(state.pose.map_from_base),
+                        state.pose.covariance, wheels, fingerprint_};
   jobs_.put("pose", [file, pose] { mapping::write_file_atomically(file, stored_pose_yaml(pose)); });
 }
 

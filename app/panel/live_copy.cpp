@@ -82,13 +82,15 @@ void LiveCopy::show(const CycleInput& input, const CycleState& state, const Tran
   const std::scoped_lock lock(mutex_);
   mode_ = state.mode;
   count_revolutions(input);
-  take_scan(input, run.config().lidar, run.config().lidar_yaw_rad, state.pose.map_from_base);
+  take_scan(input, run.config().lidar, run.config().lidar_yaw_rad,
+            state.site->on_drawing(state.pose.map_from_base));
   if (!due(input.now)) return;
   enter(to_string(state.mode), input.now);
   live_.drivable = true;
   live_.cause = shown(state.standstill.cause);
   live_.remedy = shown(state.standstill.remedy);
   live_.pose = state.pose;
+  live_.pose.map_from_base = state.site->on_drawing(state.pose.map_from_base);
   live_.pose.stamp = input.now;  // the panel shows ages by the clock of the steps
   live_.velocity = run.view().command;
   live_.emergency_stop = state.mode == Mode::EmergencyStop;
@@ -98,9 +100,9 @@ void LiveCopy::show(const CycleInput& input, const CycleState& state, const Tran
   live_.goal =
       state.way.target ? node_name(run.config().routes, state.way.stop.node).value_or("") : std::string();
   live_.path.clear();
-  for (const auto& point : state.way.plain.points) live_.path.push_back(point.position);
+  for (const auto& point : state.way.plain.points) live_.path.push_back(state.site->on_drawing(point.position));
   live_.blocked.clear();
-  if (state.way.blocked_since) live_.blocked.push_back(state.way.check.where);
+  if (state.way.blocked_since) live_.blocked.push_back(state.site->on_drawing(state.way.check.where));
   take_devices(input.now, state.lidar_heard, state.drive_heard, run.view().device_problem);
   take_places(state, input.now);
 }

@@ -40,6 +40,9 @@ class LocalizerPose final : public PoseSource {
   }
   void search_anew() override { localizer_.search_anew(); }
   [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return localizer_.hypotheses(); }
+  [[nodiscard]] std::shared_ptr<const localization::BentDrawing> bent() const override {
+    return localizer_.bent();
+  }
 
  private:
   LocalizerPoseOptions options_;

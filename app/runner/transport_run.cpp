@@ -24,7 +24,7 @@ TransportRun::TransportRun(CycleConfig config, std::unique_ptr<PoseSource> sourc
   if (options_.detours_in_step)
     detour_options_.free_space.max_checks = kDetourChecks;
   else
-    planner_ = std::make_unique<planning::DetourPlanner>(config_.walls, config_.check, detour_options_);
+    planner_ = std::make_unique<planning::DetourPlanner>(config_.check, detour_options_);
 }
 
 void TransportRun::say(const OperatorCommand& command) {
@@ -78,7 +78,7 @@ void TransportRun::ask_detour(const planning::DetourRequest& request) {
   if (planner_)
     planner_->submit(request);
   else
-    answer_ = planning::plan_detour(request, *config_.walls, config_.check, detour_options_);
+    answer_ = planning::plan_detour(request, config_.check, detour_options_);
 }
 
 void TransportRun::carry_out(const CycleOutput& output, Stamp moment) {

@@ -59,7 +59,7 @@ void DrawingFit::learn(const MemoryCloud& cloud) {
       squares += share * hit.distance_m * hit.distance_m;
       count += share;
     });
-    model_.sigma_m = std::clamp(std::sqrt(squares / (kPriorCount + count)), 0.02, 0.5);
+    model_.sigma_m = std::clamp(std::sqrt(squares / (kPriorCount + count)), kLeastSigmaM, 0.5);
     model_.inliers = std::clamp((count + 0.5 * kPriorCount) / all, 0.05, 0.98);
   }
 }
@@ -71,12 +71,11 @@ std::vector<UnaryFactor> DrawingFit::pulls(const MemoryCloud& cloud,
     factors[i].node = static_cast<int>(i);
     factors[i].at = poses[i];
   }
-  const double sigma = model_.sigma_m;
-  const WallMixture mixture(model_, sigma);
   for_each_hit(*index_, cloud, {}, [&](const CloudSurface& p, const auto& q, const auto& hit) {
     UnaryFactor& f = factors[static_cast<std::size_t>(p.keyframe)];
-    const double information =
-        p.weight * kShareOfObservation * mixture.is_wall(hit.distance_m) / (sigma * sigma);
+    const double sigma = sigma_of(hit);
+    const double information = p.weight * kShareOfObservation *
+                               WallMixture(model_, sigma).is_wall(hit.distance_m) / (sigma * sigma);
     const Eigen::Vector3d j = jacobian(hit, q, f.at.translation());
     f.hessian += information * j * j.transpose();
     f.gradient += information * hit.distance_m * j;

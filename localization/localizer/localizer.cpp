@@ -33,7 +33,11 @@ Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPos
 void Localizer::begin_anew(const std::optional<StartPrior>& told) {
   worker_.discard();
   map_.memory = Memory(options_.memory);
-  if (map_.drawing) map_.drawing->belief.forget();
+  if (map_.drawing) {
+    map_.drawing->belief.forget();
+    const bool was_sure = map_.evidence.here >= options_.health.localized;
+    if (started_ && !was_sure) map_.drawing->walls.straighten();  // what it was bent to may lie elsewhere
+  }
   map_.evidence = {};
   map_.evidence.has_drawing = map_.drawing.has_value();
   map_.told = told;
@@ -51,7 +55,8 @@ void Localizer::begin_anew(const std::optional<StartPrior>& told) {
 }
 
 void Localizer::set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) {
-  begin_anew(StartPrior{map_from_base, sigma.position_m, sigma.yaw_rad});
+  begin_anew(StartPrior{map_.drawing ? map_.drawing->walls.in_building(map_from_base) : map_from_base,
+                        sigma.position_m, sigma.yaw_rad});
 }
 
 void Localizer::search_anew() {
@@ -63,7 +68,8 @@ std::vector<PoseHypothesis> Localizer::hypotheses() const {
   if (!map_.drawing) return all;
   const Transform2<Map, Base> here = anchor_ * since_scan_.motion;
   for (const Placement& p : map_.drawing->belief.placements())
-    if (!p.mirrored) all.push_back({p.correction * here, p.probability, p.explained});
+    if (!p.mirrored)
+      all.push_back({map_.drawing->walls.on_drawing(p.correction * here), p.probability, p.explained});
   return all;
 }
 

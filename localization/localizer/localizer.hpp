@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -20,7 +21,7 @@
 
 namespace madori::localization {
 
-/// Odometry, scans and the drawing become map_from_base: the one localizer, for logs and for driving, for 2D
+/// Odometry, scans and the drawing become map_from_base, the building's metres laid rigidly on the drawing: the one localizer, for logs and for driving, for 2D
 /// scans and for the wall points of a 3D lidar. Deterministic: the same readings in the same order give the
 /// same poses bit for bit, though the map is worked on in a thread beside. Causal: an estimate uses what was
 /// handed in before it.
@@ -30,12 +31,12 @@ class Localizer {
   Localizer(const mapping::Walls& walls, const std::optional<InitialPose>& initial,
             const LocalizerOptions& options = {});
 
-  /// A person says that the vehicle stands there at the newest reading, so exactly: what is seen from here on
+  /// A person says that the vehicle stands there on the drawing at the newest reading, so exactly: what is seen from here on
   /// is laid there, and weighed against it.
   void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma);
   /// Forgets the place: it is sought on the whole drawing from what is seen from here on.
   void search_anew();
-  /// Where the vehicle may be at the newest reading, likeliest first.
+  /// Where the vehicle may be on the drawing at the newest reading, likeliest first.
   [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const;
 
   /// Before the first scan: what an earlier drive remembered of this drawing. It is used where the first scan
@@ -47,6 +48,15 @@ class Localizer {
   PoseEstimate on_odometry(const OdometryReading& reading);
   /// The pose at the scan. `points` are Base frame, `sensor` is where the lidar sits.
   PoseEstimate on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor = {});
+
+  /// How the drawing lies in the building, in which the poses are; null: as drawn.
+  [[nodiscard]] std::shared_ptr<const BentDrawing> bent() const {
+    return map_.drawing ? map_.drawing->walls.bent() : nullptr;
+  }
+  /// Before the first scan: what an earlier drive learned of how the drawing lies in the building.
+  void take_warp(const WarpFit& fit) {
+    if (map_.drawing && !started_) map_.drawing->walls.take(fit);
+  }
 
   [[nodiscard]] const Memory& memory() const { return map_.memory; }
   /// At the end of a log: the memory after a last thorough look at all of it. Waits for it.

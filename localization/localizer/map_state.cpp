@@ -35,7 +35,7 @@ bool MapState::drawing_fits(const LocalizerOptions& options) const {
 }
 
 bool MapState::drawing_is_exact(const LocalizerOptions& options) const {
-  return drawing && drawing->fit.model().sigma_m < options.exact_drawing_m;
+  return drawing && drawing->walls.drawn().model().sigma_m < options.exact_drawing_m;
 }
 
 void MapState::move(const Transform2<Map, Map>& by) {
@@ -60,7 +60,7 @@ void MapState::place(const LocalizerOptions& options) {
 void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options) {
   const bool unsure = !placed || evidence.here < options.health.localized;
   const bool everywhere = !evidence.looked || evidence.walls_seen > next_survey_walls;
-  drawing->belief.weigh(drawing->fit, memory, cloud, told, memory.poses().back(), everywhere);
+  drawing->belief.weigh(drawing->walls.drawn(), memory, cloud, told, memory.poses().back(), everywhere);
   if (everywhere) {
     evidence.looked = true;
     next_survey_walls = evidence.walls_seen * (unsure ? options.survey_growth_unsure : options.survey_growth);
@@ -70,16 +70,18 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   const double here = drawing->belief.probability_here(memory.poses().back());
   const bool clear = best->probability > options.health.believed;
   const bool leaves = placed && clear && here < options.health.believed;
-  if (leaves) unconfirmed_size = memory.size();  // a place that was wrong once is believed when more agrees
+  if (leaves) {
+    unconfirmed_size = memory.size();  // a place that was wrong once is believed when more agrees
+    drawing->walls.straighten();
+  }
   if (!placed || leaves) move(best->correction);
   placed = placed || clear || told.has_value();
 }
 
 /// The memory as a whole settles on the drawing, and the drawing pulls on its keyframes.
 void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options) {
-  DrawingFit& fit = drawing->fit;
   cloud = memory_cloud(memory);
-  const Alignment found = fit.align(cloud, {options.settle_half_m, options.settle_half_rad});
+  const Alignment found = drawing->walls.standing().align(cloud, {options.settle_half_m, options.settle_half_rad});
   const Transform2<Map, Base>& first = memory.poses().front();
   const double area_m2 = drawing->belief.area_m2();
   const double told_so =
@@ -88,7 +90,10 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
     move(found.correction);
     cloud = memory_cloud(memory);
   }
-  fit.learn(cloud);
+  drawing->walls.learn(cloud);
+  if (drawing->belief.probability_here(memory.poses().back()) > options.health.localized)
+    drawing->walls.bend(cloud);
+  const DrawingFit& fit = drawing->walls.standing();
   evidence.inliers = fit.model().inliers;
   evidence.sigma_m = fit.model().sigma_m;
   evidence.nats_a_wall =
@@ -111,14 +116,14 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
 AlignmentWindow MapState::drift_window(const MemoryCloud& recent, std::size_t first,
                                        const LocalizerOptions& options) const {
   const double walls = DrawingFit::walls_seen(recent);
-  const double nats = drawing->fit.likelihood(recent, {}, std::max(0.1, drawing->fit.model().sigma_m));
+  const DrawingFit& fit = drawing->walls.standing();
+  const double nats = fit.likelihood(recent, {}, std::max(0.1, fit.model().sigma_m));
   const double usual = evidence.nats_a_wall;
   if (walls > options.drift_walls && nats < options.drift_share * usual * walls &&
       memory.weakest_agreement(first) < options.drift_agreement) {
     return {options.drift_half_m, options.drift_half_rad, 250};
   }
-  return drawing->fit.model().sigma_m > options.exact_drawing_m ? AlignmentWindow{0.0, 0.0}
-                                                                : AlignmentWindow{0.8, 0.09};
+  return drawing_is_exact(options) ? AlignmentWindow{0.8, 0.09} : AlignmentWindow{0.0, 0.0};
 }
 
 /// A stretch that lies beside the drawing, where it fits much better another way, has drifted: it is laid on
@@ -134,14 +139,13 @@ bool MapState::correct_recent_drift(const LocalizerOptions& options) {
   if (window.half_m <= 0.0) {
     return false;
   }
-  const Alignment found = drawing->fit.align(recent, window);
+  const Alignment found = drawing->walls.standing().align(recent, window);
   const Point2<Map> here = memory.poses().back().translation();
   const double metres = distance_m(found.correction * here, here);
   const double turns = std::abs(found.correction.yaw_rad());
   const double far = 0.75 * std::log1p(16.0 * metres * metres + 400.0 * turns * turns);
-  const bool exact =
-      drawing->fit.model().sigma_m < options.exact_drawing_m && window.half_m < options.drift_half_m;
-  const bool clear = exact ? metres > 3.0 * drawing->fit.model().sigma_m
+  const bool exact = drawing_is_exact(options) && window.half_m < options.drift_half_m;
+  const bool clear = exact ? metres > 3.0 * drawing->walls.drawn().model().sigma_m
                            : metres > options.drift_least_m || turns > options.drift_least_rad;
   const double against = std::max(0.0, memory.loops_against(found.correction, first));
   if (!clear || found.gain < 2.0 * options.move_gain + far + against) {

@@ -3,17 +3,17 @@
 #include <cstddef>
 #include <optional>
 
-#include "localization/drawing_fit/drawing_fit.hpp"
 #include "localization/localizer/options.hpp"
 #include "localization/placement/placement.hpp"
+#include "localization/warp/bent_drawing.hpp"
 
 namespace madori::localization {
 
 /// A drawing, and what is known of how the memory lies on it.
 struct OnDrawing {
-  explicit OnDrawing(const mapping::Walls& walls) : fit(walls), belief(walls) {}
+  explicit OnDrawing(const mapping::Walls& drawn) : walls(drawn), belief(drawn) {}
 
-  DrawingFit fit;
+  BendingDrawing walls;
   PlaceBelief belief;
 };
 

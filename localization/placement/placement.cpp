@@ -115,78 +115,93 @@ PlaceBelief::PlaceBelief(const mapping::Walls& walls)
   area_m2_ = frame.width * frame.cell_m * (frame.height * frame.cell_m);
 }
 
-void PlaceBelief::judge(const DrawingFit& fit, const MemoryCloud& cloud, const FreeWays& ways,
-                        const Transform2<Map, Base>& at, const std::optional<StartPrior>& prior,
+/// What is remembered, or its mirror image.
+struct PlaceBelief::Seen {
+  MemoryCloud cloud;
+  WallPieces pieces;
+  FreeWays ways;
+  Transform2<Map, Base> at;
+};
+
+void PlaceBelief::judge(const DrawingFit& fit, const Seen& seen, const std::optional<StartPrior>& prior,
                         Placement& placement) const {
   std::array<double, kDrawingSigmasM.size()> nats{};
   const DrawingModel plain;
   for (std::size_t i = 0; i < nats.size(); ++i)
-    nats[i] =
-        log_likelihood(fit.index(), cloud, placement.correction, WallMixture(plain, kDrawingSigmasM[i]));
+    nats[i] = log_likelihood(fit.index(), seen.cloud, placement.correction,
+                             WallMixture(plain, kDrawingSigmasM[i]));
   const auto best = static_cast<std::size_t>(std::max_element(nats.begin(), nats.end()) - nats.begin());
   const double sigma = kDrawingSigmasM[best];
   const WallMixture mixture(plain, sigma);
-  placement.explained = share_explained(fit.index(), cloud, placement.correction, mixture);
-  Eigen::Matrix3d hold = hold_of(fit.index(), cloud, placement.correction,
-                                 placement.correction * at.translation(), mixture, sigma);
+  placement.explained = share_explained(fit.index(), seen.cloud, placement.correction, mixture);
+  Eigen::Matrix3d hold = hold_of(fit.index(), seen.cloud, placement.correction,
+                                 placement.correction * seen.at.translation(), mixture, sigma);
   hold.diagonal() += Eigen::Vector3d(1.0 / area_m2_, 1.0 / area_m2_, 0.1);  // the drawing is finite
   if (prior)
     hold.diagonal() +=
         Eigen::Vector3d(1.0 / (prior->sigma_m * prior->sigma_m), 1.0 / (prior->sigma_m * prior->sigma_m),
                         1.0 / (prior->sigma_rad * prior->sigma_rad));
   placement.near = share_near(hold);
-  // The posterior's mass at the peak: a place that fits exactly fits in few poses, and among many places some
-  // fit by chance.
-  placement.nats = kTrust * (log_mean_exp(nats) +
-                             std::log(kMissingWalls) * walls_crossed(ways, placement.correction, *walls_)) -
-                   0.5 * std::log(hold.determinant());
+  placement.votes = votes_at(fit.index(), seen.cloud, seen.pieces, placement.correction, mixture);
+  placement.votes.crossed = walls_crossed(seen.ways, placement.correction, *walls_);
+  placement.nats =
+      log_mean_exp(nats) + std::log(kMissingWalls) * placement.votes.crossed + placement.log_prior;
 }
 
 void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const MemoryCloud& all,
                         const std::optional<StartPrior>& prior, const Transform2<Map, Base>& at,
                         bool everywhere) {
-  const FreeWays ways = free_ways(memory);
-  const MemoryCloud cloud = sampled(all, kSurfaces);
+  Seen seen{sampled(all, kSurfaces), {}, free_ways(memory), at};
+  seen.pieces = wall_pieces(seen.cloud);
+  const Seen mirrored{mirror_image(seen.cloud), seen.pieces, mirror_image(seen.ways), mirror_image(at)};
   std::vector<Placement> found{{}};
   for (const Placement& p : placements_)
     if (p.probability > kForgotten) found.push_back(p);
   if (prior) found.push_back({prior->map_from_base * memory.poses().front().inverse()});
-  const MemoryCloud mirrored_cloud = mirror_image(cloud);
-  const FreeWays mirrored_ways = mirror_image(ways);
-  const Transform2<Map, Base> mirrored_at = mirror_image(at);
   if (everywhere) {
-    for (const auto& correction : survey(fit.index(), cloud, at, kSurveyed)) found.push_back({correction});
-    for (const auto& correction : survey(fit.index(), mirrored_cloud, mirrored_at, kSurveyed / 2)) {
+    for (const auto& correction : survey(fit.index(), seen.cloud, at, kSurveyed))
+      found.push_back({correction});
+    for (const auto& correction : survey(fit.index(), mirrored.cloud, mirrored.at, kSurveyed / 2)) {
       found.push_back({correction});
       found.back().mirrored = true;
     }
   }
   for (Placement& p : found) {
-    const MemoryCloud& seen = p.mirrored ? mirrored_cloud : cloud;
-    p.correction = fit.settle(seen, p.correction).correction;
-    judge(fit, seen, p.mirrored ? mirrored_ways : ways, p.mirrored ? mirrored_at : at,
-          p.mirrored ? std::nullopt : prior, p);
-    const double anywhere = -std::log(2.0 * kPi * area_m2_);
+    const Seen& view = p.mirrored ? mirrored : seen;
+    p.correction = fit.settle(view.cloud, p.correction).correction;
+    p.log_prior = -std::log(2.0 * kPi * area_m2_);
     if (p.mirrored)
-      p.nats += log_mirrored_ + anywhere;
-    else
-      p.nats += prior ? log_prior(*prior, p.correction * memory.poses().front(), area_m2_) : anywhere;
+      p.log_prior += log_mirrored_;
+    else if (prior)
+      p.log_prior = log_prior(*prior, p.correction * memory.poses().front(), area_m2_);
+    judge(fit, view, p.mirrored ? std::nullopt : prior, p);
   }
+  share_out(std::move(found), seen, mirrored);
+}
+
+/// One hypothesis a place; the belief goes by the votes against the one that fits best.
+void PlaceBelief::share_out(std::vector<Placement> found, const Seen& seen, const Seen& mirrored) {
+  const auto place_of = [&](const Placement& p) {
+    return p.correction * (p.mirrored ? mirrored.at : seen.at);
+  };
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.nats > b.nats; });
   placements_.clear();
-  double sum = 0.0;
   for (const Placement& p : found) {
-    const Transform2<Map, Base> place = p.correction * (p.mirrored ? mirrored_at : at);
     const bool known = std::any_of(placements_.begin(), placements_.end(), [&](const Placement& k) {
-      return k.mirrored == p.mirrored &&
-             same_place(place, k.correction * (k.mirrored ? mirrored_at : at), kSameM, kSameRad);
+      return k.mirrored == p.mirrored && same_place(place_of(p), place_of(k), kSameM, kSameRad);
     });
     if (known || placements_.size() == kKept) continue;
     placements_.push_back(p);
-    placements_.back().probability = std::exp(p.nats - found.front().nats);
-    sum += placements_.back().probability;
+  }
+  double sum = 0.0;
+  for (Placement& p : placements_) {
+    const Placement& best = placements_.front();
+    p.probability = std::exp(log_odds(p.votes, best.votes) + p.log_prior - best.log_prior);
+    sum += p.probability;
   }
   for (Placement& p : placements_) p.probability /= sum;
+  std::stable_sort(placements_.begin(), placements_.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
 }
 
 void PlaceBelief::forget() {

@@ -6,6 +6,7 @@
 
 #include "localization/drawing_fit/drawing_fit.hpp"
 #include "localization/placement/free_ways.hpp"
+#include "localization/placement/votes.hpp"
 
 namespace madori::localization {
 
@@ -23,7 +24,9 @@ struct StartPrior {
 /// One way in which the memory may lie on the drawing.
 struct Placement {
   Transform2<Map, Map> correction;  ///< of the memory's poses
-  double nats = 0.0;                ///< log posterior, over clutter everywhere
+  double nats = 0.0;                ///< log likelihood and prior as if every wall spoke for itself
+  double log_prior = 0.0;
+  Votes votes{};
   double probability = 0.0;         ///< among all that are known
   double explained = 0.0;           ///< share of what is remembered that lies on drawn walls there
   double near = 1.0;                ///< of this probability, the share within 0.5 m and 10 degrees of it
@@ -61,9 +64,10 @@ class PlaceBelief {
   [[nodiscard]] double probability_mirrored() const;
 
  private:
-  void judge(const DrawingFit& fit, const MemoryCloud& cloud, const FreeWays& ways,
-             const Transform2<Map, Base>& at, const std::optional<StartPrior>& prior,
+  struct Seen;
+  void judge(const DrawingFit& fit, const Seen& seen, const std::optional<StartPrior>& prior,
              Placement& placement) const;
+  void share_out(std::vector<Placement> found, const Seen& seen, const Seen& mirrored);
 
   std::shared_ptr<const mapping::DistanceField> walls_;
   double area_m2_ = 1.0;  ///< of the drawing

@@ -36,8 +36,9 @@ CheckOptions with_room(CheckOptions check, double room_m) {
   return check;
 }
 
-DetourAnswer plan_within(const DetourRequest& request, const WallGrid& walls, const CheckOptions& check,
+DetourAnswer plan_within(const DetourRequest& request, const CheckOptions& check,
                          const DetourOptions& options) {
+  const WallGrid& walls = *request.walls;
   DetourAnswer answer{request.id, std::nullopt, 0, ""};
   auto side = request.turn_free ? side_detour(request.path, request.from, request.check, request.obstacles,
                                               walls, check, options.side)
@@ -73,15 +74,15 @@ DetourAnswer plan_within(const DetourRequest& request, const WallGrid& walls, co
 
 }  // namespace
 
-DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls, const CheckOptions& ordinary,
+DetourAnswer plan_detour(const DetourRequest& request, const CheckOptions& ordinary,
                          const DetourOptions& options) {
   const CheckOptions check = with_margins(ordinary, request.squeeze);
-  DetourAnswer answer = plan_within(request, walls, with_room(check, options.room_m), options);
-  return answer.path ? answer : plan_within(request, walls, check, options);
+  DetourAnswer answer = plan_within(request, with_room(check, options.room_m), options);
+  return answer.path ? answer : plan_within(request, check, options);
 }
 
-DetourPlanner::DetourPlanner(std::shared_ptr<const WallGrid> walls, CheckOptions check, DetourOptions options)
-    : walls_(std::move(walls)), check_(check), options_(options), thread_([this] { run(); }) {}
+DetourPlanner::DetourPlanner(CheckOptions check, DetourOptions options)
+    : check_(check), options_(options), thread_([this] { run(); }) {}
 
 DetourPlanner::~DetourPlanner() {
   {
@@ -112,7 +113,7 @@ void DetourPlanner::run() {
     if (stop_) return;
     const DetourRequest request = *std::exchange(request_, std::nullopt);
     lock.unlock();
-    DetourAnswer answer = plan_detour(request, *walls_, check_, options_);
+    DetourAnswer answer = plan_detour(request, check_, options_);
     lock.lock();
     answer_ = std::move(answer);
   }

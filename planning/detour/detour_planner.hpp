@@ -23,6 +23,7 @@ struct DetourRequest {
   std::vector<Point2<Map>> obstacles;
   Squeeze squeeze{};      ///< where the vehicle has come to stand too near to something
   bool turn_free = true;  ///< else the way begins as the vehicle stands: through the free space
+  std::shared_ptr<const WallGrid> walls = std::make_shared<const WallGrid>();
 };
 
 struct DetourAnswer {
@@ -40,13 +41,13 @@ struct DetourOptions {
 
 /// First beside the route, then through the free space, with more room than the margins where there is.
 /// Always ends: the search is bounded.
-[[nodiscard]] DetourAnswer plan_detour(const DetourRequest& request, const WallGrid& walls,
-                                       const CheckOptions& check, const DetourOptions& options);
+[[nodiscard]] DetourAnswer plan_detour(const DetourRequest& request, const CheckOptions& check,
+                                       const DetourOptions& options);
 
 /// Runs plan_detour() on a thread of its own, one request at a time.
 class DetourPlanner {
  public:
-  DetourPlanner(std::shared_ptr<const WallGrid> walls, CheckOptions check, DetourOptions options);
+  DetourPlanner(CheckOptions check, DetourOptions options);
   ~DetourPlanner();
   DetourPlanner(const DetourPlanner&) = delete;
   DetourPlanner& operator=(const DetourPlanner&) = delete;
@@ -59,7 +60,6 @@ class DetourPlanner {
  private:
   void run();
 
-  std::shared_ptr<const WallGrid> walls_;
   CheckOptions check_;
   DetourOptions options_;
   std::mutex mutex_;

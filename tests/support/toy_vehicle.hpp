@@ -172,7 +172,7 @@ class ToyVehicle {
     if (output.detour_wanted) {
       planning::DetourOptions options;
       options.free_space.max_checks = 50'000;
-      detour_ = planning::plan_detour(*output.detour_wanted, *config.walls, config.check, options);
+      detour_ = planning::plan_detour(*output.detour_wanted, config.check, options);
     }
     if (output.stop_done && ++order->next_stop == order->stops.size()) {
       order->next_stop = 0;

@@ -58,6 +58,7 @@ class BentTrial {
   void tap();
   void watch();
   [[nodiscard]] Transform2<Map, Base> on_drawing(const Transform2<Metric, Base>& truth) const;
+  [[nodiscard]] Transform2<Map, Base> believed_on_drawing() const;
   [[nodiscard]] nlohmann::json figures();
 
   BentTrialOptions options_;
@@ -143,17 +144,24 @@ Transform2<Map, Base> BentTrial::on_drawing(const Transform2<Metric, Base>& trut
   return {at.x_m, at.y_m, std::atan2(ahead.y_m - at.y_m, ahead.x_m - at.x_m)};
 }
 
+Transform2<Map, Base> BentTrial::believed_on_drawing() const {
+  const auto& pose = pose_.map_from_base;
+  const auto bent = localizer_->bent();
+  return bent ? bent->fit.warp.map(Transform2<Building, Base>(pose.x_m(), pose.y_m(), pose.yaw_rad())) : pose;
+}
+
 void BentTrial::watch() {
   const LocalizationState state = pose_.health.state;
   if (!first_place_s_ && state != LocalizationState::Localized && state != LocalizationState::Degraded)
     return;
   if (!first_place_s_) first_place_s_ = time_s_;
   const auto truth = on_drawing(floor_.truth_at(pose_.stamp));
-  const double off_m = distance_m(truth.translation(), pose_.map_from_base.translation());
+  const auto pose = believed_on_drawing();
+  const double off_m = distance_m(truth.translation(), pose.translation());
   time_by_state_s_.add(state, kStepS);
   if (state == LocalizationState::Localized && off_m > kWronglySureM) wrongly_sure_s_ += kStepS;
   if (steps_ % kSampleSteps != 0) return;
-  const double off_deg = to_deg(std::abs(wrap_angle(pose_.map_from_base.yaw_rad() - truth.yaw_rad())));
+  const double off_deg = to_deg(std::abs(wrap_angle(pose.yaw_rad() - truth.yaw_rad())));
   errors_m_.push_back(off_m);
   if (floor_.driven_m() > options_.metres - kEndM) end_errors_m_.push_back(off_m);
   samples_.push_back({time_s_, localizer_->said(), off_m, off_deg, to_string(state)});

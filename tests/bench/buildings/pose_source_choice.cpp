@@ -37,6 +37,9 @@ class ChosenSource final : public app::PoseSource {
   }
   void search_anew() override { localizer_->search_anew(); }
   [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return localizer_->hypotheses(); }
+  [[nodiscard]] std::shared_ptr<const localization::BentDrawing> bent() const override {
+    return localizer_->bent();
+  }
 
  private:
   std::unique_ptr<TrialLocalizer> localizer_;

@@ -49,6 +49,9 @@ class LocalizerTrial final : public TrialLocalizer {
   void search_anew() override { localizer_.search_anew(); }
   [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return localizer_.hypotheses(); }
   [[nodiscard]] double said() const override { return localizer_.evidence().here; }
+  [[nodiscard]] std::shared_ptr<const localization::BentDrawing> bent() const override {
+    return localizer_.bent();
+  }
 
  private:
   localization::Localizer localizer_;

@@ -8,6 +8,7 @@
 #include "core/pose_estimate.hpp"
 #include "core/pose_hypothesis.hpp"
 #include "localization/scan_points.hpp"
+#include "localization/warp/bent_drawing.hpp"
 #include "mapping/wall_map/wall.hpp"
 
 namespace madori::bench {
@@ -28,6 +29,8 @@ class TrialLocalizer {
   [[nodiscard]] virtual std::vector<PoseHypothesis> hypotheses() const = 0;
   /// How likely its pose is right within 0.5 m and 10 degrees, by its own word, 0..1.
   [[nodiscard]] virtual double said() const = 0;
+  /// How the drawing lies in the building that the poses are of; null: as drawn.
+  [[nodiscard]] virtual std::shared_ptr<const localization::BentDrawing> bent() const { return nullptr; }
 };
 
 /// What --source may name.

@@ -96,7 +96,7 @@ TEST(FreeSpace, FindsAWayAroundALongBarrierAndTheSameOneForASeed) {
   DetourOptions options;
   options.side.furthest_m = 1.0;
   options.free_space.max_checks = 200'000;
-  const auto answer = plan_detour(request_for(path, obstacles, walls), walls, kCheck, options);
+  const auto answer = plan_detour(request_for(path, obstacles, walls), kCheck, options);
   ASSERT_TRUE(answer.path.has_value()) << answer.reason;
   EXPECT_EQ(answer.id, 7U);
   EXPECT_FALSE(check_path(*answer.path, 0, 40.0, obstacles, walls, kCheck).blocked());
@@ -135,10 +135,9 @@ TEST(FreeSpace, AClosedRoomHasNoWayAndTheSearchEnds) {
 TEST(DetourPlanner, AnswersFromItsOwnThread) {
   const Path path = straight(14);
   const auto obstacles = row(6.0, -0.4, 0.4);
-  const auto walls = std::make_shared<const WallGrid>();
-  DetourPlanner planner(walls, kCheck, {});
+  DetourPlanner planner(kCheck, {});
   EXPECT_FALSE(planner.take());
-  planner.submit(request_for(path, obstacles, *walls));
+  planner.submit(request_for(path, obstacles, WallGrid()));
   std::optional<DetourAnswer> answer;
   for (int i = 0; i < 1000 && !answer; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

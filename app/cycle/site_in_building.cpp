@@ -1,0 +1,90 @@
+#include "app/cycle/site_in_building.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/angle.hpp"
+
+namespace madori::app {
+namespace {
+
+/// A route is followed to about so much; what moves less is not planned anew.
+constexpr double kFollowedToM = 0.02;
+
+Transform2<Map, Base> carried_by(const localization::BentDrawing* bent, const Transform2<Map, Base>& pose) {
+  if (bent == nullptr) return pose;
+  const Transform2<Building, Base> at = bent->fit.warp.building(pose);
+  return {at.x_m(), at.y_m(), at.yaw_rad()};
+}
+
+planning::RouteGraph carried_routes(const planning::RouteGraph& drawn,
+                                    const localization::BentDrawing* bent) {
+  std::vector<planning::RouteNode> nodes = drawn.nodes();
+  for (planning::RouteNode& node : nodes) {
+    const auto at = carried_by(bent, {node.position.x_m, node.position.y_m, node.heading_rad.value_or(0.0)});
+    node.position = at.translation();
+    if (node.heading_rad) node.heading_rad = at.yaw_rad();
+  }
+  return {std::move(nodes), drawn.legs()};
+}
+
+}  // namespace
+
+SiteInBuilding SiteInBuilding::carried(std::shared_ptr<const localization::BentDrawing> bent) const {
+  SiteInBuilding other = *this;
+  other.bent_ = std::move(bent);
+  other.routes_ = other.bent_ ? carried_routes(*drawn_, other.bent_.get()) : *drawn_;
+  other.walls_ = drawn_walls_;
+  if (other.bent_) {
+    std::vector<Segment2<Map>> segments;
+    for (const auto& wall : other.bent_->stands.walls) segments.push_back(wall.segment);
+    other.walls_ = std::make_shared<const planning::WallGrid>(std::move(segments));
+  }
+  return other;
+}
+
+bool SiteInBuilding::differs(const std::shared_ptr<const localization::BentDrawing>& bent) const {
+  if (bent == bent_) return false;
+  if (!bent || !bent_ || bent->stands.walls.size() != bent_->stands.walls.size()) return true;
+  const auto& nodes = drawn_->nodes();
+  const bool node_moved = std::any_of(nodes.begin(), nodes.end(), [&](const planning::RouteNode& node) {
+    const Transform2<Map, Base> drawn(node.position.x_m, node.position.y_m, 0.0);
+    return distance_m(carried_by(bent.get(), drawn).translation(),
+                      carried_by(bent_.get(), drawn).translation()) > kFollowedToM;
+  });
+  if (node_moved) return true;
+  const auto& before = bent_->stands.walls;
+  const auto& after = bent->stands.walls;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (distance_m(before[i].segment.a, after[i].segment.a) > kFollowedToM ||
+        distance_m(before[i].segment.b, after[i].segment.b) > kFollowedToM)
+      return true;
+  return false;
+}
+
+Transform2<Map, Base> SiteInBuilding::on_drawing(const Transform2<Map, Base>& in_building) const {
+  if (!bent_) return in_building;
+  return bent_->fit.warp.map(
+      Transform2<Building, Base>(in_building.x_m(), in_building.y_m(), in_building.yaw_rad()));
+}
+
+Point2<Map> SiteInBuilding::on_drawing(const Point2<Map>& in_building) const {
+  return on_drawing(Transform2<Map, Base>(in_building.x_m, in_building.y_m, 0.0)).translation();
+}
+
+Transform2<Map, Base> SiteInBuilding::in_building(const Transform2<Map, Base>& on_drawing) const {
+  return carried_by(bent_.get(), on_drawing);
+}
+
+Path SiteInBuilding::carry_to(const SiteInBuilding& other, Path path) const {
+  for (PathPoint& point : path.points) {
+    const Transform2<Map, Base> drawn =
+        on_drawing(Transform2<Map, Base>(point.position.x_m, point.position.y_m, point.heading_rad));
+    const Transform2<Map, Base> there = other.in_building(drawn);
+    point.position = there.translation();
+    point.heading_rad = there.yaw_rad();
+  }
+  return path;
+}
+
+}  // namespace madori::app

@@ -1,0 +1,67 @@
+#include "localization/placement/votes.hpp"
+
+#include <boost/math/special_functions/beta.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "localization/drawing_fit/wall_hits.hpp"
+
+namespace madori::localization {
+namespace {
+
+constexpr double kPieceM = 2.0;
+/// One drawn wall in seven is not there, so that crossing one speaks by ln of it.
+constexpr double kCrossedNats = 1.9;
+
+/// How much likelier than not, -1 to 1: a piece that fits both places alike has no vote.
+double vote(double nats) {
+  return std::tanh(0.5 * nats);
+}
+
+}  // namespace
+
+WallPieces wall_pieces(const MemoryCloud& cloud) {
+  WallPieces pieces;
+  std::unordered_map<std::uint64_t, int> known;
+  for (const CloudSurface& p : cloud) {
+    const auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x_m / kPieceM)));
+    const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.y_m / kPieceM)));
+    const std::uint64_t key = (std::uint64_t{u} << 33U) ^ (std::uint64_t{v} << 2U) ^
+                              static_cast<std::uint64_t>(p.direction / 2);
+    pieces.of_surface.push_back(known.try_emplace(key, static_cast<int>(known.size())).first->second);
+  }
+  pieces.count = known.size();
+  return pieces;
+}
+
+Votes votes_at(const WallIndex& index, const MemoryCloud& cloud, const WallPieces& pieces,
+               const Transform2<Map, Map>& correction, const WallMixture& mixture) {
+  Votes votes;
+  votes.nats.assign(pieces.count, 0.0);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const CloudSurface& p = cloud[i];
+    const Point2<Map> q = correction * Point2<Map>{p.x_m, p.y_m};
+    const WallIndex::Hit hit = index.nearest(q.x_m, q.y_m, turned_direction(p, correction));
+    if (hit.wall >= 0 && hit.beyond_m <= kBeyondM)
+      votes.nats[static_cast<std::size_t>(pieces.of_surface[i])] +=
+          p.weight * kShareOfObservation * std::log1p(mixture.odds(hit.distance_m));
+  }
+  return votes;
+}
+
+double log_odds(const Votes& a, const Votes& b) {
+  double for_a = vote(kCrossedNats) * b.crossed;
+  double for_b = vote(kCrossedNats) * a.crossed;
+  for (std::size_t i = 0; i < std::min(a.nats.size(), b.nats.size()); ++i) {
+    const double v = vote(a.nats[i] - b.nats[i]);
+    (v > 0.0 ? for_a : for_b) += std::abs(v);
+  }
+  const auto log_share = [](double more, double less) {  // of q above a half
+    return std::log(std::max(1e-300, boost::math::ibetac(1.0 + more, 1.0 + less, 0.5)));
+  };
+  return log_share(for_a, for_b) - log_share(for_b, for_a);
+}
+
+}  // namespace madori::localization

@@ -1,0 +1,59 @@
+#include "localization/warp/bent_drawing.hpp"
+
+namespace madori::localization {
+namespace {
+
+/// A fit goes on from the one before, a few keyframes later (docs/explanation/warp.md): by so many walls of
+/// two metres, or by so much of what is known.
+constexpr double kMoreWalls = 4.0;
+constexpr double kGrowth = 1.05;
+
+}  // namespace
+
+Transform2<Map, Base> BendingDrawing::in_building(const Transform2<Map, Base>& on_drawing) const {
+  if (!bent_) return on_drawing;
+  const Transform2<Building, Base> pose = bent_->fit.warp.building(on_drawing);
+  return {pose.x_m(), pose.y_m(), pose.yaw_rad()};
+}
+
+Transform2<Map, Base> BendingDrawing::on_drawing(const Transform2<Map, Base>& in_building) const {
+  if (!bent_) return in_building;
+  return bent_->fit.warp.map(
+      Transform2<Building, Base>(in_building.x_m(), in_building.y_m(), in_building.yaw_rad()));
+}
+
+void BendingDrawing::take(const WarpFit& fit) {
+  start_ = fit.warp;
+  if (fit.warp.is_identity()) {
+    bent_ = nullptr;
+    standing_ = drawn_;
+    return;
+  }
+  BuildingWalls stands = walls_in_building(drawn_.index().walls(), fit);
+  standing_ = DrawingFit(stands.walls, stands.sigma_m, standing_.model());
+  bent_ = std::make_shared<const BentDrawing>(BentDrawing{fit, std::move(stands)});
+}
+
+void BendingDrawing::bend(const MemoryCloud& cloud) {
+  const double walls = DrawingFit::walls_seen(cloud);
+  if (walls < next_walls_) return;
+  next_walls_ = std::max(walls + kMoreWalls, kGrowth * walls);
+  take(fit_warp(drawn_.index(), cloud, start_));
+}
+
+void BendingDrawing::straighten() {
+  start_ = {};
+  next_walls_ = 0.0;
+  bent_ = nullptr;
+  standing_ = drawn_;
+}
+
+void BendingDrawing::learn(const MemoryCloud& cloud) {
+  drawn_.learn(cloud);
+  if (bent_)
+    standing_.learn(cloud);
+  else
+    standing_ = drawn_;
+}
+
+}  // namespace madori::localization

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+
+#include "localization/drawing_fit/drawing_fit.hpp"
+#include "localization/warp/warp_fit.hpp"
+
+namespace madori::localization {
+
+/// The drawing as it is believed to stand. Immutable, shared.
+struct BentDrawing {
+  WarpFit fit;           ///< of the drawn walls
+  BuildingWalls stands;  ///< the walls where they stand, Building metres
+};
+
+/// Learns by and by how the drawing lies in the building, and holds both: the walls as drawn, which say where
+/// the vehicle is, and as they stand, on which the memory is laid. As drawn until the marginal likelihood
+/// says otherwise. A copy is cheap.
+class BendingDrawing {
+ public:
+  explicit BendingDrawing(const mapping::Walls& walls) : drawn_(walls), standing_(drawn_) {}
+
+  [[nodiscard]] const DrawingFit& drawn() const { return drawn_; }
+  [[nodiscard]] const DrawingFit& standing() const { return standing_; }
+  /// Null: as drawn.
+  [[nodiscard]] const std::shared_ptr<const BentDrawing>& bent() const { return bent_; }
+  [[nodiscard]] Transform2<Map, Base> in_building(const Transform2<Map, Base>& on_drawing) const;
+  [[nodiscard]] Transform2<Map, Base> on_drawing(const Transform2<Map, Base>& in_building) const;
+
+  /// What an earlier drive learned.
+  void take(const WarpFit& fit);
+  /// Bends to a memory that lies right, where it has grown enough since the last time. Takes tenths of a
+  /// second.
+  void bend(const MemoryCloud& cloud);
+  /// As drawn again: it was bent to a memory that lay elsewhere.
+  void straighten();
+  /// Of how exactly each of the two describes the memory.
+  void learn(const MemoryCloud& cloud);
+
+ private:
+  DrawingFit drawn_;
+  DrawingFit standing_;
+  std::shared_ptr<const BentDrawing> bent_;
+  DrawingWarp start_;       ///< where the next fit's association begins; the statistics learned
+  double next_walls_ = 0.0;  ///< seen when it bends again
+};
+
+}  // namespace madori::localization
