@@ -2,10 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "localization/drawing_fit/wall_hits.hpp"
 
 namespace madori::localization {
+namespace {
+
+/// How many walls of two metres were seen around a place.
+class Neighbourhoods {
+ public:
+  Neighbourhoods(const MemoryCloud& cloud, double range_m) : range_m_(range_m) {
+    for (const CloudSurface& p : cloud) walls_[cell_of(p)] += p.weight * kShareOfObservation;
+  }
+  [[nodiscard]] double walls_at(const CloudSurface& p) const { return walls_.at(cell_of(p)); }
+
+ private:
+  [[nodiscard]] std::pair<int, int> cell_of(const CloudSurface& p) const {
+    return {static_cast<int>(std::floor(p.x_m / range_m_)), static_cast<int>(std::floor(p.y_m / range_m_))};
+  }
+  double range_m_;
+  std::map<std::pair<int, int>, double> walls_;
+};
+
+}  // namespace
 
 double DrawingFit::likelihood(const MemoryCloud& cloud, const Transform2<Map, Map>& correction,
                               double sigma_m) const {
@@ -65,7 +85,9 @@ void DrawingFit::learn(const MemoryCloud& cloud) {
 }
 
 std::vector<UnaryFactor> DrawingFit::pulls(const MemoryCloud& cloud,
-                                           const std::vector<Transform2<Map, Base>>& poses) const {
+                                           const std::vector<Transform2<Map, Base>>& poses,
+                                           const SharedError& shared) const {
+  const Neighbourhoods around(cloud, shared.range_m);
   std::vector<UnaryFactor> factors(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     factors[i].node = static_cast<int>(i);
@@ -74,8 +96,10 @@ std::vector<UnaryFactor> DrawingFit::pulls(const MemoryCloud& cloud,
   for_each_hit(*index_, cloud, {}, [&](const CloudSurface& p, const auto& q, const auto& hit) {
     UnaryFactor& f = factors[static_cast<std::size_t>(p.keyframe)];
     const double sigma = sigma_of(hit);
-    const double information = p.weight * kShareOfObservation *
-                               WallMixture(model_, sigma).is_wall(hit.distance_m) / (sigma * sigma);
+    const double variance =
+        sigma * sigma + std::max(0.0, around.walls_at(p) - 1.0) * shared.sigma_m * shared.sigma_m;
+    const double information =
+        p.weight * kShareOfObservation * WallMixture(model_, sigma).is_wall(hit.distance_m) / variance;
     const Eigen::Vector3d j = jacobian(hit, q, f.at.translation());
     f.hessian += information * j * j.transpose();
     f.gradient += information * hit.distance_m * j;

@@ -14,6 +14,12 @@
 
 namespace madori::localization {
 
+/// An error that neighbouring walls have in common.
+struct SharedError {
+  double sigma_m = 0.0;
+  double range_m = 15.0;  ///< within which walls share it
+};
+
 /// Fits the memory as a whole to the drawing, and turns the drawing into pulls on the keyframes.
 class DrawingFit {
  public:
@@ -38,9 +44,11 @@ class DrawingFit {
   [[nodiscard]] Alignment settle(const MemoryCloud& cloud, const Transform2<Map, Map>& start) const;
   /// Learns sigma and the share of inliers from a cloud that lies right.
   void learn(const MemoryCloud& cloud);
-  /// The drawing's pulls, one a keyframe, for keyframes at `poses`.
+  /// The drawing's pulls, one a keyframe, for keyframes at `poses`. Where the drawing as a whole lies beside
+  /// the building by `shared` there, all walls err together and tell no more than one of them.
   [[nodiscard]] std::vector<UnaryFactor> pulls(const MemoryCloud& cloud,
-                                               const std::vector<Transform2<Map, Base>>& poses) const;
+                                               const std::vector<Transform2<Map, Base>>& poses,
+                                               const SharedError& shared = {}) const;
 
   /// Share of the scan's surfaces, by length, that lie on drawn walls at `pose`.
   [[nodiscard]] double share_on_walls(const SurfaceScan& scan, const Transform2<Map, Base>& pose) const;

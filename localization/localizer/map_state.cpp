@@ -81,7 +81,7 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
 /// The memory as a whole settles on the drawing, and the drawing pulls on its keyframes.
 void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options) {
   cloud = memory_cloud(memory);
-  const Alignment found = drawing->walls.standing().align(cloud, {options.settle_half_m, options.settle_half_rad});
+  const Alignment found = drawing->walls.drawn().align(cloud, {options.settle_half_m, options.settle_half_rad});
   const Transform2<Map, Base>& first = memory.poses().front();
   const double area_m2 = drawing->belief.area_m2();
   const double told_so =
@@ -91,15 +91,13 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
     cloud = memory_cloud(memory);
   }
   drawing->walls.learn(cloud);
-  if (drawing->belief.probability_here(memory.poses().back()) > options.health.localized)
-    drawing->walls.bend(cloud);
   const DrawingFit& fit = drawing->walls.standing();
   evidence.inliers = fit.model().inliers;
   evidence.sigma_m = fit.model().sigma_m;
   evidence.nats_a_wall =
       fit.likelihood(cloud, {}, std::max(0.1, evidence.sigma_m)) / std::max(1.0, evidence.walls_seen);
   if (correct_recent_drift(options)) cloud = memory_cloud(memory);
-  std::vector<UnaryFactor> unary = fit.pulls(cloud, memory.poses());
+  std::vector<UnaryFactor> unary = drawing->walls.drawn().pulls(cloud, memory.poses(), drawing->walls.shared_error());
   UnaryFactor tie;
   const StartPrior start = told.value_or(StartPrior{memory.poses().front(), options.tie_m, options.tie_rad});
   const double m2 = start.sigma_m * start.sigma_m;
@@ -107,6 +105,9 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
   tie.hessian = Eigen::Vector3d(1.0 / m2, 1.0 / m2, 1.0 / (start.sigma_rad * start.sigma_rad)).asDiagonal();
   unary.push_back(tie);
   memory.optimise(unary);
+  // Only now: what has drifted is pulled back by what was known, before the drawing is bent to it.
+  if (drawing->belief.probability_here(memory.poses().back()) > options.health.localized)
+    drawing->walls.bend(memory_cloud(memory));
 }
 
 /// How far beside its place the newest stretch is sought. What fits the drawing poorly though every scan
@@ -116,7 +117,7 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
 AlignmentWindow MapState::drift_window(const MemoryCloud& recent, std::size_t first,
                                        const LocalizerOptions& options) const {
   const double walls = DrawingFit::walls_seen(recent);
-  const DrawingFit& fit = drawing->walls.standing();
+  const DrawingFit& fit = drawing->walls.drawn();
   const double nats = fit.likelihood(recent, {}, std::max(0.1, fit.model().sigma_m));
   const double usual = evidence.nats_a_wall;
   if (walls > options.drift_walls && nats < options.drift_share * usual * walls &&
@@ -139,7 +140,7 @@ bool MapState::correct_recent_drift(const LocalizerOptions& options) {
   if (window.half_m <= 0.0) {
     return false;
   }
-  const Alignment found = drawing->walls.standing().align(recent, window);
+  const Alignment found = drawing->walls.drawn().align(recent, window);
   const Point2<Map> here = memory.poses().back().translation();
   const double metres = distance_m(found.correction * here, here);
   const double turns = std::abs(found.correction.yaw_rad());

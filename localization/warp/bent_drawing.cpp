@@ -22,6 +22,12 @@ Transform2<Map, Base> BendingDrawing::on_drawing(const Transform2<Map, Base>& in
       Transform2<Building, Base>(in_building.x_m(), in_building.y_m(), in_building.yaw_rad()));
 }
 
+SharedError BendingDrawing::shared_error() const {
+  if (!bent_) return {};
+  const WarpStatistics& known = bent_->fit.warp.statistics();
+  return {known.amplitude_m, known.range_m};
+}
+
 void BendingDrawing::take(const WarpFit& fit) {
   start_ = fit.warp;
   if (fit.warp.is_identity()) {

@@ -22,6 +22,8 @@ class BendingDrawing {
 
   [[nodiscard]] const DrawingFit& drawn() const { return drawn_; }
   [[nodiscard]] const DrawingFit& standing() const { return standing_; }
+  /// What neighbouring walls are off by together: the field of the warp.
+  [[nodiscard]] SharedError shared_error() const;
   /// Null: as drawn.
   [[nodiscard]] const std::shared_ptr<const BentDrawing>& bent() const { return bent_; }
   [[nodiscard]] Transform2<Map, Base> in_building(const Transform2<Map, Base>& on_drawing) const;
