@@ -72,9 +72,7 @@ std::optional<Path> free_way_back(const CycleState& state, const CycleConfig& co
   constexpr double kShortestM = 0.3;
   constexpr double kShorterM = 0.1;
   const auto obstacles = obstacle_points(state);
-  const auto is_free = [&](const Path& path) {
-    return is_free_behind(state, path, obstacles, config);
-  };
+  const auto is_free = [&](const Path& path) { return is_free_behind(state, path, obstacles, config); };
   auto came = state.way.backing_held ? std::nullopt : way_back(state, config);
   if (came && is_free(*came)) return came;
   for (double length_m = config.back_out_m; length_m > kShortestM - 1e-6; length_m -= kShorterM)

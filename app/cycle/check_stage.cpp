@@ -134,8 +134,8 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
   planning::PathCheck check = way.check;
   if (!check.blocked()) check.first_blocked = check.last_blocked = way.pursuit.index;
   output.detour_wanted = planning::DetourRequest{
-      way.detour_id, way.plain, way.pursuit.index, state.pose.map_from_base, check, std::move(obstacles),
-      way.squeeze,   !stuck, state.site->walls()};
+      way.detour_id, way.plain, way.pursuit.index,  state.pose.map_from_base, check, std::move(obstacles),
+      way.squeeze,   !stuck,    state.site->walls()};
 }
 
 void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
@@ -144,7 +144,8 @@ void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, S
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
   way.squeeze = squeeze_here(state, obstacles, now, config);
   const auto margins = planning::with_margins(config.check, way.squeeze);
-  way.check = planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *state.site->walls(), margins);
+  way.check =
+      planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *state.site->walls(), margins);
   const auto movers = true_movers(state, now, config);
   const auto crossing =
       planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps, movers,

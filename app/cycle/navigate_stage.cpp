@@ -107,7 +107,8 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
     return;
   }
   const Point2<Map> here = state.pose.map_from_base.translation();
-  auto route = best_route(*state.site, config.metric, here, *goal, blocked_now(way, input.now, config.forget_block_s));
+  auto route =
+      best_route(*state.site, config.metric, here, *goal, blocked_now(way, input.now, config.forget_block_s));
   if (!route) {
     way.blocked_legs.clear();  // every way is blocked: the vehicle goes to see whether it still is
     route = best_route(*state.site, config.metric, here, *goal, {});
@@ -170,8 +171,8 @@ void try_another_route(CycleState& state, const CycleInput& input, const CycleCo
   blocked.insert(*leg);
   if (!best_route(*state.site, config.metric, state.pose.map_from_base.translation(), *goal, blocked)) return;
   way.blocked_legs.emplace_back(*leg, input.now);
-  output.events.push_back("the leg from node " + std::to_string(routes.nodes()[leg->first].id) +
-                          " to node " + std::to_string(routes.nodes()[leg->second].id) +
+  output.events.push_back("the leg from node " + std::to_string(routes.nodes()[leg->first].id) + " to node " +
+                          std::to_string(routes.nodes()[leg->second].id) +
                           " is blocked: taking another route");
   way.back_outs = 0;  // the other route may need room that this one did not
   plan(state, input, config, output);

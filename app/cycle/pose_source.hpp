@@ -14,9 +14,9 @@ struct BentDrawing;
 
 namespace madori::app {
 
-/// What the cycle asks of localization. Estimates are the building's metres, laid rigidly on the drawing; what
-/// a person says and reads are places on the drawing. Deterministic: the same calls give the same poses bit
-/// for bit.
+/// What the cycle asks of localization. Estimates are the building's metres, laid rigidly on the drawing;
+/// what a person says and reads are places on the drawing. Deterministic: the same calls give the same poses
+/// bit for bit.
 class PoseSource {
  public:
   PoseSource() = default;

@@ -100,7 +100,8 @@ void LiveCopy::show(const CycleInput& input, const CycleState& state, const Tran
   live_.goal =
       state.way.target ? node_name(run.config().routes, state.way.stop.node).value_or("") : std::string();
   live_.path.clear();
-  for (const auto& point : state.way.plain.points) live_.path.push_back(state.site->on_drawing(point.position));
+  for (const auto& point : state.way.plain.points)
+    live_.path.push_back(state.site->on_drawing(point.position));
   live_.blocked.clear();
   if (state.way.blocked_since) live_.blocked.push_back(state.site->on_drawing(state.way.check.where));
   take_devices(input.now, state.lidar_heard, state.drive_heard, run.view().device_problem);

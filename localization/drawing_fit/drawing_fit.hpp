@@ -59,11 +59,12 @@ class DrawingFit {
  private:
   /// What a wall's distances are off by.
   [[nodiscard]] double sigma_of(const WallIndex::Hit& hit) const {
-    return sigma_m_ ? std::max((*sigma_m_)[static_cast<std::size_t>(hit.wall)], kLeastSigmaM) : model_.sigma_m;
+    return sigma_m_ ? std::max((*sigma_m_)[static_cast<std::size_t>(hit.wall)], kLeastSigmaM)
+                    : model_.sigma_m;
   }
   static constexpr double kLeastSigmaM = 0.02;  ///< no drawing is more exact
 
-  std::shared_ptr<const WallIndex> index_;  ///< copies share it
+  std::shared_ptr<const WallIndex> index_;              ///< copies share it
   std::shared_ptr<const std::vector<double>> sigma_m_;  ///< null: the model's for all
   DrawingModel model_;
 };

@@ -158,7 +158,7 @@ void Localizer::remember(SurfaceScan scan) {
 
 void Localizer::think_if_due(Stamp stamp) {
   const std::size_t size = map_.memory.size();
-  const int every = size < 20 || agreement_.is_beside_walls() ? 1 : size < 200 ? 4 : 8;
+  const int every = size < options_.young_size || agreement_.is_beside_walls() ? 1 : size < 200 ? 4 : 8;
   if (!worker_.busy() && keyframes_since_thinking_ >= every) {
     keyframes_since_thinking_ = 0;
     worker_.start(stamp, map_, options_);

@@ -21,18 +21,18 @@
 
 namespace madori::localization {
 
-/// Odometry, scans and the drawing become map_from_base, the building's metres laid rigidly on the drawing: the one localizer, for logs and for driving, for 2D
-/// scans and for the wall points of a 3D lidar. Deterministic: the same readings in the same order give the
-/// same poses bit for bit, though the map is worked on in a thread beside. Causal: an estimate uses what was
-/// handed in before it.
+/// Odometry, scans and the drawing become map_from_base, the building's metres laid rigidly on the drawing:
+/// the one localizer, for logs and for driving, for 2D scans and for the wall points of a 3D lidar.
+/// Deterministic: the same readings in the same order give the same poses bit for bit, though the map is
+/// worked on in a thread beside. Causal: an estimate uses what was handed in before it.
 class Localizer {
  public:
   /// Without `initial` the place is sought on the whole drawing from what is seen (global localization).
   Localizer(const mapping::Walls& walls, const std::optional<InitialPose>& initial,
             const LocalizerOptions& options = {});
 
-  /// A person says that the vehicle stands there on the drawing at the newest reading, so exactly: what is seen from here on
-  /// is laid there, and weighed against it.
+  /// A person says that the vehicle stands there on the drawing at the newest reading, so exactly: what is
+  /// seen from here on is laid there, and weighed against it.
   void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma);
   /// Forgets the place: it is sought on the whole drawing from what is seen from here on.
   void search_anew();

@@ -81,7 +81,8 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
 /// The memory as a whole settles on the drawing, and the drawing pulls on its keyframes.
 void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options) {
   cloud = memory_cloud(memory);
-  const Alignment found = drawing->walls.drawn().align(cloud, {options.settle_half_m, options.settle_half_rad});
+  const Alignment found =
+      drawing->walls.drawn().align(cloud, {options.settle_half_m, options.settle_half_rad});
   const Transform2<Map, Base>& first = memory.poses().front();
   const double area_m2 = drawing->belief.area_m2();
   const double told_so =
@@ -97,7 +98,8 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
   evidence.nats_a_wall =
       fit.likelihood(cloud, {}, std::max(0.1, evidence.sigma_m)) / std::max(1.0, evidence.walls_seen);
   if (correct_recent_drift(options)) cloud = memory_cloud(memory);
-  std::vector<UnaryFactor> unary = drawing->walls.drawn().pulls(cloud, memory.poses(), drawing->walls.shared_error());
+  std::vector<UnaryFactor> unary =
+      drawing->walls.drawn().pulls(cloud, memory.poses(), drawing->walls.shared_error());
   UnaryFactor tie;
   const StartPrior start = told.value_or(StartPrior{memory.poses().front(), options.tie_m, options.tie_rad});
   const double m2 = start.sigma_m * start.sigma_m;

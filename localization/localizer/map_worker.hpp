@@ -17,19 +17,21 @@ class MapWorker {
   [[nodiscard]] bool busy() const { return answer_.valid(); }
   /// Not while busy.
   void start(Stamp now, MapState state, const LocalizerOptions& options);
-  /// The answer, once `now` is late enough; a discarded one is dropped then.
+  /// The answer, once `now` is late enough.
   [[nodiscard]] std::optional<MapState> take(Stamp now, const LocalizerOptions& options);
   /// The answer under way is not wanted any more.
-  void discard() { wanted_ = false; }
+  void discard() {
+    if (busy()) unwanted_ = std::move(answer_);  // waits for one that was unwanted before
+  }
   /// Keyframes that the map had when the work began.
   [[nodiscard]] std::size_t known() const { return known_; }
 
  private:
   std::future<MapState> answer_;
+  std::future<MapState> unwanted_;
   Stamp started_{};
   int asked_ = 0;
   std::size_t known_ = 0;
-  bool wanted_ = false;
 };
 
 }  // namespace madori::localization

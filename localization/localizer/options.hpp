@@ -27,7 +27,7 @@ struct LocalizerOptions {
   double exact_drawing_m =
       0.1;  ///< a drawing more exact than this pulls on every scan, not only on the memory
   double survey_growth_unsure = 1.25;  ///< all places are compared again when so many more walls were seen,
-  double survey_growth = 2.0;          ///< or so many where the place is sure
+  double survey_growth = 1.5;          ///< or so many where the place is sure
   double settle_half_m = 0.4;  ///< the memory settles on the walls within this far; farther is another place
   double settle_half_rad = 0.1;
   double unconfirmed = 0.9;  ///< at most believed of a new place until more was seen there
@@ -51,7 +51,9 @@ struct LocalizerOptions {
   /// What is thought over beside the cycle is taken in at the first scan this much later, by the stamps of
   /// the log and never by the clock, so that every replay gives the same poses.
   double thinking_s = 1.0;
-  double first_look_s = 0.3;  ///< likewise of the first scan alone: there is little to think about
+  double first_look_s = 0.3;  ///< likewise of the first scan alone: there is little to think about,
+  double young_s = 0.5;       ///< and of a memory of fewer keyframes than
+  std::size_t young_size = 20;
 };
 
 /// For a vehicle with encoders on its driven wheels.

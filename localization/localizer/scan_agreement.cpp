@@ -41,7 +41,8 @@ void ScanAgreement::note(const SurfaceScan& scan, const MatchResult& match,
                          const LocalizerOptions& options) {
   HealthEvidence& evidence = map.evidence;
   const bool drawing_speaks = map.drawing_fits(options);
-  const double on_walls = drawing_speaks ? map.drawing->walls.standing().share_on_walls(scan, match.map_from_base) : 0.0;
+  const double on_walls =
+      drawing_speaks ? map.drawing->walls.standing().share_on_walls(scan, match.map_from_base) : 0.0;
   const bool exact = drawing_speaks && map.drawing_is_exact(options);
   if (drawing_speaks) wall_fit_.add(on_walls, step.path_m, step.turned_rad);
   beside_walls_ = drawing_speaks && on_walls < 0.5 * wall_fit_.usual();

@@ -34,7 +34,7 @@ SearchWindow far_window(SearchWindow window, double path_m) {
 ExtraPull drawing_pull(const SurfaceScan& scan, const MapState& map, const LocalizerOptions& options) {
   if (!map.drawing_is_exact(options)) return {};
   return [&scan, &drawing = map.drawing->walls.standing()](const Pose& pose, Eigen::Matrix3d& hessian,
-                                              Eigen::Vector3d& gradient) {
+                                                           Eigen::Vector3d& gradient) {
     drawing.pull(scan, pose, hessian, gradient);
   };
 }

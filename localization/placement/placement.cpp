@@ -128,8 +128,8 @@ void PlaceBelief::judge(const DrawingFit& fit, const Seen& seen, const std::opti
   std::array<double, kDrawingSigmasM.size()> nats{};
   const DrawingModel plain;
   for (std::size_t i = 0; i < nats.size(); ++i)
-    nats[i] = log_likelihood(fit.index(), seen.cloud, placement.correction,
-                             WallMixture(plain, kDrawingSigmasM[i]));
+    nats[i] =
+        log_likelihood(fit.index(), seen.cloud, placement.correction, WallMixture(plain, kDrawingSigmasM[i]));
   const auto best = static_cast<std::size_t>(std::max_element(nats.begin(), nats.end()) - nats.begin());
   const double sigma = kDrawingSigmasM[best];
   const WallMixture mixture(plain, sigma);

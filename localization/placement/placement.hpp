@@ -27,10 +27,10 @@ struct Placement {
   double nats = 0.0;                ///< log likelihood and prior as if every wall spoke for itself
   double log_prior = 0.0;
   Votes votes{};
-  double probability = 0.0;         ///< among all that are known
-  double explained = 0.0;           ///< share of what is remembered that lies on drawn walls there
-  double near = 1.0;                ///< of this probability, the share within 0.5 m and 10 degrees of it
-  bool mirrored = false;            ///< of the memory's mirror image: the drawing would be mirrored
+  double probability = 0.0;  ///< among all that are known
+  double explained = 0.0;    ///< share of what is remembered that lies on drawn walls there
+  double near = 1.0;         ///< of this probability, the share within 0.5 m and 10 degrees of it
+  bool mirrored = false;     ///< of the memory's mirror image: the drawing would be mirrored
 };
 
 /// The belief where the memory lies on the drawing: hypotheses, each weighed by everything that is remembered

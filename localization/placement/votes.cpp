@@ -1,7 +1,7 @@
 #include "localization/placement/votes.hpp"
 
-#include <boost/math/special_functions/beta.hpp>
 #include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -14,6 +14,12 @@ namespace {
 constexpr double kPieceM = 2.0;
 /// One drawn wall in seven is not there, so that crossing one speaks by ln of it.
 constexpr double kCrossedNats = 1.9;
+
+/// How often a vote is right has the density q^(kTruthful - 1) between a half and one: walls mostly stand
+/// where they are drawn.
+constexpr double kTruthful = 3.0;
+/// Two places may be built alike, so that the votes are the drawing's errors and fall either way.
+constexpr double kTwins = 0.5;
 
 /// How much likelier than not, -1 to 1: a piece that fits both places alike has no vote.
 double vote(double nats) {
@@ -28,8 +34,8 @@ WallPieces wall_pieces(const MemoryCloud& cloud) {
   for (const CloudSurface& p : cloud) {
     const auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x_m / kPieceM)));
     const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.y_m / kPieceM)));
-    const std::uint64_t key = (std::uint64_t{u} << 33U) ^ (std::uint64_t{v} << 2U) ^
-                              static_cast<std::uint64_t>(p.direction / 2);
+    const std::uint64_t key =
+        (std::uint64_t{u} << 33U) ^ (std::uint64_t{v} << 2U) ^ static_cast<std::uint64_t>(p.direction / 2);
     pieces.of_surface.push_back(known.try_emplace(key, static_cast<int>(known.size())).first->second);
   }
   pieces.count = known.size();
@@ -58,10 +64,14 @@ double log_odds(const Votes& a, const Votes& b) {
     const double v = vote(a.nats[i] - b.nats[i]);
     (v > 0.0 ? for_a : for_b) += std::abs(v);
   }
-  const auto log_share = [](double more, double less) {  // of q above a half
-    return std::log(std::max(1e-300, boost::math::ibetac(1.0 + more, 1.0 + less, 0.5)));
+  static const double all = boost::math::betac(kTruthful, 1.0, 0.5);
+  const double by_chance = kTwins * std::exp2(-for_a - for_b);
+  const auto evidence = [&](double more, double less) {  // q is integrated out
+    return by_chance + (1.0 - kTwins) / all * boost::math::betac(kTruthful + more, 1.0 + less, 0.5);
   };
-  return log_share(for_a, for_b) - log_share(for_b, for_a);
+  constexpr double kLeast = 1e-300;  // no number of votes makes the logarithm infinite
+  return std::log(std::max(kLeast, evidence(for_a, for_b))) -
+         std::log(std::max(kLeast, evidence(for_b, for_a)));
 }
 
 }  // namespace madori::localization

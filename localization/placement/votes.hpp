@@ -25,10 +25,10 @@ struct Votes {
                              const Transform2<Map, Map>& correction, const WallMixture& mixture);
 
 /// Log odds of place `a` over `b`. A piece of wall that is likelier at one of them votes for it, by as much
-/// as it can tell; how often such a vote is right depends on building and drawing and is not known: uniform
-/// from a half to one. That is the sign test in Bayes' form: odds = P(q > 1/2) / P(q < 1/2) with q ~ Beta(1 +
-/// votes for a, 1 + votes for b) (Jaynes 2003, ch. 6). Votes that contradict each other, as in buildings that
-/// are their own mirror image drawn with errors, so decide nothing however many they are.
+/// as it can tell; how often such a vote is right depends on building and drawing and is not known: it is
+/// integrated out. Or the places are twins and each vote is chance.
+/// That is the sign test in Bayes' form (Jaynes 2003, ch. 6). Votes that contradict each other, as in
+/// buildings that are their own mirror image drawn with errors, so decide nothing however many they are.
 [[nodiscard]] double log_odds(const Votes& a, const Votes& b);
 
 }  // namespace madori::localization

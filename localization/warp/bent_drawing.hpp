@@ -43,7 +43,7 @@ class BendingDrawing {
   DrawingFit drawn_;
   DrawingFit standing_;
   std::shared_ptr<const BentDrawing> bent_;
-  DrawingWarp start_;       ///< where the next fit's association begins; the statistics learned
+  DrawingWarp start_;        ///< where the next fit's association begins; the statistics learned
   double next_walls_ = 0.0;  ///< seen when it bends again
 };
 

@@ -200,9 +200,6 @@ void run(double seconds) {
   FilterAndRefine filter(drive);
   report(drive, {"1000 particles, then registration", [&](const auto& r) { filter.on_odometry(r); },
                  [&](Stamp s, const ScanPoints& p) { return filter.on_scan(s, p); }});
-  WallTracker tracker(drive.walls);
-  report(drive, {"wall tracker, from nowhere", [&](const auto& r) { (void)tracker.on_odometry(r); },
-                 [&](Stamp s, const ScanPoints& p) { return tracker.on_scan(s, p).map_from_base; }});
   Localizer localizer(drive.walls, InitialPose{drive.start});
   report(drive,
          {"Localizer, its map thought over beside", [&](const auto& r) { (void)localizer.on_odometry(r); },

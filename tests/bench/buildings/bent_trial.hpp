@@ -7,7 +7,7 @@
 namespace madori::bench {
 
 struct BentTrialOptions {
-  std::string source = "tracker";
+  std::string source = "localizer";
   std::string sensor = "vlp16";  ///< or scan
   double amplitude_m = 0.3;
   std::uint32_t seed = 1;

@@ -7,7 +7,7 @@
 namespace madori::bench {
 
 struct DriveOptions {
-  std::string source = "tracker";
+  std::string source = "localizer";
   std::string sensor = "vlp16";  ///< or scan: what it localizes with
   unsigned seed = 1;
   int laps = 2;                 ///< the first one learns

@@ -80,7 +80,7 @@ void print_sums(const std::vector<json>& starts) {
     if (!start.value("error", "").empty()) continue;
     const std::string name = start["name"];
     for (const std::string& key : {name.substr(0, name.find('/')), std::string("~ all")})
-      add(sums[key], start);
+      add(sums.try_emplace(key, json::object()).first->second, start);
   }
   std::printf("\n");
   for (const auto& [name, s] : sums)

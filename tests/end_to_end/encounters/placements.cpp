@@ -22,7 +22,8 @@ std::optional<PathPoint> Placements::way_point(double ahead_m) const {
   if (along_m > way.path.length_m()) return std::nullopt;
   std::size_t i = way.pursuit.index;
   while (i + 1 < way.path.points().size() && way.path.along_m(i) < along_m) ++i;
-  if (app::is_at_door(run_.run->state(), way.path.points()[i].position, run_.run->config())) return std::nullopt;
+  if (app::is_at_door(run_.run->state(), way.path.points()[i].position, run_.run->config()))
+    return std::nullopt;
   return way.path.points()[i];
 }
 
