@@ -218,7 +218,8 @@ bool Localizer::was_carried(Stamp stamp, const ScanPoints& points, const Odometr
                             const Transform2<Map, Base>& before) {
   surroundings_.take(stamp, points);
   const bool others = surroundings_.compare(step.motion, before.inverse() * anchor_) == Surroundings::Others;
-  return others && map_.evidence.on_memory < options_.known_share * agreement_.usual_inliers();
+  return others && (surroundings_.followed_at_once() ||
+                    map_.evidence.on_memory < options_.known_share * agreement_.usual_inliers());
 }
 
 /// Which of the two clocks is right shows next.

@@ -7,6 +7,8 @@ namespace madori::localization {
 void SurroundingsCheck::take(Stamp stamp, const ScanPoints& points) {
   view_.take(stamp, points);
   kept_ = 1.0;
+  gap_s_ = newest_ ? to_seconds(stamp - *newest_) : 1e9;
+  newest_ = stamp;
 }
 
 Surroundings SurroundingsCheck::compare(const Transform2<Base, Base>& by_wheels,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "localization/surroundings/recent_view.hpp"
 
 namespace madori::localization {
@@ -8,7 +10,9 @@ struct SurroundingsOptions {
   /// What two scans in a row both see falls by so much below the usual where the later one was taken
   /// elsewhere: neither driving nor what moves about changes a quarter of the walls in a tenth of a second.
   double carried_fall = 0.25;
-  double changed_fall = 0.08;    ///< where a place that looks alike may be where it was carried to
+  double changed_fall = 0.08;  ///< where a place that looks alike may be where it was carried to
+  /// Lidars that look less often, and revolutions lost by a busy computer, need the memory's word as well.
+  double at_once_s = 0.15;
   double changed_spreads = 8.0;  ///< at least, in mean deviations
 };
 
@@ -31,11 +35,15 @@ class SurroundingsCheck {
                                      const Transform2<Base, Base>& by_walls);
   /// Share of the surfaces, 0..1, that both scans saw as they were compared; 1 until then.
   [[nodiscard]] double kept() const { return kept_; }
+  /// The two followed so closely that nothing else changes what is seen by as much as a carry does.
+  [[nodiscard]] bool followed_at_once() const { return gap_s_ < options_.at_once_s; }
 
  private:
   SurroundingsOptions options_;
   RecentView view_;
   double kept_ = 1.0;
+  std::optional<Stamp> newest_;
+  double gap_s_ = 1e9;
 };
 
 }  // namespace madori::localization
