@@ -3,9 +3,11 @@
 #include <utility>
 
 #include "app/learned/calibration_file.hpp"
+#include "app/learned/deviations.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "core/clock.hpp"
 #include "localization/self_calibration/self_calibration.hpp"
+#include "localization/warp/warp_file.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 
@@ -31,6 +33,7 @@ SiteKeeper::~SiteKeeper() {
 
 void SiteKeeper::observe(const CycleState& state, Stamp now) {
   if (!state.drive_heard) return;
+  if (state.pose.health.state == LocalizationState::Localized) bent_ = state.site->bent();
   const WheelCounters wheels = counters_of(state.drive);
   const bool stands = wheels == wheels_before_;
   const bool came_to_stand = stands && !stood_;
@@ -63,7 +66,8 @@ void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
 }
 
 void SiteKeeper::keep_learned() {
-  jobs_.put("learned", [site = site_, walls = walls_, watch = watch_] {
+  jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, bent = bent_] {
+    if (bent) localization::save_warp(site / kWarpFile, bent->fit, walls);
     mapping::write_file_atomically(site / kReliabilityFile, watch->reliability_text());
     const auto found = localization::self_calibrate(localization::WallIndex(walls), watch->keyframes());
     (void)keep_calibration(site, walls, found);

@@ -13,8 +13,9 @@
 namespace madori::app {
 
 /// Keeps with the site what the next start wants to know: the pose (at most every second, and when the
-/// vehicle comes to stand), and what was learned of the drawing (when it stands, at most every minute, and at
-/// the end). Files are written on a thread of its own, atomically.
+/// vehicle comes to stand), and what was learned of the drawing, its walls and how they stand in the building
+/// (when it stands, at most every minute, and at the end). Files are written on a thread of its own,
+/// atomically.
 class SiteKeeper {
  public:
   SiteKeeper(std::filesystem::path site, const mapping::Walls& walls, std::shared_ptr<const WallWatch> watch);
@@ -43,6 +44,7 @@ class SiteKeeper {
   WheelCounters wheels_before_;
   bool pose_known_ = false;  ///< last_pose.yaml is of this run
   bool stood_ = false;
+  std::shared_ptr<const localization::BentDrawing> bent_;  ///< as last believed while sure of the place
   BackgroundJobs jobs_;
 };
 

@@ -20,7 +20,7 @@ constexpr double kMissingWalls = 0.15;
 constexpr double kMirroredDrawings = 0.1;
 constexpr double kLeastMirrored = 1e-4;  // nothing that was seen excludes it
 /// Poses that are given and wrong altogether: the wrong vehicle, site or button.
-constexpr double kWrongPriors = 0.02;
+constexpr double kWrongPriors = 0.05;
 /// What an observation is worth: rooms and aisles repeat, and so do the errors of a drawing.
 constexpr double kTrust = 0.4;
 constexpr std::size_t kSurveyed = 30;  // places that are refined, and half as many of the mirror image

@@ -193,7 +193,7 @@ TEST(LocalizerDriving, APlaceThatAPersonGaveWronglyIsDoubtedSoonAndTheRightOneNa
   PoseEstimate e;
   for (std::size_t i = 1; i < moments.size(); ++i) {
     e = take(localizer, moments[i]);
-    EXPECT_FALSE(i > 50 && e.health.state == LocalizationState::Localized &&
+    EXPECT_FALSE(i > 60 && e.health.state == LocalizationState::Localized &&
                  off_m(e.map_from_base, moments[i].truth) > 1.0)
         << i;
   }

@@ -1,0 +1,81 @@
+#include "localization/placement/votes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace madori::localization {
+namespace {
+
+Votes votes_of(std::vector<double> nats, int crossed = 0) {
+  return {std::move(nats), crossed};
+}
+
+/// `count` pieces that speak for the first place, and `against` for the second, by two nats each: a vote.
+double odds_of(int count, int against) {
+  Votes a, b;
+  for (int i = 0; i < count + against; ++i) {
+    a.nats.push_back(i < count ? 2.0 : 0.0);
+    b.nats.push_back(i < count ? 0.0 : 2.0);
+  }
+  return log_odds(a, b);
+}
+
+/// The definition, by a sum over the unknown rate at which votes are right.
+double by_numbers(double for_a, double for_b) {
+  constexpr int kSteps = 200'000;
+  const auto evidence = [&](double more, double less) {
+    double sum = 0.0, all = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double q = 0.5 + 0.5 * (i + 0.5) / kSteps;
+      sum += q * q * std::pow(q, more) * std::pow(1.0 - q, less);
+      all += q * q;
+    }
+    return 0.2 * std::pow(0.5, for_a + for_b) + 0.8 * sum / all;
+  };
+  return std::log(evidence(for_a, for_b) / evidence(for_b, for_a));
+}
+
+TEST(Votes, AreCountedAsTheirDefinitionSays) {
+  for (const auto& [a, b] : {std::pair{0, 0}, {3, 0}, {0, 5}, {7, 2}, {14, 6}, {30, 1}})
+    EXPECT_NEAR(odds_of(a, b), by_numbers(a, b), 1e-4 * (1.0 + std::abs(by_numbers(a, b)))) << a << ":" << b;
+}
+
+TEST(Votes, ForOneAreVotesAgainstTheOther) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> nats(0.0, 3.0);
+  for (int trial = 0; trial < 50; ++trial) {
+    Votes a = votes_of({}, trial % 4), b = votes_of({}, trial % 3);
+    for (int i = 0; i < trial; ++i) a.nats.push_back(nats(engine)), b.nats.push_back(nats(engine));
+    EXPECT_NEAR(log_odds(a, b), -log_odds(b, a), 1e-9);
+    EXPECT_EQ(log_odds(a, a), 0.0);
+  }
+}
+
+TEST(Votes, ThatAgreeDecideAndThatContradictDoNot) {
+  for (int n = 1; n < 40; ++n) EXPECT_GT(odds_of(n + 1, 0), odds_of(n, 0));
+  EXPECT_GT(odds_of(20, 0), std::log(1e4));
+  // Many votes of which six in ten are right are no more than a hint, where likelihoods would add up.
+  EXPECT_LT(odds_of(12, 8), std::log(5.0));
+  EXPECT_LT(odds_of(14, 6), std::log(20.0));
+  EXPECT_TRUE(std::isfinite(odds_of(3000, 0)));
+}
+
+TEST(Votes, DrawnWallsThatWereDrivenThroughSpeakAgainstAPlace) {
+  EXPECT_LT(log_odds(votes_of({}, 3), votes_of({}, 0)), -1.0);
+  EXPECT_EQ(log_odds(votes_of({}, 3), votes_of({}, 3)), 0.0);
+}
+
+TEST(Votes, APieceOfWallIsTwoMetresAndOneDirection) {
+  MemoryCloud cloud;
+  for (int i = 0; i < 40; ++i)
+    cloud.push_back({0.1 + 0.2 * i, 0.5, 0.0, 1.0, 0, WallIndex::direction_of(0.0, 1.0), 1, 1.0});
+  const WallPieces pieces = wall_pieces(cloud);
+  EXPECT_EQ(pieces.count, 4U);
+  EXPECT_EQ(std::count(pieces.of_surface.begin(), pieces.of_surface.end(), pieces.of_surface.front()), 10);
+}
+
+}  // namespace
+}  // namespace madori::localization
