@@ -11,7 +11,10 @@ const mapping::Walls kWalls{{1, {{0.0, 0.0}, {20.0, 0.0}}}, {2, {{0.0, 4.0}, {20
 
 SiteInBuilding as_drawn() {
   std::vector<planning::RouteNode> nodes(3);
-  for (int i = 0; i < 3; ++i) nodes[static_cast<std::size_t>(i)] = {i + 1, {2.0 + 8.0 * i, 2.0}, ""};
+  for (int i = 0; i < 3; ++i) {
+    nodes[static_cast<std::size_t>(i)].id = i + 1;
+    nodes[static_cast<std::size_t>(i)].position = {2.0 + 8.0 * i, 2.0};
+  }
   nodes[2].heading_rad = 0.25;
   std::vector<Segment2<Map>> segments;
   for (const auto& wall : kWalls) segments.push_back(wall.segment);
