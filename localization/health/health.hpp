@@ -12,7 +12,7 @@ struct HealthEvidence {
   double here = 0.0;        ///< share of the belief within 0.5 m and 10 degrees of the answer
   double rival = 0.0;       ///< share of the belief at the likeliest other place
   double mirrored = 0.0;    ///< share of the belief that the drawing is mirrored
-  double inliers = 0.5;     ///< share of what is seen that the drawing explains
+  double inliers = 0.5;     ///< share of what is seen that the drawing explains where it is laid
   double sigma_m = 0.2;     ///< error of the drawing as learned
   double nats_a_wall = 0.0;  ///< log likelihood of the memory on the drawing, over clutter
   double blind_m = 0.0;      ///< driven since a scan last agreed with the memory and the wheels
@@ -31,6 +31,7 @@ struct HealthLimits {
   double rival = 0.2;       ///< at another place: two places look alike
   double mirrored = 0.5;
   double maybe_mirrored = 0.01;  ///< more than this and it is not sure: on a mirrored drawing all is wrong
+  double explained = 0.28;  ///< of what is seen; in a wrong place, or a wrong drawing, a fifth fits by chance
   double blind_m = 2.0;
   double blind_s = 1.2;
   int blind_scans = 3;

@@ -29,6 +29,17 @@ TEST(Health, ASoundPoseIsLocalizedWithoutAReason) {
   EXPECT_EQ(judge(sound()).reason, "");
 }
 
+TEST(Health, APlaceThatTheDrawingHardlyExplainsIsNotBelievedAltogether) {
+  HealthEvidence e = sound();
+  e.inliers = 0.29;
+  EXPECT_EQ(judge(e).state, LocalizationState::Localized);
+  e.inliers = 0.2;
+  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
+  EXPECT_THAT(judge(e).reason, HasSubstr("explains only 20 %"));
+  e.has_drawing = false;  // mapping
+  EXPECT_EQ(judge(e).state, LocalizationState::Localized);
+}
+
 TEST(Health, StatesAreThresholdsOnTheShareOfTheBelief) {
   HealthEvidence e = sound();
   e.here = 0.951;
