@@ -12,9 +12,7 @@ namespace {
 constexpr double kFollowedToM = 0.02;
 
 Transform2<Map, Base> carried_by(const localization::BentDrawing* bent, const Transform2<Map, Base>& pose) {
-  if (bent == nullptr) return pose;
-  const Transform2<Building, Base> at = bent->fit.warp.building(pose);
-  return {at.x_m(), at.y_m(), at.yaw_rad()};
+  return bent != nullptr ? bent->in_building(pose) : pose;
 }
 
 planning::RouteGraph carried_routes(const planning::RouteGraph& drawn,
@@ -63,9 +61,7 @@ bool SiteInBuilding::differs(const std::shared_ptr<const localization::BentDrawi
 }
 
 Transform2<Map, Base> SiteInBuilding::on_drawing(const Transform2<Map, Base>& in_building) const {
-  if (!bent_) return in_building;
-  return bent_->fit.warp.map(
-      Transform2<Building, Base>(in_building.x_m(), in_building.y_m(), in_building.yaw_rad()));
+  return bent_ ? bent_->on_drawing(in_building) : in_building;
 }
 
 Point2<Map> SiteInBuilding::on_drawing(const Point2<Map>& in_building) const {

@@ -53,10 +53,6 @@ class Localizer {
   [[nodiscard]] std::shared_ptr<const BentDrawing> bent() const {
     return map_.drawing ? map_.drawing->walls.bent() : nullptr;
   }
-  /// Before the first scan: what an earlier drive learned of how the drawing lies in the building.
-  void take_warp(const WarpFit& fit) {
-    if (map_.drawing && !started_) map_.drawing->walls.take(fit);
-  }
 
   [[nodiscard]] const Memory& memory() const { return map_.memory; }
   /// At the end of a log: the memory after a last thorough look at all of it. Waits for it.

@@ -10,16 +10,22 @@ constexpr double kGrowth = 1.05;
 
 }  // namespace
 
-Transform2<Map, Base> BendingDrawing::in_building(const Transform2<Map, Base>& on_drawing) const {
-  if (!bent_) return on_drawing;
-  const Transform2<Building, Base> pose = bent_->fit.warp.building(on_drawing);
+Transform2<Map, Base> BentDrawing::in_building(const Transform2<Map, Base>& on_drawing) const {
+  const Transform2<Building, Base> pose = fit.warp.building(on_drawing);
   return {pose.x_m(), pose.y_m(), pose.yaw_rad()};
 }
 
-Transform2<Map, Base> BendingDrawing::on_drawing(const Transform2<Map, Base>& in_building) const {
-  if (!bent_) return in_building;
-  return bent_->fit.warp.map(
+Transform2<Map, Base> BentDrawing::on_drawing(const Transform2<Map, Base>& in_building) const {
+  return fit.warp.map(
       Transform2<Building, Base>(in_building.x_m(), in_building.y_m(), in_building.yaw_rad()));
+}
+
+Transform2<Map, Base> BendingDrawing::in_building(const Transform2<Map, Base>& on_drawing) const {
+  return bent_ ? bent_->in_building(on_drawing) : on_drawing;
+}
+
+Transform2<Map, Base> BendingDrawing::on_drawing(const Transform2<Map, Base>& in_building) const {
+  return bent_ ? bent_->on_drawing(in_building) : in_building;
 }
 
 SharedError BendingDrawing::shared_error() const {

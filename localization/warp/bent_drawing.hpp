@@ -11,6 +11,10 @@ namespace madori::localization {
 struct BentDrawing {
   WarpFit fit;           ///< of the drawn walls
   BuildingWalls stands;  ///< the walls where they stand, Building metres
+
+  /// A pose carried over; both typed Map, the building's metres being laid rigidly on the drawing.
+  [[nodiscard]] Transform2<Map, Base> in_building(const Transform2<Map, Base>& on_drawing) const;
+  [[nodiscard]] Transform2<Map, Base> on_drawing(const Transform2<Map, Base>& in_building) const;
 };
 
 /// Learns by and by how the drawing lies in the building, and holds both: the walls as drawn, which say where
@@ -29,8 +33,6 @@ class BendingDrawing {
   [[nodiscard]] Transform2<Map, Base> in_building(const Transform2<Map, Base>& on_drawing) const;
   [[nodiscard]] Transform2<Map, Base> on_drawing(const Transform2<Map, Base>& in_building) const;
 
-  /// What an earlier drive learned.
-  void take(const WarpFit& fit);
   /// Bends to a memory that lies right, where it has grown enough since the last time. Takes tenths of a
   /// second.
   void bend(const MemoryCloud& cloud);
@@ -40,6 +42,8 @@ class BendingDrawing {
   void learn(const MemoryCloud& cloud);
 
  private:
+  void take(const WarpFit& fit);
+
   DrawingFit drawn_;
   DrawingFit standing_;
   std::shared_ptr<const BentDrawing> bent_;

@@ -8,7 +8,6 @@ sequence, and nowhere else.
 """
 
 import argparse
-import http.client
 import json
 import math
 import pathlib
@@ -21,6 +20,7 @@ import sys
 import tempfile
 import time
 
+from running import say
 from sample_site import make_site
 from truth_listener import TruthListener
 
@@ -91,13 +91,7 @@ class Vehicle:
 
     def command(self, word):
         """Whether the panel's server took the operator's word."""
-        origin = f"http://127.0.0.1:{self.port}"
-        try:
-            wire = http.client.HTTPConnection("127.0.0.1", self.port, timeout=2)
-            wire.request("POST", f"/api/vehicle/{word}", headers={"Origin": origin, "Content-Type": "application/json"})
-            return wire.getresponse().status < 300
-        except OSError:
-            return False
+        return say(self.port, word)
 
     def kill(self):
         self.process.kill()

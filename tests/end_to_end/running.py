@@ -32,6 +32,17 @@ def wait_for(condition, what, limit_s=120.0):
     return found
 
 
+def say(port, word):
+    """Whether the panel's server at the port took the operator's word."""
+    origin = f"http://127.0.0.1:{port}"
+    try:
+        wire = http.client.HTTPConnection("127.0.0.1", port, timeout=2)
+        wire.request("POST", f"/api/vehicle/{word}", headers={"Origin": origin, "Content-Type": "application/json"})
+        return wire.getresponse().status < 300
+    except OSError:
+        return False
+
+
 class Factory:
     """`madori sim` with the vehicle beside stations 13 (54, 3) and 15 (64, 3), nobody about."""
 
@@ -73,13 +84,7 @@ class Run:
 
     def say(self, word):
         """Whether the panel's server took the operator's word."""
-        origin = f"http://127.0.0.1:{self.port}"
-        try:
-            wire = http.client.HTTPConnection("127.0.0.1", self.port, timeout=2)
-            wire.request("POST", f"/api/vehicle/{word}", headers={"Origin": origin, "Content-Type": "application/json"})
-            return wire.getresponse().status < 300
-        except OSError:
-            return False
+        return say(self.port, word)
 
     def resume(self):
         wait_for(lambda: self.say("confirm") | self.say("resume"), f"{self.name}: the panel does not answer")

@@ -31,7 +31,9 @@ class LockStepRun {
     options.detours_in_step = true;
     options.store_poll_s = 0.1;
     run = std::make_unique<app::TransportRun>(
-        site.config, make_source ? make_source(*factory) : std::make_unique<app::LocalizerPose>(site.walls, site.config.lidar),
+        site.config,
+        make_source ? make_source(*factory)
+                    : std::make_unique<app::LocalizerPose>(site.walls, site.config.lidar),
         std::make_unique<app::FactoryLink>(factory, site.config.odometry.wheels, kStep), options);
     run->say({app::OperatorWord::Resume, {}});
   }

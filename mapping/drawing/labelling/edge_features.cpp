@@ -74,10 +74,7 @@ class Builder {
  private:
   template <class Value>
   void add(const std::string& name, Value value) {
-    std::vector<float> column;
-    column.reserve(edges_.size());
-    for (std::size_t i = 0; i < edges_.size(); ++i) column.push_back(static_cast<float>(value(i)));
-    table_.add(name, std::move(column));
+    table_.fill(name, value);
   }
   [[nodiscard]] double of_size(double px) const { return px / sheet_.size_px; }
   [[nodiscard]] double of_pen(double px) const { return px / pen_; }

@@ -17,6 +17,14 @@ class FeatureTable {
     names_.push_back(std::move(name));
     columns_.push_back(std::move(column));
   }
+  /// A column of value(row) for each row.
+  template <class Value>
+  void fill(std::string name, Value value) {
+    std::vector<float> column;
+    column.reserve(rows_);
+    for (std::size_t i = 0; i < rows_; ++i) column.push_back(static_cast<float>(value(i)));
+    add(std::move(name), std::move(column));
+  }
   /// The columns of another table of the same lines behind these.
   void add(const FeatureTable& other) {
     for (std::size_t k = 0; k < other.names_.size(); ++k) add(other.names_[k], other.columns_[k]);

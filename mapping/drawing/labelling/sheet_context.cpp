@@ -54,10 +54,7 @@ class Context {
  private:
   template <class Value>
   void add(const std::string& name, Value value) {
-    std::vector<float> column;
-    column.reserve(edges_.size());
-    for (std::size_t i = 0; i < edges_.size(); ++i) column.push_back(static_cast<float>(value(i)));
-    table_.add("first_" + name, std::move(column));
+    table_.fill("first_" + name, value);
   }
 
   void whole_sheet() {

@@ -147,7 +147,7 @@ Transform2<Map, Base> BentTrial::on_drawing(const Transform2<Metric, Base>& trut
 Transform2<Map, Base> BentTrial::believed_on_drawing() const {
   const auto& pose = pose_.map_from_base;
   const auto bent = localizer_->bent();
-  return bent ? bent->fit.warp.map(Transform2<Building, Base>(pose.x_m(), pose.y_m(), pose.yaw_rad())) : pose;
+  return bent ? bent->on_drawing(pose) : pose;
 }
 
 void BentTrial::watch() {

@@ -30,12 +30,14 @@ TEST(Walls, KeepTheirProbabilitiesWhenTheyAreWrittenAgain) {
   const auto judged = folder.write("walls.csv", with_probabilities(walls_csv(walls), {0.75, 0.5}));
   EXPECT_EQ(load_walls(judged), walls);
   EXPECT_EQ(load_probabilities(judged), (std::vector<double>{0.75, 0.5}));
-  EXPECT_TRUE(load_probabilities(folder.write("plain.csv", with_probabilities(walls_csv(walls), {}))).empty());
+  EXPECT_TRUE(
+      load_probabilities(folder.write("plain.csv", with_probabilities(walls_csv(walls), {}))).empty());
 }
 
 TEST(Walls, RefuseABadRowWithItsLine) {
   const test::TemporaryFolder folder;
-  for (const char* row : {"1,2,3,4", "1,2,3,4,nan", "1,2,3,4,5,6", "1,2,3,4,5,0.5,1", "a,2,3,4,5", "1,2,3,4,5x"}) {
+  for (const char* row :
+       {"1,2,3,4", "1,2,3,4,nan", "1,2,3,4,5,6", "1,2,3,4,5,0.5,1", "a,2,3,4,5", "1,2,3,4,5x"}) {
     const auto file = folder.write("walls.csv", std::string("id,x1,y1,x2,y2\n0,0,0,1,1\n") + row + "\n");
     try {
       (void)load_walls(file);
