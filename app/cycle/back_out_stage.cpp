@@ -21,7 +21,8 @@ std::optional<Path> way_back(const CycleState& state, const CycleConfig& config)
   double length_m = 0.0;
   Transform2<Map, Base> last = state.pose.map_from_base;
   const auto add = [&] {
-    path.points.push_back({last.translation(), wrap_angle(last.yaw_rad() + kPi), 0.0, config.back_out_mps});
+    path.points.push_back(
+        {last.translation(), wrap_angle(last.yaw_rad() + kPi), 0.0, config.back_out_mps, true});
   };
   add();
   for (auto pose = state.trail.rbegin(); pose != state.trail.rend() && length_m < config.back_out_m; ++pose) {
@@ -44,8 +45,8 @@ Path straight_back(const CycleState& state, double length_m, const CycleConfig& 
   Path path;
   const int steps = static_cast<int>(std::lround(length_m / kStepM));
   for (int i = 0; i <= steps; ++i)
-    path.points.push_back(
-        {here * Point2<Base>{-kStepM * i, 0.0}, wrap_angle(here.yaw_rad() + kPi), 0.0, config.back_out_mps});
+    path.points.push_back({here * Point2<Base>{-kStepM * i, 0.0}, wrap_angle(here.yaw_rad() + kPi), 0.0,
+                           config.back_out_mps, true});
   return path;
 }
 
@@ -60,8 +61,7 @@ bool is_free_behind(const CycleState& state, const Path& path, const std::vector
   check.sides_margin_m = 0.0;
   check.wall_margin_m = -state.way.squeeze.wall_slack_m;
   return std::all_of(path.points.begin(), path.points.end(), [&](const PathPoint& point) {
-    const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m,
-                                     wrap_angle(point.heading_rad + kPi));
+    const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m, point.facing_rad());
     return planning::is_free(pose, obstacles, *state.site->walls(), check);
   });
 }

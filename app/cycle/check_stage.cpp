@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/cycle/stages.hpp"
+#include "core/angle.hpp"
 
 namespace madori::app {
 namespace {
@@ -22,6 +23,16 @@ std::vector<planning::Mover<Map>> movers_on_map(const CycleState& state) {
   return movers;
 }
 
+/// Whether the vehicle turns on the spot, or is about to.
+bool may_turn(const CycleState& state, const CycleConfig& config) {
+  const Navigation& way = state.way;
+  if (way.pursuit.begun) return way.pursuit.turning;
+  if (way.path.empty()) return false;
+  const double off_rad =
+      wrap_angle(way.path.points().front().facing_rad() - state.pose.map_from_base.yaw_rad());
+  return std::abs(off_rad) > config.pursuit.turn_first_rad;
+}
+
 /// Whether the vehicle can turn on the spot to where its path goes next.
 bool turn_is_free(const CycleState& state, const std::vector<Point2<Map>>& obstacles,
                   const planning::CheckOptions& margins) {
@@ -29,7 +40,7 @@ bool turn_is_free(const CycleState& state, const std::vector<Point2<Map>>& obsta
   if (way.pursuit.piece >= way.path.pieces().size()) return true;
   const PathPoint& next = way.path.points()[way.path.pieces()[way.pursuit.piece].first];
   const Point2<Map> here = state.pose.map_from_base.translation();
-  const Path turn{{{here, state.pose.map_from_base.yaw_rad()}, {here, next.heading_rad}}};
+  const Path turn{{{here, state.pose.map_from_base.yaw_rad()}, {here, next.facing_rad()}}};
   const auto check = planning::check_path(turn, 1, 0.0, obstacles, planning::WallGrid(), margins);
   return !check.blocked();
 }
@@ -46,23 +57,40 @@ double wall_slack_m(const CycleState& state, const CycleConfig& config, double s
   return 0.0;
 }
 
-/// What is kept of the ordinary margins. A vehicle may come to stand a hair within them, by the noise of what
-/// it sees; then each way begins blocked. After a while it may leave with less of them.
+/// Whether the vehicle stands free with these margins, and its next metres are free too.
+bool passes(const CycleState& state, const std::vector<Point2<Map>>& obstacles,
+            const planning::CheckOptions& margins, const CycleConfig& config) {
+  constexpr double kAheadM = 3.0;  ///< what is further away is judged when the vehicle gets there
+  const Navigation& way = state.way;
+  const planning::WallGrid& walls = *state.site->walls();
+  if (!planning::is_free(state.pose.map_from_base, obstacles, walls, margins)) return false;
+  if (may_turn(state, config) && !turn_is_free(state, obstacles, margins)) return false;
+  const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
+  return !planning::check_path(way.plain, from, kAheadM, obstacles, walls, margins).blocked();
+}
+
+/// What is kept of the ordinary margins. Where no way with all of them has shown itself for a while, because
+/// the place is narrow or the vehicle has come to stand within them, it goes with less, the slower the less,
+/// until the next metres allow all of them again.
 planning::Squeeze squeeze_here(const CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
                                const CycleConfig& config) {
   constexpr double kHalf = 0.5;
   constexpr double kLeast = 0.2;
+  constexpr double kAllAgain = 1.5;  ///< more than all of them: what is seen of a body flickers
   const Navigation& way = state.way;
-  const auto fits = [&](double share) {
-    return planning::is_free(state.pose.map_from_base, obstacles, *state.site->walls(),
-                             planning::with_margins(config.check, {share, 0.0}));
+  const auto passes_with = [&](const planning::Squeeze& squeeze) {
+    return passes(state, obstacles, planning::with_margins(config.check, squeeze), config);
   };
-  if (fits(1.0)) return {};
+  const bool squeezes = way.squeeze.share < 1.0;
+  if (passes_with({squeezes ? kAllAgain : 1.0, 0.0})) return {};
   const bool stands = state.mode == Mode::Waiting && way.blocked_since && !way.by_mover &&
                       to_seconds(now - *way.blocked_since) > config.squeeze_after_s;
   if (!stands) return way.squeeze;
-  if (fits(kHalf)) return {kHalf, 0.0};
-  return {kLeast, wall_slack_m(state, config, kLeast)};
+  const planning::Squeeze least{kLeast, wall_slack_m(state, config, kLeast)};
+  if (passes_with({kHalf, 0.0})) return {kHalf, 0.0};
+  if (passes_with(least)) return least;
+  const bool long_since = to_seconds(now - *way.blocked_since) > 2.0 * config.squeeze_after_s;
+  return long_since ? least : planning::Squeeze{kHalf, 0.0};  // a way around may do with so much
 }
 
 /// Whether something has seemed to move for long at one place, so that it does not: the edge of something
@@ -133,9 +161,18 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
   ++way.detour_id;
   planning::PathCheck check = way.check;
   if (!check.blocked()) check.first_blocked = check.last_blocked = way.pursuit.index;
-  output.detour_wanted = planning::DetourRequest{
-      way.detour_id, way.plain, way.pursuit.index,  state.pose.map_from_base, check, std::move(obstacles),
-      way.squeeze,   !stuck,    state.site->walls()};
+  const auto goal = state.site->routes().index_of(way.stop.node);
+  const bool any_end_heading = goal && !state.site->routes().nodes()[*goal].heading_rad;
+  output.detour_wanted = planning::DetourRequest{way.detour_id,
+                                                 way.plain,
+                                                 way.pursuit.index,
+                                                 state.pose.map_from_base,
+                                                 check,
+                                                 std::move(obstacles),
+                                                 way.squeeze,
+                                                 any_end_heading,
+                                                 !stuck,
+                                                 state.site->walls()};
 }
 
 void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
@@ -157,21 +194,18 @@ void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, S
   const double from_m = way.path.along_m(from);
   way.stop_along_m = from_m + way.check.free_m;
   way.care_along_m = from_m + way.check.care_m;
-  const bool may_turn = !way.pursuit.begun || way.pursuit.turning;
-  way.turn_free =
-      !may_turn || (turn_is_free(state, obstacles, margins) &&
-                    !planning::turn_meets(state.pose.map_from_base, movers, config.check, config.movers));
+  way.turn_free = !may_turn(state, config) ||
+                  (turn_is_free(state, obstacles, margins) &&
+                   !planning::turn_meets(state.pose.map_from_base, movers, config.check, config.movers));
 }
 
 /// Back the way it came: the guard looks at what stands there, here at who comes there.
 void check_behind(CycleState& state, Stamp now, const CycleConfig& config) {
   Navigation& way = state.way;
-  planning::CheckOptions facing_back = config.check;
-  std::swap(facing_back.vehicle.front_m, facing_back.vehicle.rear_m);
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
   way.check =
       planning::check_movers(way.plain, from, config.look_ahead_m, std::abs(state.limits.previous.linear_mps),
-                             true_movers(state, now, config), facing_back, config.movers);
+                             true_movers(state, now, config), config.check, config.movers);
   way.by_mover = way.check.blocked();
   way.unseen = false;
   way.turn_free = true;
@@ -219,6 +253,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
         (command.word == OperatorWord::Resume && state.mode == Mode::Waiting)) {
       way.felt = false;
       state.obstacles.clear();  // the operator has looked; what is seen comes back with the next scan
+      if (way.rejoin_m) take_path(way, {}, config);  // nothing to drive around any more: planned anew
     }
   if (way.path.empty() || way.arrived || !output.computed_lidar) return;
   const auto obstacles = obstacle_points(state);

@@ -45,6 +45,7 @@ struct CycleConfig {
   planning::RouteMetric metric = planning::RouteMetric::Metres;
   double look_ahead_m = 7.0;           ///< of the path, checked for obstacles
   double care_speed_mps = 0.4;         ///< beside something near
+  double narrow_speed_mps = 0.2;       ///< with less than the ordinary margins
   double degraded_speed_mps = 0.4;     ///< while localization is degraded
   double drive_silent_s = 0.3;         ///< without a status of the drive: fault
   double lidar_silent_s = 0.35;        ///< without a revolution: stand
@@ -54,7 +55,7 @@ struct CycleConfig {
   double reroute_after_s = 25.0;       ///< then the blocked leg is left out of a new route
   double door_reroute_after_s = 60.0;  ///< likewise before a door or lift, which may be about to open
   double mover_stays_after_s = 5.0;    ///< what stirs in one place for so long is no mover
-  double squeeze_after_s = 10.0;       ///< a vehicle within its own margins of a body may leave with less
+  double squeeze_after_s = 10.0;       ///< where no way has all of its margins it goes on with less
   double back_out_after_s = 12.0;      ///< a wedged vehicle goes back the way it came
   double back_out_m = 0.8;             ///< ... so far
   double back_out_mps = 0.15;          ///< ... so fast

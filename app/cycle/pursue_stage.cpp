@@ -18,8 +18,9 @@ double position_sigma(const PoseEstimate& pose) {
 
 double speed_for_now(const CycleState& state, const CycleConfig& config) {
   const double care_m = std::max(0.0, state.way.care_along_m - state.way.along_m);
-  const double care = std::sqrt(config.care_speed_mps * config.care_speed_mps +
-                                2.0 * config.pursuit.speed.deceleration_mps2 * care_m);
+  const bool narrow = state.way.squeeze.share < 1.0;
+  const double care_mps = narrow ? config.narrow_speed_mps : config.care_speed_mps;
+  const double care = std::sqrt(care_mps * care_mps + 2.0 * config.pursuit.speed.deceleration_mps2 * care_m);
   const bool degraded = state.pose.health.state == LocalizationState::Degraded;
   return degraded ? std::min(care, config.degraded_speed_mps) : care;
 }
@@ -28,17 +29,13 @@ double speed_for_now(const CycleState& state, const CycleConfig& config) {
 
 control::PursuitOutput follow(const CycleState& state, const CycleConfig& config) {
   const Navigation& way = state.way;
-  // Backward: a vehicle that looks the other way drives forward.
-  const Transform2<Base, Base> facing(0.0, 0.0, way.backing ? kPi : 0.0);
-  auto out = control::pursue(way.path, way.pursuit,
-                             {.map_from_base = state.pose.map_from_base * facing,
-                              .position_sigma_m = position_sigma(state.pose),
-                              .free_distance_m = way.stop_along_m - way.along_m,
-                              .turn_free = way.turn_free,
-                              .max_speed_mps = speed_for_now(state, config)},
-                             config.pursuit);
-  if (way.backing) out.command.linear_mps = -out.command.linear_mps;
-  return out;
+  return control::pursue(way.path, way.pursuit,
+                         {.map_from_base = state.pose.map_from_base,
+                          .position_sigma_m = position_sigma(state.pose),
+                          .free_distance_m = way.stop_along_m - way.along_m,
+                          .turn_free = way.turn_free,
+                          .max_speed_mps = speed_for_now(state, config)},
+                         config.pursuit);
 }
 
 VelocityCommand wanted_command(CycleState& state, const CycleInput& input, const CycleConfig& config) {

@@ -78,7 +78,7 @@ json detour_json(const planning::DetourAnswer& answer) {
   json points = json::array();
   for (const PathPoint& p : answer.path->points)
     points.push_back({bits(p.position.x_m), bits(p.position.y_m), bits(p.heading_rad),
-                      bits(p.curvature_per_m), bits(p.speed_limit_mps)});
+                      bits(p.curvature_per_m), bits(p.speed_limit_mps), p.reverse});
   value["path"] = std::move(points);
   return value;
 }
@@ -90,7 +90,8 @@ planning::DetourAnswer detour_from(const json& value) {
     answer.path->points.push_back({{from_bits(p.at(0)), from_bits(p.at(1))},
                                    from_bits(p.at(2)),
                                    from_bits(p.at(3)),
-                                   from_bits(p.at(4))});
+                                   from_bits(p.at(4)),
+                                   p.size() > 5 && p.at(5).get<bool>()});
   return answer;
 }
 

@@ -22,9 +22,15 @@ double allowed_by_uncertainty(double sigma_m, const PursuitOptions& options) {
   return options.speed.max_speed_mps + share * (options.unsure_speed_mps - options.speed.max_speed_mps);
 }
 
-/// The direction in which a piece begins; of a piece of one point it is the heading asked for.
-double direction_of(const TrackedPath& path, const PathPiece& piece) {
-  return path.points()[piece.first].heading_rad;
+/// Where the front points as a piece begins; of a piece of one point it is the heading asked for.
+double facing_of(const TrackedPath& path, const PathPiece& piece) {
+  return path.points()[piece.first].facing_rad();
+}
+
+/// A vehicle that looks the other way drives forward.
+PursuitInput facing_travel(PursuitInput input, bool reverse) {
+  if (reverse) input.map_from_base = input.map_from_base * Transform2<Base, Base>(0.0, 0.0, kPi);
+  return input;
 }
 
 /// Turns towards `direction`; true once it is reached.
@@ -74,10 +80,10 @@ PursuitOutput pursue(const TrackedPath& path, const PursuitState& before, const 
   while (state.piece < path.pieces().size()) {
     const PathPiece& piece = path.pieces()[state.piece];
     if (!state.begun) {
-      const double off_rad = wrap_angle(direction_of(path, piece) - input.map_from_base.yaw_rad());
+      const double off_rad = wrap_angle(facing_of(path, piece) - input.map_from_base.yaw_rad());
       state = {state.piece, piece.first, state.piece > 0 || std::abs(off_rad) > options.turn_first_rad, true};
     }
-    if (state.turning && !turn_towards(direction_of(path, piece), input, options, out.command)) {
+    if (state.turning && !turn_towards(facing_of(path, piece), input, options, out.command)) {
       out.status = PursuitStatus::Turning;
       out.along_m = path.along_m(piece.first);
       return out;
@@ -93,7 +99,9 @@ PursuitOutput pursue(const TrackedPath& path, const PursuitState& before, const 
         return out;
       }
       if (path.along_m(piece.end - 1) - place.along_m > options.goal_tolerance_m) {
-        out.command = aim(path, piece, place, input, options);
+        const bool reverse = path.points()[piece.first].reverse;
+        out.command = aim(path, piece, place, facing_travel(input, reverse), options);
+        if (reverse) out.command.linear_mps = -out.command.linear_mps;
         return out;
       }
     }

@@ -1,7 +1,10 @@
 #include "planning/detour/detour_planner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "core/angle.hpp"
 
 namespace madori::planning {
 namespace {
@@ -25,7 +28,7 @@ std::vector<std::size_t> rejoin_points(const DetourRequest& request, const Check
 }
 
 Transform2<Map, Base> pose_at(const PathPoint& point) {
-  return {point.position.x_m, point.position.y_m, point.heading_rad};
+  return {point.position.x_m, point.position.y_m, point.facing_rad()};
 }
 
 /// Beside the vehicle, more than what it is checked with while it drives: no curve is followed exactly.
@@ -72,13 +75,78 @@ DetourAnswer plan_within(const DetourRequest& request, const CheckOptions& check
   return answer;
 }
 
+/// A pose at a point of the route, from which the rest of the route is driven.
+struct Rejoin {
+  std::size_t point;
+  Transform2<Map, Base> pose;
+};
+
+/// Where a manoeuvre may come back to the route: the points beyond what blocks it at which the vehicle stands
+/// free; at its end in any heading, where none is asked for.
+std::vector<Rejoin> free_rejoins(const DetourRequest& request, const CheckOptions& check,
+                                 const ManoeuvreOptions& options) {
+  constexpr double kWithinM = 4.0;
+  std::vector<Rejoin> found;
+  const auto add = [&](std::size_t i, const Transform2<Map, Base>& pose) {
+    if (is_free(pose, request.obstacles, *request.walls, check)) found.push_back({i, pose});
+  };
+  const auto& path = request.path.points;
+  double passed_m = 0.0;
+  for (std::size_t i = request.check.last_blocked + 1; i < path.size() && passed_m < kWithinM; ++i) {
+    passed_m += distance_m(path[i - 1].position, path[i].position);
+    add(i, pose_at(path[i]));
+  }
+  if (passed_m >= kWithinM || !request.any_end_heading || path.empty()) return found;
+  for (int k = 1; k < options.headings; ++k)
+    add(path.size() - 1, {path.back().position.x_m, path.back().position.y_m,
+                          wrap_angle(path.back().facing_rad() + 2.0 * kPi * k / options.headings)});
+  return found;
+}
+
+/// Out of a narrow place and back to the route.
+DetourAnswer manoeuvre_within(const DetourRequest& request, const CheckOptions& check,
+                              const ManoeuvreOptions& options) {
+  DetourAnswer answer{request.id, std::nullopt, 0, ""};
+  const auto& path = request.path.points;
+  const auto rejoins = free_rejoins(request, check, options);
+  std::vector<double> along_m(path.size(), 0.0);
+  for (std::size_t i = 1; i < path.size(); ++i)
+    along_m[i] = along_m[i - 1] + distance_m(path[i - 1].position, path[i].position);
+  std::vector<ManoeuvreGoal> goals;
+  for (const Rejoin& rejoin : rejoins) {
+    const double off_rad = wrap_angle(rejoin.pose.yaw_rad() - path[rejoin.point].facing_rad());
+    goals.push_back({rejoin.pose, along_m[rejoins.back().point] - along_m[rejoin.point] +
+                                      std::abs(off_rad) * options.other_heading_cost_m});
+  }
+  auto found =
+      find_manoeuvre(request.map_from_base, goals, request.obstacles, *request.walls, check, options);
+  if (!found) {
+    answer.reason = found.reason();
+    return answer;
+  }
+  const Rejoin& joins = rejoins[found.value().goal];
+  Path whole = std::move(found).value().path;
+  PathPoint turn = path[joins.point];  // the last few degrees, on the spot
+  turn.position = whole.points.back().position;
+  turn.heading_rad = wrap_angle(joins.pose.yaw_rad() + (turn.reverse ? kPi : 0.0));
+  turn.curvature_per_m = 0.0;
+  whole.points.push_back(turn);
+  answer.rejoin = whole.points.size() - 1;
+  whole.points.insert(whole.points.end(), path.begin() + static_cast<std::ptrdiff_t>(joins.point) + 1,
+                      path.end());
+  answer.path = std::move(whole);
+  return answer;
+}
+
 }  // namespace
 
 DetourAnswer plan_detour(const DetourRequest& request, const CheckOptions& ordinary,
                          const DetourOptions& options) {
   const CheckOptions check = with_margins(ordinary, request.squeeze);
   DetourAnswer answer = plan_within(request, with_room(check, options.room_m), options);
-  return answer.path ? answer : plan_within(request, check, options);
+  if (!answer.path) answer = plan_within(request, check, options);
+  if (!answer.path) answer = manoeuvre_within(request, check, options.manoeuvre);
+  return answer;
 }
 
 DetourPlanner::DetourPlanner(CheckOptions check, DetourOptions options)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planning/detour/free_space.hpp"
+#include "planning/detour/manoeuvre.hpp"
 #include "planning/detour/side_detour.hpp"
 
 namespace madori::planning {
@@ -21,8 +22,9 @@ struct DetourRequest {
   Transform2<Map, Base> map_from_base;
   PathCheck check;
   std::vector<Point2<Map>> obstacles;
-  Squeeze squeeze{};      ///< where the vehicle has come to stand too near to something
-  bool turn_free = true;  ///< else the way begins as the vehicle stands: through the free space
+  Squeeze squeeze{};             ///< where the vehicle has come to stand too near to something
+  bool any_end_heading = false;  ///< the end of the path may be come to in any heading
+  bool turn_free = true;         ///< else the way begins as the vehicle stands: through the free space
   std::shared_ptr<const WallGrid> walls = std::make_shared<const WallGrid>();
 };
 
@@ -36,11 +38,12 @@ struct DetourAnswer {
 struct DetourOptions {
   SideDetourOptions side;
   FreeSpaceOptions free_space;
+  ManoeuvreOptions manoeuvre;
   double room_m = 0.08;  ///< beside the vehicle beyond the margins, where there is so much
 };
 
-/// First beside the route, then through the free space, with more room than the margins where there is.
-/// Always ends: the search is bounded.
+/// First beside the route, then through the free space, with more room than the margins where there is; last
+/// by a manoeuvre of strokes forward and backward. Always ends: the search is bounded.
 [[nodiscard]] DetourAnswer plan_detour(const DetourRequest& request, const CheckOptions& check,
                                        const DetourOptions& options);
 

@@ -192,7 +192,7 @@ PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, doubl
     const double previous_m = std::max(0.0, checked_m);
     checked_m = along_m;
     const PathPoint& point = path.points[i];
-    const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m, point.heading_rad);
+    const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m, point.facing_rad());
     const double begin_s = std::max(0.0, earliest_s(along_m, speed_mps, options) - options.window_s);
     const double end_s = std::min(options.foresight_s, latest_s(along_m, speed_mps) + options.window_s);
     for (const Mover<Map>& m : movers) {

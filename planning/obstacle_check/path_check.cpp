@@ -32,6 +32,12 @@ struct Zone {
   }
 };
 
+/// What is kept free where the vehicle drives no faster than this: at its ends what it would drive before
+/// braking shows.
+Zone stop_zone(const CheckOptions& options, double speed_mps) {
+  return {options, ends_margin_m(options, speed_mps), options.sides_margin_m};
+}
+
 std::optional<Contact> meets_point(const Transform2<Map, Base>& pose,
                                    const std::vector<Point2<Map>>& obstacles, const Zone& zone) {
   const auto base_from_map = pose.inverse();
@@ -85,14 +91,15 @@ template <class Visit>
 bool any_heading(const Path& path, std::size_t i, double turn_step_rad, Visit&& visit) {
   const PathPoint& point = path.points[i];
   const bool turns = i > 0 && distance_m(path.points[i - 1].position, point.position) < kSamePointM;
-  if (!turns) return visit(placed(point, point.heading_rad));
+  if (!turns) return visit(placed(point, point.facing_rad()));
+  const double from_rad = path.points[i - 1].facing_rad();
   constexpr double kEitherWayRad =
       3.0;  // nearly about: noise decides which way it turns, so both must be free
-  double turn = wrap_angle(point.heading_rad - path.points[i - 1].heading_rad);
+  double turn = wrap_angle(point.facing_rad() - from_rad);
   if (std::abs(turn) > kEitherWayRad) turn = 2.0 * kPi;
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / turn_step_rad)));
   for (int k = 1; k <= steps; ++k)
-    if (visit(placed(point, path.points[i - 1].heading_rad + turn * k / steps))) return true;
+    if (visit(placed(point, from_rad + turn * k / steps))) return true;
   return false;
 }
 
@@ -107,7 +114,6 @@ PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
   std::size_t end = from + 1;
   for (; end < path.points.size() && along_m.back() <= ahead_m; ++end)
     along_m.push_back(along_m.back() + distance_m(path.points[end - 1].position, path.points[end].position));
-  const Zone stop(options, options.ends_margin_m, options.sides_margin_m);
   const Zone turning(options, options.turn_margin_m, options.turn_margin_m);
   const Zone care(options, options.ends_margin_m + options.care_margin_m,
                   options.sides_margin_m + options.care_margin_m);
@@ -123,7 +129,7 @@ PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
     std::optional<Contact> contact;
     bool slow = false;
     any_heading(path, i, options.turn_step_rad, [&](const Transform2<Map, Base>& pose) {
-      contact = meets_point(pose, near, turns ? turning : stop);
+      contact = meets_point(pose, near, turns ? turning : stop_zone(options, path.points[i].speed_limit_mps));
       if (!contact) contact = meets_wall(pose, walls, options);
       slow = slow || contact || meets_point(pose, near, care);
       return contact.has_value();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -23,6 +24,13 @@ struct CheckOptions {
   double step_m = 0.15;          ///< waypoints nearer together than this are checked once
   double turn_step_rad = 0.15;   ///< between the checked headings of a turn on the spot
 };
+
+/// Kept free before and behind a vehicle of this speed: beside it as much as in a turn, and what it drives
+/// before braking shows.
+[[nodiscard]] inline double ends_margin_m(const CheckOptions& options, double speed_mps) {
+  constexpr double kBeforeBrakingS = 0.35;  ///< a scan and the reaction, see BrakingModel
+  return std::min(options.ends_margin_m, options.turn_margin_m + kBeforeBrakingS * speed_mps);
+}
 
 /// What is left of the ordinary margins to a vehicle that has come to stand too near to something.
 struct Squeeze {

@@ -27,6 +27,16 @@ app::SiteForDriving site_of(const BuildingStart& start, const std::filesystem::p
   return app::load_for_driving(folder);
 }
 
+/// What the check of the way met: a body that was seen, or a wall that is drawn.
+std::string blocked_by(const app::Navigation& way) {
+  std::string text = way.turn_free ? "" : ", no turn";
+  if (way.held) text += ", held";
+  if (way.check.blocked())
+    text += fmt::format(", {} at ({:.2f}, {:.2f}), {:.2f} m before it", way.check.by_wall ? "wall" : "body",
+                        way.check.where.x_m, way.check.where.y_m, way.check.free_m);
+  return text + fmt::format(", margins {:.1f}", way.squeeze.share);
+}
+
 }  // namespace
 
 BuildingDrive::BuildingDrive(const BuildingStart& start, const DriveOptions& options)
@@ -122,10 +132,10 @@ void BuildingDrive::note_undelivered(int station, std::int64_t order, const std:
   const auto& state = run_->state();
   const auto truth = run_->factory->truth().map_from_base;
   const auto& pose = state.pose.map_from_base;
-  figures_.undelivered.push_back(
-      fmt::format("to {}: {}; {}: {}; at ({:.2f}, {:.2f}), believes ({:.2f}, {:.2f}) {}: {}", station, why,
-                  to_string(state.mode), state.standstill.cause.text, truth.x_m(), truth.y_m(), pose.x_m(),
-                  pose.y_m(), to_string(state.pose.health.state), state.pose.health.reason));
+  figures_.undelivered.push_back(fmt::format(
+      "to {}: {}; {}: {}{}; at ({:.2f}, {:.2f}), believes ({:.2f}, {:.2f}) {}: {}", station, why,
+      to_string(state.mode), state.standstill.cause.text, blocked_by(state.way), truth.x_m(), truth.y_m(),
+      pose.x_m(), pose.y_m(), to_string(state.pose.health.state), state.pose.health.reason));
   run_->run->orders().close(order, app::OrderState::Cancelled, "bench: not delivered", run_->factory->now());
 }
 
