@@ -14,7 +14,7 @@ struct PoseHypothesis {
 
 /// How far a pose that a person gave may be off, one sigma.
 struct PoseSigma {
-  double position_m = 0.5;
+  double position_m = 0.3;
   double yaw_rad = 0.17453292519943295;  ///< 10 deg
 
   friend bool operator==(const PoseSigma&, const PoseSigma&) = default;

@@ -112,9 +112,9 @@ std::vector<Transform2<Map, Map>> coarse_alignments(const WallIndex& index, cons
 
 Transform2<Map, Map> refine_alignment(const WallIndex& index, const MemoryCloud& cloud,
                                       const Point2<Map>& centre, Transform2<Map, Map> correction,
-                                      const DrawingModel& model) {
+                                      const DrawingModel& model, double first_sigma_m) {
   for (int i = 0; i < 12; ++i) {
-    const WallMixture mixture(model, std::max(model.sigma_m, 0.35 * std::pow(0.75, i)));
+    const WallMixture mixture(model, std::max(model.sigma_m, first_sigma_m * std::pow(0.75, i)));
     const Point2<Map> pivot = correction * centre;
     Eigen::Matrix3d h = 1e-3 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();

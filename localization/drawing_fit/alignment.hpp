@@ -37,11 +37,15 @@ struct AlignmentWindow {
                                                                   const Point2<Map>& centre,
                                                                   const AlignmentWindow& window);
 
+inline constexpr double kCatchSigmaM = 0.35;  ///< from so far a wall draws what belongs to it
+
 /// Gauss-Newton on the distances to the walls from one start, the mixture narrowing down to the model's sigma
-/// (iteratively reweighted: a surface counts as far as it is likely to be a wall).
+/// (iteratively reweighted: a surface counts as far as it is likely to be a wall). A small first sigma stays
+/// at the optimum that the start is at.
 [[nodiscard]] Transform2<Map, Map> refine_alignment(const WallIndex& index, const MemoryCloud& cloud,
                                                     const Point2<Map>& centre,
                                                     Transform2<Map, Map> correction,
-                                                    const DrawingModel& model);
+                                                    const DrawingModel& model,
+                                                    double first_sigma_m = kCatchSigmaM);
 
 }  // namespace madori::localization

@@ -32,10 +32,11 @@ double DrawingFit::likelihood(const MemoryCloud& cloud, const Transform2<Map, Ma
   return log_likelihood(*index_, cloud, correction, WallMixture(model_, sigma_m));
 }
 
-Alignment DrawingFit::settle(const MemoryCloud& cloud, const Transform2<Map, Map>& start) const {
+Alignment DrawingFit::settle(const MemoryCloud& cloud, const Transform2<Map, Map>& start, bool stay) const {
   const DrawingModel plain;
   Alignment found;
-  found.correction = refine_alignment(*index_, cloud, centre_of(cloud), start, plain);
+  found.correction =
+      refine_alignment(*index_, cloud, centre_of(cloud), start, plain, stay ? plain.sigma_m : kCatchSigmaM);
   found.likelihood = log_likelihood(*index_, cloud, found.correction, WallMixture(plain, plain.sigma_m));
   return found;
 }

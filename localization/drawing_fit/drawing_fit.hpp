@@ -40,8 +40,10 @@ class DrawingFit {
                                   double sigma_m) const;
   /// The best rigid correction within the window, found on a grid and refined.
   [[nodiscard]] Alignment align(const MemoryCloud& cloud, const AlignmentWindow& window) const;
-  /// From one start, with the plain model of a drawing never seen before: comparable between places.
-  [[nodiscard]] Alignment settle(const MemoryCloud& cloud, const Transform2<Map, Map>& start) const;
+  /// From one start, with the plain model of a drawing never seen before: comparable between places. With
+  /// `stay` at the optimum that the start is at, else at the best of those around it.
+  [[nodiscard]] Alignment settle(const MemoryCloud& cloud, const Transform2<Map, Map>& start,
+                                 bool stay = false) const;
   /// Learns sigma and the share of inliers from a cloud that lies right.
   void learn(const MemoryCloud& cloud);
   /// The drawing's pulls, one a keyframe, for keyframes at `poses`. Where the drawing as a whole lies beside

@@ -157,6 +157,8 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
   std::vector<Placement> found{{}};
   for (const Placement& p : placements_)
     if (p.probability > kForgotten) found.push_back(p);
+  const std::size_t known = found.size();  // they stay where they are as well as go where they are drawn to
+  for (std::size_t i = 0; i < known; ++i) found.push_back(found[i]);
   if (prior) found.push_back({prior->map_from_base * memory.poses().front().inverse()});
   if (everywhere) {
     for (const auto& correction : survey(fit.index(), seen.cloud, at, kSurveyed))
@@ -166,9 +168,10 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
       found.back().mirrored = true;
     }
   }
-  for (Placement& p : found) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    Placement& p = found[i];
     const Seen& view = p.mirrored ? mirrored : seen;
-    p.correction = fit.settle(view.cloud, p.correction).correction;
+    p.correction = fit.settle(view.cloud, p.correction, i < known).correction;
     p.log_prior = -std::log(2.0 * kPi * area_m2_);
     if (p.mirrored)
       p.log_prior += log_mirrored_;
