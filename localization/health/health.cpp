@@ -25,7 +25,7 @@ LocalizationHealth lost(const HealthEvidence& e, const HealthLimits& limits) {
         "the last " + std::to_string(e.blind_scans) +
         " scans agree neither with what was seen before nor with the wheels: moved by hand or covered?");
   if (!e.looked) return because(reason::kSearching.english);
-  if (e.here >= limits.believed) return {LocalizationState::Localized, ""};
+  if (e.here >= limits.believed || e.around >= limits.localized) return {LocalizationState::Localized, ""};
   if (e.rival > limits.believed) return because(reason::kMovedByHand.english);
   if (e.rival > limits.rival) return {LocalizationState::Ambiguous, reason::kTwoAlike.english};
   return because(reason::kNoPlace.english);
@@ -35,6 +35,7 @@ LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits)
   const auto because = [](std::string reason) {
     return LocalizationHealth{LocalizationState::Degraded, std::move(reason)};
   };
+  if (e.here < limits.believed) return because("the place is certain to a metre only: drive on slowly");
   if (e.here < limits.localized)
     return because("the place is certain to " + percent(e.here) + " only: drive on slowly");
   if (e.has_drawing && e.inliers < limits.explained)

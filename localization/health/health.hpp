@@ -10,6 +10,7 @@ struct HealthEvidence {
   bool looked = false;      ///< all places of the drawing were compared since the start, or since it was lost
   double walls_seen = 0.0;  ///< surfaces in the memory, in walls of two metres
   double here = 0.0;        ///< share of the belief within 0.5 m and 10 degrees of the answer
+  double around = 0.0;      ///< share within 1 m and 20 degrees of it: right, but not exactly
   double rival = 0.0;       ///< share of the belief at the likeliest other place
   double mirrored = 0.0;    ///< share of the belief that the drawing is mirrored
   double inliers = 0.5;     ///< share of what is seen that the drawing explains where it is laid
@@ -27,7 +28,7 @@ struct HealthEvidence {
 /// Where the states begin: shares of the belief, the same for every building.
 struct HealthLimits {
   double localized = 0.95;  ///< at the answer
-  double believed = 0.6;    ///< less there: not known where
+  double believed = 0.6;    ///< less there, and less than `localized` around: not known where
   double rival = 0.2;       ///< at another place: two places look alike
   double mirrored = 0.5;
   double maybe_mirrored = 0.01;  ///< more than this and it is not sure: on a mirrored drawing all is wrong

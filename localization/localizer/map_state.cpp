@@ -50,7 +50,9 @@ void MapState::place(const LocalizerOptions& options) {
   if (placed) lay_on_drawing(cloud, options);
   const Transform2<Map, Base>& at = memory.poses().back();
   evidence.here = placed ? drawing->belief.probability_here(at) : 0.0;
-  if (unconfirmed_size == memory.size()) evidence.here = std::min(evidence.here, options.unconfirmed);
+  evidence.around = placed ? drawing->belief.probability_around(at) : 0.0;
+  if (unconfirmed_size == memory.size())
+    evidence.here = evidence.around = std::min(evidence.here, options.unconfirmed);
   evidence.rival = drawing->belief.probability_elsewhere(at);
   evidence.mirrored = drawing->belief.probability_mirrored();
 }

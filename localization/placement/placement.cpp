@@ -32,6 +32,8 @@ constexpr double kSameRad = to_rad(8.0);
 constexpr double kAnyPlace = 0.1;  // who may be anywhere around a place is not at that place
 constexpr double kNearM = 0.5;     // what an answer may be off by and still be right
 constexpr double kNearRad = to_rad(10.0);
+constexpr double kAroundM = 1.0;
+constexpr double kAroundRad = to_rad(20.0);
 
 double log_mean_exp(const std::array<double, kDrawingSigmasM.size()>& nats) {
   const double most = *std::max_element(nats.begin(), nats.end());
@@ -91,11 +93,11 @@ Eigen::Matrix3d hold_of(const WallIndex& index, const MemoryCloud& cloud,
   return h;
 }
 
-/// Chance that the vehicle is within kNearM and kNearRad of where a placement puts it.
-double share_near(const Eigen::Matrix3d& hold) {
+/// Chance that the vehicle is within these of where a placement puts it.
+double share_within(const Eigen::Matrix3d& hold, double m, double rad) {
   const Eigen::Matrix3d covariance = hold.inverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>());
-  return within(kNearM, std::sqrt(axes.eigenvalues()[1])) * within(kNearRad, std::sqrt(covariance(2, 2)));
+  return within(m, std::sqrt(axes.eigenvalues()[1])) * within(rad, std::sqrt(covariance(2, 2)));
 }
 
 }  // namespace
@@ -141,7 +143,8 @@ void PlaceBelief::judge(const DrawingFit& fit, const Seen& seen, const std::opti
     hold.diagonal() +=
         Eigen::Vector3d(1.0 / (prior->sigma_m * prior->sigma_m), 1.0 / (prior->sigma_m * prior->sigma_m),
                         1.0 / (prior->sigma_rad * prior->sigma_rad));
-  placement.near = share_near(hold);
+  placement.near = share_within(hold, kNearM, kNearRad);
+  placement.around = share_within(hold, kAroundM, kAroundRad);
   placement.votes = votes_at(fit.index(), seen.cloud, seen.pieces, placement.correction, mixture);
   placement.votes.crossed = walls_crossed(seen.ways, placement.correction, *walls_);
   placement.nats =
@@ -222,6 +225,14 @@ double PlaceBelief::probability_here(const Transform2<Map, Base>& at) const {
   double sum = 0.0;
   for (const Placement& p : placements_)
     if (!p.mirrored && same_place(p.correction * at, at, kNearM, kNearRad)) sum += p.probability * p.near;
+  return sum;
+}
+
+double PlaceBelief::probability_around(const Transform2<Map, Base>& at) const {
+  double sum = 0.0;
+  for (const Placement& p : placements_)
+    if (!p.mirrored && same_place(p.correction * at, at, kAroundM, kAroundRad))
+      sum += p.probability * p.around;
   return sum;
 }
 

@@ -30,6 +30,7 @@ struct Placement {
   double probability = 0.0;  ///< among all that are known
   double explained = 0.0;    ///< share of what is remembered that lies on drawn walls there
   double near = 1.0;         ///< of this probability, the share within 0.5 m and 10 degrees of it
+  double around = 1.0;       ///< ... within 1 m and 20 degrees
   bool mirrored = false;     ///< of the memory's mirror image: the drawing would be mirrored
 };
 
@@ -56,6 +57,8 @@ class PlaceBelief {
   [[nodiscard]] const std::vector<Placement>& placements() const { return placements_; }
   /// The share of the belief within 0.5 m and 10 degrees of the memory as it lies, at the vehicle.
   [[nodiscard]] double probability_here(const Transform2<Map, Base>& at) const;
+  /// ... within 1 m and 20 degrees.
+  [[nodiscard]] double probability_around(const Transform2<Map, Base>& at) const;
   /// The likeliest that does not need a mirror; nothing before the first weigh().
   [[nodiscard]] std::optional<Placement> best() const;
   /// Of the likeliest place but where the memory lies.

@@ -70,6 +70,16 @@ TEST(Health, ARivalPlaceIsAmbiguousABetterOneIsLost) {
   EXPECT_EQ(judge(e).reason, reason::kMovedByHand.english);
 }
 
+TEST(Health, WherePlacesSideBySideAreAlikeItIsKnownToAMetre) {
+  auto e = sound();
+  e.here = 0.5;
+  e.rival = 0.49;
+  e.around = 0.99;
+  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
+  e.around = 0.94;
+  EXPECT_EQ(judge(e).state, LocalizationState::Ambiguous);
+}
+
 TEST(Health, WhereNoPlaceStandsOutItIsLost) {
   HealthEvidence e = sound();
   e.here = 0.1;
