@@ -20,7 +20,7 @@ planning::RouteGraph carried_routes(const planning::RouteGraph& drawn,
   std::vector<planning::RouteNode> nodes = drawn.nodes();
   for (planning::RouteNode& node : nodes) {
     const auto at = carried_by(bent, {node.position.x_m, node.position.y_m, node.heading_rad.value_or(0.0)});
-    node.position = at.translation();
+    if (bent != nullptr) node.position = bent->by_walls(node.position);
     if (node.heading_rad) node.heading_rad = at.yaw_rad();
   }
   return {std::move(nodes), drawn.legs()};
@@ -46,9 +46,7 @@ bool SiteInBuilding::differs(const std::shared_ptr<const localization::BentDrawi
   if (!bent || !bent_ || bent->stands.walls.size() != bent_->stands.walls.size()) return true;
   const auto& nodes = drawn_->nodes();
   const bool node_moved = std::any_of(nodes.begin(), nodes.end(), [&](const planning::RouteNode& node) {
-    const Transform2<Map, Base> drawn(node.position.x_m, node.position.y_m, 0.0);
-    return distance_m(carried_by(bent.get(), drawn).translation(),
-                      carried_by(bent_.get(), drawn).translation()) > kFollowedToM;
+    return distance_m(bent->by_walls(node.position), bent_->by_walls(node.position)) > kFollowedToM;
   });
   if (node_moved) return true;
   const auto& before = bent_->stands.walls;

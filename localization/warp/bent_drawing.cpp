@@ -1,5 +1,7 @@
 #include "localization/warp/bent_drawing.hpp"
 
+#include "localization/warp/place_by_walls.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -18,6 +20,10 @@ Transform2<Map, Base> BentDrawing::in_building(const Transform2<Map, Base>& on_d
 Transform2<Map, Base> BentDrawing::on_drawing(const Transform2<Map, Base>& in_building) const {
   return fit.warp.map(
       Transform2<Building, Base>(in_building.x_m(), in_building.y_m(), in_building.yaw_rad()));
+}
+
+Point2<Map> BentDrawing::by_walls(const Point2<Map>& on_drawing) const {
+  return place_by_walls(*drawn, fit, on_drawing);
 }
 
 Transform2<Map, Base> BendingDrawing::in_building(const Transform2<Map, Base>& on_drawing) const {
@@ -43,7 +49,7 @@ void BendingDrawing::take(const WarpFit& fit) {
   }
   BuildingWalls stands = walls_in_building(drawn_.index().walls(), fit);
   standing_ = DrawingFit(stands.walls, stands.sigma_m, standing_.model());
-  bent_ = std::make_shared<const BentDrawing>(BentDrawing{fit, std::move(stands)});
+  bent_ = std::make_shared<const BentDrawing>(BentDrawing{walls_, fit, std::move(stands)});
 }
 
 void BendingDrawing::bend(const MemoryCloud& cloud) {

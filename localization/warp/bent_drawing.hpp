@@ -9,9 +9,12 @@ namespace madori::localization {
 
 /// The drawing as it is believed to stand. Immutable, shared.
 struct BentDrawing {
+  std::shared_ptr<const mapping::Walls> drawn;
   WarpFit fit;           ///< of the drawn walls
   BuildingWalls stands;  ///< the walls where they stand, Building metres
 
+  /// A place of a room, by the walls around it: place_by_walls().
+  [[nodiscard]] Point2<Map> by_walls(const Point2<Map>& on_drawing) const;
   /// A pose carried over; both typed Map, the building's metres being laid rigidly on the drawing.
   [[nodiscard]] Transform2<Map, Base> in_building(const Transform2<Map, Base>& on_drawing) const;
   [[nodiscard]] Transform2<Map, Base> on_drawing(const Transform2<Map, Base>& in_building) const;
@@ -22,7 +25,10 @@ struct BentDrawing {
 /// says otherwise. A copy is cheap.
 class BendingDrawing {
  public:
-  explicit BendingDrawing(const mapping::Walls& walls) : drawn_(walls), standing_(drawn_) {}
+  explicit BendingDrawing(const mapping::Walls& walls)
+      : drawn_(walls),
+        walls_(std::make_shared<const mapping::Walls>(drawn_.index().walls())),
+        standing_(drawn_) {}
 
   [[nodiscard]] const DrawingFit& drawn() const { return drawn_; }
   [[nodiscard]] const DrawingFit& standing() const { return standing_; }
@@ -45,6 +51,7 @@ class BendingDrawing {
   void take(const WarpFit& fit);
 
   DrawingFit drawn_;
+  std::shared_ptr<const mapping::Walls> walls_;  ///< in the order that a fit tells of them
   DrawingFit standing_;
   std::shared_ptr<const BentDrawing> bent_;
   DrawingWarp start_;        ///< where the next fit's association begins; the statistics learned

@@ -27,8 +27,8 @@ std::shared_ptr<const localization::BentDrawing> bent(double x_m = 0.3) {
   localization::WarpFit fit;
   fit.warp = localization::DrawingWarp({1.01, to_rad(1.0), x_m, -0.1}, {}, {});
   fit.walls.resize(kWalls.size());
-  return std::make_shared<const localization::BentDrawing>(
-      localization::BentDrawing{fit, localization::walls_in_building(kWalls, fit)});
+  return std::make_shared<const localization::BentDrawing>(localization::BentDrawing{
+      std::make_shared<const mapping::Walls>(kWalls), fit, localization::walls_in_building(kWalls, fit)});
 }
 
 TEST(SiteInBuilding, IsAsDrawnToTheBitUntilSomethingElseIsBelieved) {
