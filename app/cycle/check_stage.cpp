@@ -134,14 +134,15 @@ bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now) {
   return known;
 }
 
-void note_blocked(Navigation& way, Stamp now) {
+/// What is free for a moment only, by the noise of what is seen, is blocked all along.
+void note_blocked(Navigation& way, Stamp now, double clear_for_s) {
   const bool blocked = way.check.blocked() || !way.turn_free || way.held;
   if (blocked) {
     way.free_since.reset();
     if (!way.blocked_since) way.blocked_since = now;
   } else {
-    way.blocked_since.reset();
     if (!way.free_since) way.free_since = now;
+    if (to_seconds(now - *way.free_since) >= clear_for_s) way.blocked_since.reset();
   }
 }
 
@@ -266,7 +267,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
     way.backing_held = true;
     return end_back_out(state);
   }
-  note_blocked(way, input.now);
+  note_blocked(way, input.now, config.clear_for_s);
   ask_for_detour(state, input, config, obstacles, output);
 }
 
