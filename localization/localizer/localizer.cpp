@@ -43,6 +43,7 @@ void Localizer::begin_anew(const std::optional<StartPrior>& told) {
   map_.told = told;
   map_.placed = told.has_value();
   map_.next_survey_walls = 0.0;
+  map_.unconfirmed_size = 0;
   if (told) anchor_ = told->map_from_base;
   const StartPrior sigma = told.value_or(StartPrior{{}, 1e2, kPi});
   covariance_ = Eigen::Vector3d(sigma.sigma_m * sigma.sigma_m, sigma.sigma_m * sigma.sigma_m,

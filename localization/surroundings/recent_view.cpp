@@ -108,7 +108,6 @@ void RecentView::learn(double kept) {
   constexpr int kMemory = 20;  // scans
   learned_ = std::min(learned_ + 1, kMemory);
   usual_ += (kept - usual_) / learned_;
-  spread_ += (std::abs(kept - usual_) - spread_) / learned_;
 }
 
 }  // namespace madori::localization

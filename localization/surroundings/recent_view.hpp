@@ -34,8 +34,6 @@ class RecentView {
   /// By how much a share is below what learn() was told on average: noise and clutter differ from lidar to
   /// lidar. Never positive before a few scans.
   [[nodiscard]] double fall(double kept) const { return learned_ < kFewest ? 0.0 : usual_ - kept; }
-  /// Mean absolute deviation of what learn() was told.
-  [[nodiscard]] double spread() const { return spread_; }
 
  private:
   static constexpr int kFewest = 3;
@@ -58,7 +56,6 @@ class RecentView {
   Surfaces before_;
   Surfaces now_;
   double usual_ = 0.0;
-  double spread_ = 0.0;
   int learned_ = 0;
 };
 

@@ -14,12 +14,11 @@ void SurroundingsCheck::take(Stamp stamp, const ScanPoints& points) {
 Surroundings SurroundingsCheck::compare(const Transform2<Base, Base>& by_wheels,
                                         const Transform2<Base, Base>& by_walls) {
   kept_ = view_.kept(by_wheels);
-  if (view_.fall(kept_) > options_.changed_fall) kept_ = std::max(kept_, view_.kept(by_walls));
+  if (view_.fall(kept_) > options_.wheels_fall) kept_ = std::max(kept_, view_.kept(by_walls));
   const double fall = view_.fall(kept_);
   if (fall > options_.carried_fall) return Surroundings::Others;
   view_.learn(kept_);
-  const double changed = std::max(options_.changed_fall, options_.changed_spreads * view_.spread());
-  return fall > changed ? Surroundings::Changed : Surroundings::Same;
+  return Surroundings::Same;
 }
 
 }  // namespace madori::localization

@@ -10,15 +10,13 @@ struct SurroundingsOptions {
   /// What two scans in a row both see falls by so much below the usual where the later one was taken
   /// elsewhere: neither driving nor what moves about changes a quarter of the walls in a tenth of a second.
   double carried_fall = 0.25;
-  double changed_fall = 0.08;  ///< where a place that looks alike may be where it was carried to
+  double wheels_fall = 0.08;  ///< from here on the wheels may be wrong: the walls are asked as well
   /// Lidars that look less often, and revolutions lost by a busy computer, need the memory's word as well.
   double at_once_s = 0.15;
-  double changed_spreads = 8.0;  ///< at least, in mean deviations
 };
 
-/// Beside the scan before: the same surroundings, changed as they would be in a place that looks alike, or
-/// others altogether.
-enum class Surroundings { Same, Changed, Others };
+/// Beside the scan before.
+enum class Surroundings { Same, Others };
 
 /// Was the vehicle carried off between two scans? Learns what is usual, needs no drawing. Deterministic,
 /// causal.
