@@ -184,7 +184,7 @@ void stage_site(const ImportOptions& options, const Site& site, SiteTransaction&
 
 void stage_picture(const Plan& plan, const DetectedWalls& found, std::optional<double> m_per_px,
                    SiteTransaction& change) {
-  const auto png = import_picture(plan.picture, found.walls, found.rejected, m_per_px);
+  const auto png = import_picture(plan.picture, found.walls, found.rejected, m_per_px, found.probabilities);
   change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

@@ -13,10 +13,12 @@
 namespace madori::mapping {
 namespace {
 
+constexpr int kWidestPicture = 2400;
 constexpr int kFooter = 64;
 constexpr int kFooterWidth = 800;  // its words need that much
 constexpr int kFractionBits = 4;
 constexpr int kSmallest = 900;
+constexpr double kFaintest = 0.5;  // of the full colour: a line of no probability is still seen
 
 /// The picture's colours: sixteen shades of each family. Few colours keep the file small and quick to pack.
 constexpr int kShades = 16;
@@ -64,8 +66,10 @@ class Layer {
   Layer(cv::Mat& picture, double zoom)
       : picture_(picture), sheet_(picture.size(), CV_8UC1, cv::Scalar(0)), zoom_(zoom) {}
 
-  void line(const PixelSegment& s, int thickness) {
-    cv::line(sheet_, at(s.u1, s.v1), at(s.u2, s.v2), 255, thickness, cv::LINE_AA, kFractionBits);
+  /// The surer, the stronger.
+  void line(const PixelSegment& s, int thickness, double probability) {
+    cv::line(sheet_, at(s.u1, s.v1), at(s.u2, s.v2), 255 * std::lerp(kFaintest, 1.0, probability), thickness,
+             cv::LINE_AA, kFractionBits);
   }
   cv::Mat& sheet() { return sheet_; }
 
@@ -142,17 +146,19 @@ void draw_footer(Layer& layer, double zoom, std::optional<double> m_per_px) {
 
 std::vector<std::uint8_t> import_picture(const GrayImage& drawing, std::span<const PixelSegment> walls,
                                          std::span<const RejectedSegment> rejected,
-                                         std::optional<double> m_per_px, int widest_px) {
+                                         std::optional<double> m_per_px,
+                                         std::span<const double> probabilities) {
   const int longer = std::max(drawing.width_px, drawing.height_px);
-  const int shrink = (longer + widest_px - 1) / widest_px;
+  const int shrink = (longer + kWidestPicture - 1) / kWidestPicture;
   const int enlarge = std::max(1, kSmallest / longer);
   const double zoom = static_cast<double>(enlarge) / shrink;
   cv::Mat picture = pale(drawing, shrink, enlarge);
   Layer layer(picture, zoom);
-  for (const auto& line : rejected) layer.line(line.segment, 1);
+  for (const auto& line : rejected) layer.line(line.segment, 1, line.probability);
   layer.lay(Rejected);
   const int bold = std::max(2, picture.cols / 600);
-  for (const auto& wall : walls) layer.line(wall, bold);
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    layer.line(walls[i], bold, probabilities.empty() ? 1 : probabilities[i]);
   layer.lay(Wall);
   draw_footer(layer, zoom, m_per_px);
   return palette_png(picture.cols, picture.rows, {picture.data, picture.total()}, palette());

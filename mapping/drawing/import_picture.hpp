@@ -9,11 +9,13 @@
 
 namespace madori::mapping {
 
-/// import.png: the drawing pale, walls bold, rejected lines thin in another colour, a scale bar and a legend.
-/// At most `widest_px` wide. PNG bytes.
+/// import.png: the drawing pale, walls bold, rejected lines thin in another colour, a scale bar and a legend;
+/// lines the stronger the more probable they are walls (`probabilities` one a wall; none: all are certain).
+/// At most 2400 pixels wide. PNG bytes.
 [[nodiscard]] std::vector<std::uint8_t> import_picture(const GrayImage& drawing,
                                                        std::span<const PixelSegment> walls,
                                                        std::span<const RejectedSegment> rejected,
-                                                       std::optional<double> m_per_px, int widest_px = 2400);
+                                                       std::optional<double> m_per_px,
+                                                       std::span<const double> probabilities = {});
 
 }  // namespace madori::mapping

@@ -63,6 +63,8 @@ class Builder {
     own();
     sides();
     partners();
+    beyond();
+    openings();
     network();
     regions();
     place();
@@ -173,6 +175,44 @@ class Builder {
     partner("over_dark", [&](std::size_t i) { return m_.views[i].dark.hits[0].edge; });
     partner("over_bright", [&](std::size_t i) { return m_.views[i].bright.hits[0].edge; });
     partner("second_dark", [&](std::size_t i) { return m_.views[i].dark.hits[1].edge; });
+  }
+
+  /// What lies behind the stroke or body that an edge bounds: a wall has a room, or the outside, on both
+  /// sides.
+  void beyond() {
+    const auto behind = [&](const std::string& name, auto value) {
+      add("beyond_" + name, [&](std::size_t i) {
+        const SideView::ParallelHit& hit = m_.views[i].dark.hits[0];
+        return hit.edge >= 0 && hit.opposite > 0.5 ? value(static_cast<std::size_t>(hit.edge)) : kNone;
+      });
+    };
+    const double whole = sheet_.size_px * sheet_.size_px;
+    behind("free", [&](std::size_t j) { return of_size(m_.views[j].bright.free_px); });
+    behind("hit", [&](std::size_t j) {
+      const SideView::ParallelHit& next = m_.views[j].bright.hits[0];
+      return next.share > 0 ? of_size(next.distance_px) : kNone;
+    });
+    behind("open", [&](std::size_t j) { return m_.views[j].bright.open; });
+    behind("grey", [&](std::size_t j) { return (m_.views[j].bright.near_grey - ground_) / range_; });
+    behind("colour", [&](std::size_t j) { return colour(m_.views[j].bright); });
+    behind("area", [&](std::size_t j) { return std::sqrt(m_.regions[j].bright.area_px / whole); });
+    behind("border", [&](std::size_t j) { return m_.regions[j].bright.at_border ? 1.0 : 0.0; });
+  }
+
+  /// A door leaf or a pane goes on between the faces of a wall at both of its ends, and is thinner than the
+  /// wall.
+  void openings() {
+    const auto ends = [&](std::size_t i) {
+      const auto& past = m_.views[i].past_ends;
+      return std::minmax({past[0].width_px(), past[1].width_px()});
+    };
+    add("between_less", [&](std::size_t i) { return of_pen(ends(i).first); });
+    add("between_more", [&](std::size_t i) { return of_pen(ends(i).second); });
+    add("between_width", [&](std::size_t i) { return width_[i] > 0 ? ends(i).first / width_[i] : kNone; });
+    add("between_like",
+        [&](std::size_t i) { return ends(i).second > 0 ? ends(i).first / ends(i).second : kNone; });
+    add("between_length",
+        [&](std::size_t i) { return ends(i).first > 0 ? edges_[i].length_px / ends(i).first : kNone; });
   }
 
   void network() {

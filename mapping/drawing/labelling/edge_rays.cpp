@@ -15,6 +15,8 @@ constexpr double kFar = 0.3;            // of the sheet: free beyond is free
 constexpr double kStep = 0.7;           // pixels: no 8-connected line is stepped over
 constexpr int kEvents = 5;
 constexpr double kNeutral = 128;
+constexpr double kPastEnd = 6;       // pixels: what abuts at an end is over
+constexpr double kThickest = 0.025;  // of the sheet: thicker is no wall
 
 struct Event {
   double distance = 0;
@@ -41,7 +43,32 @@ class Looker {
     return summary(rays);
   }
 
+  [[nodiscard]] Between past_end(std::size_t edge, bool last) const {
+    const Edge& e = sheet_.edges[edge];
+    const PixelSegment& s = e.segment;
+    const double sign = last ? kPastEnd / e.length_px : -kPastEnd / e.length_px;
+    const double u = (last ? s.u2 : s.u1) + sign * (s.u2 - s.u1);
+    const double v = (last ? s.v2 : s.v1) + sign * (s.v2 - s.v1);
+    return {first_parallel(e, u, v, 1), first_parallel(e, u, v, -1)};
+  }
+
  private:
+  /// Pixels from a place beside the edge `from` to the next parallel one; 0 where none is near.
+  [[nodiscard]] double first_parallel(const Edge& from, double u0, double v0, double side) const {
+    for (double d = kStep; d < kThickest * sheet_.size_px;) {
+      const double u = u0 + side * d * from.normal_u, v = v0 + side * d * from.normal_v;
+      if (!sheet_.inside(u, v)) return 0;
+      const std::size_t pixel = sheet_.pixel(u, v);
+      if (const int met = sheet_.edge_at[pixel]; met >= 0) {
+        const Edge& other = sheet_.edges[static_cast<std::size_t>(met)];
+        const double sine = from.normal_u * other.normal_v - from.normal_v * other.normal_u;
+        if (std::abs(sine) < kParallelSine) return d;
+      }
+      d += std::max(kStep, sheet_.clear_px[pixel] - 1.5);
+    }
+    return 0;
+  }
+
   [[nodiscard]] Ray cast(std::size_t from, double side, double t) const {
     const Edge& e = sheet_.edges[from];
     const double u0 = std::lerp(e.segment.u1, e.segment.u2, t), v0 = std::lerp(e.segment.v1, e.segment.v2, t);
@@ -170,7 +197,8 @@ class Looker {
 std::vector<EdgeViews> look_across(const EdgeSheet& sheet) {
   const Looker looker(sheet);
   std::vector<EdgeViews> views(sheet.edges.size());
-  for (std::size_t i = 0; i < views.size(); ++i) views[i] = {looker.look(i, 1), looker.look(i, -1)};
+  for (std::size_t i = 0; i < views.size(); ++i)
+    views[i] = {looker.look(i, 1), looker.look(i, -1), {looker.past_end(i, false), looker.past_end(i, true)}};
   return views;
 }
 

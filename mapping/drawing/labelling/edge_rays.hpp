@@ -26,8 +26,16 @@ struct SideView {
   double fill_grey = 0, fill_spread = 0;      ///< brightness up to the first parallel edge
 };
 
+/// Between what an edge's line goes on past one of its ends: the faces of a wall in whose opening a door leaf
+/// or a pane lies. Pixels to the first parallel edge on either side, 0 where there is none.
+struct Between {
+  double left_px = 0, right_px = 0;
+  [[nodiscard]] double width_px() const { return left_px > 0 && right_px > 0 ? left_px + right_px : 0; }
+};
+
 struct EdgeViews {
   SideView dark, bright;
+  std::array<Between, 2> past_ends;
 };
 
 [[nodiscard]] std::vector<EdgeViews> look_across(const EdgeSheet& sheet);

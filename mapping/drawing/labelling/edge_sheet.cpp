@@ -1,6 +1,7 @@
 #include "mapping/drawing/labelling/edge_sheet.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -14,6 +15,10 @@ constexpr double kSmallPixels = 2e6;  // below, the oracle's recall gains 0.01 t
 constexpr double kMostPixels = 7e6;   // above, the detector alone would be slower than a Hough transform
 constexpr double kShortest = 4;       // pixels: shorter edges are noise of the picture
 constexpr double kBeside = 1.5;       // pixels off an edge its two sides show
+constexpr double kRareTone = 1e-4;    // of the pixels: dust and glare do not say what is black and what white
+constexpr int kLeastRange = 20;       // grey levels: an empty sheet stays as it is
+constexpr int kRowsAsked = 1000;      // rows that are enough to tell the ground
+constexpr int kStepShare = 8;         // of the range: what steps less is shading
 
 double factor_for(const GrayImage& drawing) {
   const double pixels = static_cast<double>(drawing.width_px) * drawing.height_px;
@@ -21,19 +26,67 @@ double factor_for(const GrayImage& drawing) {
   return pixels > kMostPixels ? std::sqrt(kMostPixels / pixels) : 1;
 }
 
-GrayImage resized(const GrayImage& image, double factor) {
-  if (factor == 1) return image;
+/// The greys that a drawing uses, and which of them is its ground.
+struct Tones {
+  double darkest = 0, brightest = 255;
+  bool dark_ground = false;
+};
+
+/// The ground is the commonest grey. It is dark where most steps from pixel to pixel lead to brighter greys.
+Tones tones_of(const GrayImage& image) {
+  std::array<std::size_t, 256> counts{};
+  for (const std::uint8_t value : image.pixels) ++counts[value];
+  const auto left_out = static_cast<std::size_t>(kRareTone * static_cast<double>(image.pixels.size()));
+  Tones tones;
+  std::size_t below = 0, above = 0;
+  int low = 0, high = 255;
+  while ((below += counts[static_cast<std::size_t>(low)]) <= left_out) ++low;
+  while ((above += counts[static_cast<std::size_t>(high)]) <= left_out) --high;
+  if (high - low < kLeastRange) return tones;
+  tones.darkest = low, tones.brightest = high;
+  const auto ground = static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  std::size_t darker = 0, brighter = 0;
+  for (int v = 0; v < image.height_px; v += 1 + image.height_px / kRowsAsked)
+    for (int u = 1; u < image.width_px; ++u) {
+      const int one = image.at(u - 1, v), other = image.at(u, v);
+      if (kStepShare * std::abs(one - other) < high - low) continue;
+      const int off = std::abs(one - ground) > std::abs(other - ground) ? one : other;
+      ++(off < ground ? darker : brighter);
+    }
+  tones.dark_ground = brighter > darker;
+  return tones;
+}
+
+/// The greys spread from black to white, the ground on the bright side: a CAD screen, a blueprint and a faint
+/// scan are the same drawing as one in black on white.
+std::array<std::uint8_t, 256> spread(const Tones& tones) {
+  std::array<std::uint8_t, 256> table{};
+  for (int grey = 0; grey < 256; ++grey) {
+    double share = std::clamp((grey - tones.darkest) / (tones.brightest - tones.darkest), 0.0, 1.0);
+    if (tones.dark_ground) share = 1 - share;
+    table[static_cast<std::size_t>(grey)] = static_cast<std::uint8_t>(std::lround(255 * share));
+  }
+  return table;
+}
+
+/// At `factor` times the size, its greys spread.
+GrayImage prepared(const GrayImage& image, double factor) {
+  auto table = spread(tones_of(image));
   GrayImage out{.width_px = std::max(1, static_cast<int>(std::lround(image.width_px * factor))),
                 .height_px = std::max(1, static_cast<int>(std::lround(image.height_px * factor))),
                 .dpi = image.dpi * factor};
-  const auto plane = [&](const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to, int finer) {
-    if (from.empty()) return;
+  const auto scale = [&](const cv::Mat& source, std::vector<std::uint8_t>& to, int finer) {
     to.resize(static_cast<std::size_t>(out.width_px) * static_cast<std::size_t>(out.height_px));
-    const cv::Mat source(image.height_px, image.width_px, CV_8UC1, const_cast<std::uint8_t*>(from.data()));
     cv::Mat target(out.height_px, out.width_px, CV_8UC1, to.data());
     cv::resize(source, target, target.size(), 0, 0, factor < 1 ? cv::INTER_AREA : finer);
   };
-  plane(image.pixels, out.pixels, cv::INTER_CUBIC);
+  const auto plane = [&](const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to, int finer) {
+    if (from.empty()) return;
+    scale({image.height_px, image.width_px, CV_8UC1, const_cast<std::uint8_t*>(from.data())}, to, finer);
+  };
+  cv::Mat greys;
+  cv::LUT(cv_view(image), cv::Mat(1, 256, CV_8UC1, table.data()), greys);
+  scale(greys, out.pixels, cv::INTER_CUBIC);
   plane(image.red_green, out.red_green, cv::INTER_LINEAR);
   plane(image.yellow_blue, out.yellow_blue, cv::INTER_LINEAR);
   return out;
@@ -110,7 +163,7 @@ void draw_edges(EdgeSheet& sheet) {
 EdgeSheet find_edges(const GrayImage& drawing) {
   EdgeSheet sheet;
   sheet.factor = factor_for(drawing);
-  sheet.grey = resized(drawing, sheet.factor);
+  sheet.grey = prepared(drawing, sheet.factor);
   std::vector<cv::Vec4f> found;
   cv::createLineSegmentDetector(cv::LSD_REFINE_STD)->detect(cv_view(sheet.grey), found);
   for (const cv::Vec4f& s : found) append(sheet, {s[0] + 0.5, s[1] + 0.5, s[2] + 0.5, s[3] + 0.5});

@@ -19,7 +19,8 @@ struct Edge {
 
 /// A drawing as its edges: what the features of its lines are measured on.
 struct EdgeSheet {
-  GrayImage grey;     ///< the drawing, with its colours, at the resolution that edges are looked for in
+  GrayImage grey;  ///< the drawing, with its colours, at the resolution that edges are looked for in; greys
+                   ///< spread from 0 to 255, turned round where the ground is dark
   double factor = 1;  ///< its pixels for one of the drawing
   std::vector<Edge> edges;
   std::vector<std::int32_t> edge_at;  ///< row-major; the edge that crosses a pixel, -1 where none does

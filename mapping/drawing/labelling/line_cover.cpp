@@ -8,6 +8,7 @@ namespace madori::mapping {
 namespace {
 
 constexpr double kSlack = 2.5;         // pixels of the sheet between a line and its edges
+constexpr double kMiss = 1;            // pixels by which edges usually miss their line
 constexpr double kParallelSine = 0.2;  // of short edges the direction is vague
 constexpr int kPlaces = 12;            // of an edge that are looked at, at most
 
@@ -26,8 +27,9 @@ double LineCover::at(std::size_t number, double t, const std::vector<float>& val
   const double length = std::max(1e-9, s.length_px());
   const double nu = -(s.v2 - s.v1) / length, nv = (s.u2 - s.u1) / length;
   const double u = std::lerp(s.u1, s.u2, t), v = std::lerp(s.v1, s.v2, t), reach = reach_px(line);
-  double sum = 0;
-  int met = 0, last = -1;
+  const double expected = reach - kSlack;  // the edges of a stroke lie on both sides of its middle
+  double sum = 0, weights = 0;
+  int last = -1;
   for (double d = -reach; d <= reach; d += 0.7) {
     if (!sheet_.inside(u + d * nu, v + d * nv)) continue;
     const int edge = sheet_.edge_at[sheet_.pixel(u + d * nu, v + d * nv)];
@@ -35,10 +37,12 @@ double LineCover::at(std::size_t number, double t, const std::vector<float>& val
     last = edge;
     const Edge& e = sheet_.edges[static_cast<std::size_t>(edge)];
     if (std::abs(e.normal_u * nv - e.normal_v * nu) > kParallelSine) continue;
-    sum += values[static_cast<std::size_t>(edge)];
-    ++met;
+    const double miss = (std::abs(d) - expected) / kMiss;
+    const double weight = std::exp(-0.5 * miss * miss);
+    sum += weight * values[static_cast<std::size_t>(edge)];
+    weights += weight;
   }
-  return met > 0 ? sum / met : -1;
+  return weights > 0 ? sum / weights : -1;
 }
 
 std::vector<float> LineCover::covered(const std::vector<bool>& chosen) const {

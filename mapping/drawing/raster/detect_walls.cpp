@@ -21,6 +21,18 @@ namespace madori::mapping {
 
 namespace {
 
+constexpr double kNoise = 0.3;  // of the pixels; white noise has 0.5, the densest hatching 0.15
+
+/// Where ink and paper change at every other pixel nothing is drawn, and all of it would be lines.
+void refuse_noise(const GrayImage& ink, double factor) {
+  std::size_t changes = 0;
+  for (int v = 0; v < ink.height_px; ++v)
+    for (int u = 1; u < ink.width_px; ++u) changes += ink.at(u, v) != ink.at(u - 1, v) ? 1 : 0;
+  if (factor * static_cast<double>(changes) > kNoise * static_cast<double>(ink.pixels.size()))
+    throw Error("wall detection", "the picture is noise, no line can be told in it",
+                "scan it again, or smooth it first");
+}
+
 /// A drawing as lines, each with the reason where a rule explains it as something else than a wall.
 struct RuledLines {
   WorkingInk working;
@@ -39,6 +51,8 @@ RuledLines rule_lines(const GrayImage& image, const DetectionOptions& chosen, St
   ruled.v_scale = static_cast<double>(image.height_px) / ink.height_px;
   clock.picture("binarize", ink);
   clock.end(static_cast<std::size_t>(ruled.working.threshold));
+
+  refuse_noise(ink, ruled.working.factor);
 
   clock.begin("marks", 0.15);  // text, dashed lines, dirt: known by their marks alone
   ruled.cleaned = clean_marks(ink, ruled.working.marks, ruled.working.pen_px, options);

@@ -122,10 +122,10 @@ class Plan {
   void floors(PlanCanvas& canvas, const Wing& wing) {
     if (style_.room_colours == 0) return;
     const cv::Scalar one = bright_colour(chance_);
-    const double strength = style_.room_colours == 3 ? chance_.between(0.5, 1) : chance_.between(0.05, 0.5);
+    const double strength = style_.room_colours >= 3 ? chance_.between(0.5, 1) : chance_.between(0.05, 0.5);
     for (const Box& room : wing.rooms) {
       if (chance_.one_in(0.15)) continue;
-      const cv::Scalar colour = style_.room_colours == 2 ? one : bright_colour(chance_);
+      const cv::Scalar colour = style_.room_colours % 2 == 0 ? one : bright_colour(chance_);
       canvas.fill(room, blend(style_.ground, chance_.one_in(0.2) ? cv::Scalar::all(128) : colour, strength));
     }
   }
@@ -218,6 +218,13 @@ class Plan {
       turn = std::remainder(turn, 2 * std::numbers::pi);
       canvas.arc(at, {size, size}, from, from + turn, style_.door, style_.thin_pen);
     };
+    if (width > 1.3 && chance_.one_in(0.4)) {  // two leaves that slide, closed
+      const double t = half_of(wall) * chance_.between(0.2, 0.7);
+      for (const double from : {0.0, 0.5})
+        canvas.lines(strip(hinge + from * (far - hinge), hinge + (from + 0.5) * (far - hinge), t), true,
+                     style_.door, style_.thin_pen);
+      return;
+    }
     switch (style_.door_kind) {
       case 0:
       case 1:

@@ -152,7 +152,9 @@ class Splitter {
     const int doors = wall.outer ? (chance_.one_in(0.5) ? 1 : 0) : 1 + static_cast<int>(length / spacing);
     for (int k = 0; k < doors; ++k)
       for (int attempt = 0; attempt < 5; ++attempt) {
-        const double size = chance_.one_in(0.15) ? chance_.between(1.4, 3) : chance_.between(0.7, 1.1);
+        const bool gate = chance_.one_in(0.15),
+                   lorries = style_.building == Building::Hall || style_.building == Building::Warehouse;
+        const double size = gate ? chance_.between(1.4, lorries ? 6 : 3) : chance_.between(0.7, 1.1);
         if (try_at(chance_.between(0.15, std::max(0.2, length - size)), size, false)) break;
       }
     std::sort(wall.openings.begin(), wall.openings.end(),

@@ -15,23 +15,26 @@ class Annotator {
       : canvas_(canvas), s_(style), b_(building), chance_(chance) {}
 
   void axes() {
-    const double reach = canvas_.metres(chance_.between(15, 60)), step = chance_.between(3, 9);
-    const int kind = chance_.below(3);
+    const bool bare = chance_.one_in(0.4);  // a grid over the building, not named at its ends
+    const double reach = bare ? chance_.between(-0.3, 0.5) : canvas_.metres(chance_.between(15, 60)),
+                 step = chance_.between(3, 9);
+    const int kind = bare ? 0 : chance_.below(3);
     const auto axis = [&](Point a, Point b) {
       if (kind == 0) {
         canvas_.line(a, b, s_.grid, s_.thin_pen);
       } else {
         canvas_.dashed(a, b, s_.grid, s_.thin_pen, 14, kind == 2);
       }
-      if (!chance_.one_in(0.8)) return;
+      if (bare || !chance_.one_in(0.8)) return;
       const double radius = canvas_.metres(9);
       canvas_.arc(a, {radius, radius}, 0, kTurn, s_.grid, s_.thin_pen);
       canvas_.text(a + Point(-0.4 * radius, 0.4 * radius),
                    std::string(1, static_cast<char>('A' + chance_.below(26))), 11, s_.grid, 0);
     };
-    for (double x = b_.x + chance_.between(0, step); x <= b_.x + b_.width; x += step)
+    const bool on_walls = chance_.one_in(0.4);
+    for (double x = b_.x + (on_walls ? 0 : chance_.between(0, step)); x <= b_.x + b_.width; x += step)
       axis({x, b_.y - reach}, {x, b_.y + b_.height + reach});
-    for (double y = b_.y + chance_.between(0, step); y <= b_.y + b_.height; y += step)
+    for (double y = b_.y + (on_walls ? 0 : chance_.between(0, step)); y <= b_.y + b_.height; y += step)
       axis({b_.x - reach, y}, {b_.x + b_.width + reach, y});
   }
 
@@ -87,6 +90,30 @@ class Annotator {
     }
   }
 
+  /// Coloured areas that end somewhere between the walls.
+  void zones() {
+    for (int k = 1 + chance_.below(5); k > 0; --k) {
+      const double w = b_.width * chance_.between(0.05, 0.45), h = b_.height * chance_.between(0.05, 0.45);
+      canvas_.fill(Box(b_.x + chance_.between(-0.1, 0.9) * b_.width,
+                       b_.y + chance_.between(-0.1, 0.9) * b_.height, w, h),
+                   blend(s_.ground, bright_colour(chance_), chance_.between(0.1, 0.9)));
+    }
+  }
+
+  /// One or two rows of boxes in turn filled and empty, below the building.
+  void scale_bar() {
+    const int cells = 2 + chance_.below(8), rows = 1 + chance_.below(2);
+    const double wide = chance_.scaled(0.01, 0.12) * b_.width, high = canvas_.metres(chance_.between(5, 16)),
+                 pen = s_.thing_pen * chance_.between(1, 2);
+    const Point at(b_.x + chance_.between(0, 0.3) * b_.width, b_.y + b_.height + canvas_.metres(12));
+    for (int k = 0; k < cells; ++k)
+      for (int row = 0; row < rows; ++row) {
+        const Box cell(at.x + k * wide, at.y + row * high, wide, high);
+        if ((k + row) % 2 == 0) canvas_.fill(cell, s_.text);
+        canvas_.box(cell, s_.text, pen);
+      }
+  }
+
   void ceiling() {
     const double step = chance_.between(0.6, 2.4);
     for (double x = b_.x; x < b_.x + b_.width; x += step)
@@ -125,11 +152,13 @@ class Annotator {
 
 void annotate(PlanCanvas& canvas, const PlanStyle& style, const Box& building, Chance& chance) {
   Annotator notes(canvas, style, building, chance);
+  if (chance.one_in(style.zones)) notes.zones();
   if (chance.one_in(style.axes)) notes.axes();
   if (chance.one_in(style.dimensions)) notes.dimensions();
   if (chance.one_in(style.routes)) notes.routes();
   if (chance.one_in(style.outdoors)) notes.outdoors();
   if (chance.one_in(style.ceiling)) notes.ceiling();
+  if (chance.one_in(style.scale_bar)) notes.scale_bar();
 }
 
 void frame_sheet(PlanCanvas& canvas, const PlanStyle& style, const Box& sheet, Chance& chance) {

@@ -45,7 +45,7 @@ void choose_colours(PlanStyle& s, Chance& chance) {
   s.window = layer(0.6, 0.7);
   s.text = layer(0.5, 0.6);
   s.dimension = layer(0.4, 0.7);
-  s.grid = layer(0.3, 0.85);
+  s.grid = chance.one_in(0.3) ? bright_colour(chance) : layer(0.3, 0.85);
 }
 
 void choose_pens(PlanStyle& s, Chance& chance) {
@@ -71,15 +71,17 @@ void choose_contents(PlanStyle& s, Chance& chance) {
   s.window_lines = 1 + chance.below(4);
   s.door_kind = chance.below(7);
   s.columns = chance.one_in(s.building == Building::Flat ? 0.05 : 0.4) ? 1 + chance.below(3) : 0;
-  s.room_colours = chance.one_in(0.35) ? 1 + chance.below(3) : 0;
+  s.room_colours = chance.one_in(s.body == Body::Single ? 0.5 : 0.35) ? 1 + chance.below(4) : 0;
   s.dimensions = share(0.35, 0.3, 1);
-  s.axes = share(0.25, 0.3, 1);
+  s.axes = share(0.3, 0.3, 1);
   s.frame = share(0.2, 1, 2);
   s.title = share(0.3, 1, 2);
   s.outdoors = share(0.3, 0.3, 1);
   s.routes = share(0.12, 0.3, 1);
   s.tiles = share(0.15, 0.2, 0.6);
   s.ceiling = share(0.1, 0.3, 1);
+  s.zones = share(0.15, 0.5, 1);
+  s.scale_bar = share(0.2, 0.5, 1);
 }
 
 void choose_copying(PlanStyle& s, Chance& chance) {
@@ -146,7 +148,7 @@ PlanStyle random_sketch(Chance& chance) {
   s.overhead = chance.between(0, 0.8);
   s.windows *= 0.3;
   s.columns = s.room_colours = 0;
-  s.axes = s.frame = s.title = s.outdoors = s.tiles = s.ceiling = 0;
+  s.axes = s.frame = s.title = s.outdoors = s.tiles = s.ceiling = s.zones = 0;
   s.dimensions *= 0.3;
   return s;
 }

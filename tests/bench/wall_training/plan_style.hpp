@@ -21,8 +21,9 @@ struct PlanStyle {
   double outer_m = 0.4, inner_m = 0.15;
   double furniture = 0.5, labels = 0.5, windows = 0.5, filled_things = 0.2;
   int window_lines = 2, door_kind = 0, columns = 0;  ///< columns: 0 none, 1 filled, 2 open, 3 crossed
-  int room_colours = 0;                              ///< 0 none, 1 pale each its own, 2 all alike, 3 strong
-  double dimensions = 0, axes = 0, frame = 0, title = 0, outdoors = 0, routes = 0, tiles = 0, ceiling = 0;
+  int room_colours = 0;  ///< 0 none, 1 pale each its own, 2 all alike, 3 strong, 4 strong and all alike
+  double dimensions = 0, axes = 0, frame = 0, title = 0, outdoors = 0, routes = 0, tiles = 0, ceiling = 0,
+         zones = 0, scale_bar = 0;
   double overhead = 0.12;  ///< share of rooms with a dashed line above
   bool few_rooms = false;
   double turn_rad = 0;

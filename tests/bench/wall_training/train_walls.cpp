@@ -59,7 +59,8 @@ std::vector<std::size_t> sample(const ExampleSheet& sheet, std::size_t most) {
   return rows;
 }
 
-/// Every sheet weighs the same for its kind, however many edges it has; an edge by the root of its length.
+/// Every sheet weighs the same for its kind, however many edges it has; an edge by the root of its length, on
+/// the older drawings, which must be known by heart, by its length.
 void append(Examples& examples, const ExampleSheet& sheet) {
   const bool drawn = sheet.source == "synthetic", home = sheet.source == "home";
   const auto rows = sample(sheet, drawn ? kMostOfDrawn : home ? kMostOfHome : kMostOfReal);
@@ -69,7 +70,9 @@ void append(Examples& examples, const ExampleSheet& sheet) {
   std::vector<double> weights;
   for (const std::size_t i : rows) {
     const double length = length_of(sheet, i);
-    weights.push_back(sampled ? 1 : std::sqrt(length));  // walls are long, what is no wall must count too
+    const double weight =
+        home ? length : std::sqrt(length);  // walls are long, what is no wall must count too
+    weights.push_back(sampled ? weight / std::sqrt(length) : weight);
     const auto from = sheet.values.begin() + static_cast<std::ptrdiff_t>(i * columns);
     examples.values.insert(examples.values.end(), from, from + static_cast<std::ptrdiff_t>(columns));
     examples.labels.push_back(sheet.near[i] > 0.5F ? 1 : 0);

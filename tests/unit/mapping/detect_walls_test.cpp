@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <random>
 
 #include "core/result.hpp"
 
@@ -125,6 +126,16 @@ TEST(DetectWalls, ResolutionDoesNotMatter) {
       EXPECT_GT(covered(found, cv::Point2d(115, v) * factor, cv::Point2d(1085, v) * factor), 940 * factor)
           << "v = " << v << ", factor " << factor;
     EXPECT_NEAR(total_length(found), factor * total_length(detect_walls(plan, {})), 120 * factor);
+  }
+}
+
+/// A wrong file, a broken scanner: said in one line, and soon.
+TEST(DetectWalls, NoiseIsRefused) {
+  for (const auto& [width, height] : {std::pair{700, 500}, {2102, 1485}}) {
+    GrayImage image = paper(width, height);
+    std::mt19937 engine(1);
+    for (auto& pixel : image.pixels) pixel = static_cast<std::uint8_t>(engine() >> 24U);
+    EXPECT_THROW((void)detect_walls(image, {}), Error) << width;
   }
 }
 

@@ -142,11 +142,22 @@ double expected_f(const std::vector<float>& p, const std::vector<Edge>& edges, d
   return 2 * right / (taken + all);
 }
 
-TEST(WallThreshold, NoOtherThresholdExpectsMore) {
+TEST(WallThreshold, NoOtherThresholdExpectsClearlyMore) {
   const std::vector<float> p{0.9F, 0.05F, 0.4F, 0.3F, 0.75F, 0.31F, 0.02F, 0.6F};
   const auto edges = edges_of({10, 400, 60, 90, 5, 20, 300, 33});
   const double chosen = expected_f(p, edges, wall_threshold(p, edges));
-  for (const float from : p) EXPECT_LE(expected_f(p, edges, from), chosen + 1e-12);
+  for (const float from : p) EXPECT_LE(0.99 * expected_f(p, edges, from), chosen + 1e-12);
+}
+
+/// Two heaps, the judges leaning low: the threshold lies between them and not in the heap of the walls.
+TEST(WallThreshold, LiesBetweenTheHeaps) {
+  std::vector<float> p;
+  for (int k = 0; k < 60; ++k) p.push_back(0.5F + 0.007F * static_cast<float>(k));
+  for (int k = 0; k < 40; ++k) p.push_back(0.01F + 0.001F * static_cast<float>(k));
+  const auto edges = edges_of(std::vector<double>(p.size(), 10));
+  const double chosen = wall_threshold(p, edges);
+  EXPECT_LT(chosen, 0.5);
+  EXPECT_GT(chosen, 0.06);
 }
 
 TEST(WallThreshold, IsLowWhereAllIsDoubtfulAndHigherForTheStrict) {
