@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace madori::app {
 
@@ -30,6 +31,41 @@ Result<Path> route_path(const planning::RouteGraph& graph, const planning::Route
                         const planning::WaypointOptions& options) {
   return planning::make_waypoints(way_corners(graph, route), options,
                                   graph.nodes()[route.nodes.back()].heading_rad);
+}
+
+std::vector<std::size_t> nodes_near(const planning::RouteGraph& graph, const Point2<Map>& here) {
+  constexpr std::size_t kNearest = 6;
+  const auto& nodes = graph.nodes();
+  std::vector<std::size_t> order(nodes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return distance_m(nodes[i].position, here); });
+  order.resize(std::min(order.size(), kNearest));
+  return order;
+}
+
+std::vector<std::size_t> main_routes(const planning::RouteGraph& graph) {
+  std::vector<std::size_t> nodes;
+  if (graph.nodes().empty()) return nodes;
+  const auto [component, largest] = planning::strong_components(graph);
+  for (std::size_t i = 0; i < component.size(); ++i)
+    if (component[i] == largest) nodes.push_back(i);
+  return nodes;
+}
+
+std::optional<int> stop_without_way(const planning::RouteGraph& graph, std::vector<std::size_t> starts,
+                                    const std::vector<int>& stops, bool repeated) {
+  std::vector<int> all = stops;
+  if (repeated && !stops.empty()) all.push_back(stops.front());
+  for (const int stop : all) {
+    const auto goal = graph.index_of(stop);
+    if (!goal) return std::nullopt;
+    const auto leads = [&](std::size_t start) -> bool {
+      return planning::reachable_from(graph, start)[*goal];
+    };
+    if (std::ranges::none_of(starts, leads)) return stop;
+    starts = {*goal};
+  }
+  return std::nullopt;
 }
 
 }  // namespace madori::app

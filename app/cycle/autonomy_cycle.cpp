@@ -44,6 +44,7 @@ void begin_gap(CycleState& state, double seconds, CycleOutput& output) {
 StepResult step(CycleState state, const CycleInput& input, const CycleConfig& config) {
   CycleOutput output;
   const double step_s = state.previous ? to_seconds(input.now - *state.previous) : 0.0;
+  if (!state.previous) state.begun = input.now;
   state.previous = input.now;
   if (step_s > config.gap_s) begin_gap(state, step_s, output);
   state.protective_stop = input.protective_stop;

@@ -77,7 +77,9 @@ enum class OperatorWord {
   GoOn,
   ForgetObstacles,
   SetPose,
-  SearchPose
+  SearchPose,
+  Stop,  ///< stands in every mode, also by hand; the panel ends the order that is under way
+  Halt   ///< the same by anybody: the order stays
 };
 
 /// Where a person says that the vehicle stands.
@@ -211,6 +213,9 @@ struct CycleState {
   std::optional<Stamp> previous;
   std::optional<Stamp> gap;  ///< the first step after a time without steps, until something was measured anew
   bool protective_stop = false;
+  Stamp begun{};                              ///< of the first step: before, no device could be heard
+  bool stopped = false;                       ///< by a person at a panel, until the next Resume
+  std::optional<std::int64_t> stopped_order;  ///< that ended with it
   VelocityCommand jog;
   Stamp jog_heard{};
   Navigation way;

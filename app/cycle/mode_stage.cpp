@@ -44,6 +44,8 @@ bool is_blocked(const CycleState& state, const CycleInput& input, const CycleCon
 std::optional<ModeEvent> event_of(OperatorWord word) {
   switch (word) {
     case OperatorWord::Pause:
+    case OperatorWord::Stop:
+    case OperatorWord::Halt:
       return ModeEvent::Pause;
     case OperatorWord::Resume:
       return ModeEvent::Resume;
@@ -56,6 +58,22 @@ std::optional<ModeEvent> event_of(OperatorWord word) {
     default:
       return std::nullopt;
   }
+}
+
+bool is_stop(OperatorWord word) {
+  return word == OperatorWord::Stop || word == OperatorWord::Halt;
+}
+
+/// Keeps that a person stopped the vehicle, and what that ended, until a person lets it go on.
+void note_stop_word(CycleState& state, OperatorWord word) {
+  if (word == OperatorWord::Resume) {
+    state.stopped = false;
+    state.stopped_order.reset();
+  }
+  if (!is_stop(word)) return;
+  state.stopped = true;
+  state.jog = {};
+  if (word == OperatorWord::Stop && state.way.target) state.stopped_order = state.way.target->order;
 }
 
 /// Applies events one by one and keeps what they did for the log.
@@ -113,6 +131,8 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
   for (const OperatorCommand& command : input.commands) {
     const auto event = event_of(command.word);
     if (event == ModeEvent::Confirmed && (stopped || fault || deaf)) continue;  // the cause is still there
+    note_stop_word(state, command.word);
+    if (is_stop(command.word)) mode.apply(ModeEvent::ManualOff);
     if (event) mode.apply(*event);
     if (command.word == OperatorWord::Jog) {
       state.jog = command.jog;

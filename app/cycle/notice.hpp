@@ -50,6 +50,8 @@ enum class Cause : std::uint8_t {
   UnseenInTheWay,
   HeldBack,
   TimeGap,
+  Stopped,
+  StoppedOrder,
 };
 
 /// What a person can do about it.
@@ -106,19 +108,21 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"held-back",
                    "something that the lidar does not see holds the vehicle: it drives and does not get on"},
     CatalogueEntry{"time-gap", "the program stood still, or the computer's clock jumped"},
+    CatalogueEntry{"stopped", "stopped at a panel"},
+    CatalogueEntry{"stopped-order", "stopped at a panel; order {order} was cancelled"},
 };
 
 inline constexpr std::array kRemedies{
     CatalogueEntry{"give-order", "give an order"},
     CatalogueEntry{"resume", "press Resume"},
-    CatalogueEntry{"manual-off", "switch it off to go on"},
+    CatalogueEntry{"manual-off", "press Resume to end driving by hand"},
     CatalogueEntry{"free-and-confirm", "free the vehicle, then confirm"},
     CatalogueEntry{"release-and-confirm", "release it when all is safe, then confirm"},
     CatalogueEntry{"look-and-confirm", "look around, then confirm"},
     CatalogueEntry{"check-drive", "check its power and its cable"},
-    CatalogueEntry{"mend-drive", "see the list of drive faults, mend it, then confirm"},
+    CatalogueEntry{"mend-drive", "have it mended, then confirm"},
     CatalogueEntry{"confirm", "confirm"},
-    CatalogueEntry{"wait-for-place", "wait, move it by hand, or tap its place on the panel"},
+    CatalogueEntry{"wait-for-place", "wait, drive it by hand, or show its place: Where am I?"},
     CatalogueEntry{"check-lidar", "check the lidar's power and network cable"},
     CatalogueEntry{"clear-field", "clear the field"},
     CatalogueEntry{"go-on", "goes on by itself, or press Go on"},

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "app/cycle/drive_faults.hpp"
 #include "app/cycle/stages.hpp"
 
 namespace madori::app {
@@ -21,17 +22,40 @@ Standstill why_emergency(const CycleState& state, Stamp now) {
 
 Standstill why_fault(const CycleState& state, const CycleInput& input) {
   if (state.drive.faults != control::wire::kNoFault || state.drive.state == DriveState::Fault)
-    return {notice(Cause::DriveFault, {{"faults", std::to_string(state.drive.faults)}}),
+    return {notice(Cause::DriveFault, {{"faults", fault_words(state.drive.faults)}}),
             notice(Remedy::MendDrive), input.now};
   return because(Cause::FaultOver, Remedy::Confirm, input.now);
 }
 
-Standstill why_localizing(const CycleState& state, Stamp now) {
+/// What is silent keeps the vehicle standing whatever its mode: it is said before all that a person could
+/// end. After a start or a gap a device has its time to be heard before it is called silent.
+Standstill why_deaf(const CycleState& state, Stamp now, const CycleConfig& config) {
+  const auto silent = [&](const std::optional<Stamp>& heard, double limit_s) {
+    return is_silent(std::max({heard, state.gap, std::optional(state.begun)}), now, limit_s);
+  };
+  if (silent(state.drive_heard, config.drive_silent_s))
+    return because(Cause::DriveSilent, Remedy::CheckDrive, now);
+  const bool asks_person = state.mode == Mode::EmergencyStop || state.mode == Mode::Fault;
+  if (!asks_person && silent(state.lidar_heard, config.lidar_silent_s))
+    return because(state.lidar_heard ? Cause::LidarSilent : Cause::NoScan, Remedy::CheckLidar, now);
+  return {};
+}
+
+Standstill why_unplaced(const CycleState& state, Stamp now) {
   if (!state.lidar_heard) return because(Cause::NoScan, Remedy::CheckLidar, now);
   const auto& health = state.pose.health;
   const Cause cause =
       health.state == LocalizationState::Ambiguous ? Cause::PlaceAmbiguous : Cause::PlaceUnknown;
   return {notice(cause, {{"reason", health.reason}}), notice(Remedy::WaitForPlace), now};
+}
+
+/// Resume alone helps only where the place is known.
+Standstill why_paused(const CycleState& state, Stamp now) {
+  if (state.lidar_heard && !may_drive(state.pose.health.state)) return why_unplaced(state, now);
+  if (!state.stopped) return because(Cause::Paused, Remedy::Resume, now);
+  if (!state.stopped_order) return because(Cause::Stopped, Remedy::LookAndResume, now);
+  return {notice(Cause::StoppedOrder, {{"order", std::to_string(*state.stopped_order)}}),
+          notice(Remedy::LookAndResume), now};
 }
 
 Standstill why_at_stop(const OrderStop& stop, Stamp now) {
@@ -43,11 +67,6 @@ Standstill why_at_stop(const OrderStop& stop, Stamp now) {
 Standstill why_waiting(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Navigation& way = state.way;
   const Stamp now = input.now;
-  // After a gap a device has its time to be heard before it is called silent.
-  if (is_silent(std::max(state.drive_heard, state.gap), now, config.drive_silent_s))
-    return because(Cause::DriveSilent, Remedy::CheckDrive, now);
-  if (is_silent(std::max(state.lidar_heard, state.gap), now, config.lidar_silent_s))
-    return because(Cause::LidarSilent, Remedy::CheckLidar, now);
   if (state.gap) return because(Cause::TimeGap, Remedy::ByItself, now);
   if (state.protective_stop) return because(Cause::ProtectiveField, Remedy::ClearField, now);
   if (way.arrived) return why_at_stop(way.stop, now);
@@ -64,6 +83,8 @@ Standstill why_waiting(const CycleState& state, const CycleInput& input, const C
 }  // namespace
 
 Standstill standstill_of(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  if (!drives(state.mode))
+    if (auto deaf = why_deaf(state, input.now, config); !deaf.cause.empty()) return deaf;
   switch (state.mode) {
     case Mode::Driving:
     case Mode::Detouring:
@@ -74,9 +95,9 @@ Standstill standstill_of(const CycleState& state, const CycleInput& input, const
       return {state.way.no_way.empty() ? notice(Cause::NoOrder) : state.way.no_way, notice(Remedy::GiveOrder),
               input.now};
     case Mode::Localizing:
-      return why_localizing(state, input.now);
+      return why_unplaced(state, input.now);
     case Mode::Paused:
-      return because(Cause::Paused, Remedy::Resume, input.now);
+      return why_paused(state, input.now);
     case Mode::EmergencyStop:
       return why_emergency(state, input.now);
     case Mode::Fault:

@@ -96,7 +96,10 @@ void take_order(std::string_view text, hmi::EventView& view) {
 }  // namespace
 
 hmi::EventView event_view(const EventRecord& event) {
-  hmi::EventView view{event.stamp, event.kind == "device" ? "warning" : "info", uncoded(event.text), {}};
+  hmi::EventView view{event.stamp,
+                      event.kind == "device" || event.kind == "operator" ? "warning" : "info",
+                      uncoded(event.text),
+                      {}};
   const std::string_view text = event.text;
   take_order(text, view);
   if (take_clock(text, view)) return view;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <unordered_set>
 
 #include "app/panel/notices.hpp"
 #include "app/panel/reference_lidar.hpp"
@@ -14,9 +16,11 @@ namespace {
 
 constexpr double kShowEvery_s = 0.095;
 constexpr double kPlacesEvery_s = 0.5;
+constexpr double kScanEvery_s = 0.19;
 constexpr double kSilent_s = 0.5;
-constexpr double kFloor_m = 0.1;  ///< returns below are the floor
-constexpr std::size_t kMostScanPoints = 20'000;
+constexpr double kFloor_m = 0.1;      ///< returns below are the floor
+constexpr double kScanCell_m = 0.08;  ///< of several returns in one, a picture needs one
+constexpr std::size_t kMostScanPoints = 2000;
 
 void forget_old(std::deque<Stamp>& stamps, Stamp now) {
   while (!stamps.empty() && to_seconds(now - stamps.front()) > 1.0) stamps.pop_front();
@@ -29,6 +33,17 @@ hmi::DeviceStatus device(const char* name, const char* type, const std::optional
                            {}};
   if (!heard) status.detail = {"nothing-received", {}, "nothing received yet"};
   return status;
+}
+
+bool is_fresh(const std::optional<Stamp>& heard, Stamp now) {
+  return heard && to_seconds(now - *heard) < kSilent_s;
+}
+
+std::uint64_t cell_of(const Point2<Lidar>& at) {
+  const auto half = [](double value) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::lround(value / kScanCell_m)));
+  };
+  return half(at.x_m) << 32U | half(at.y_m);
 }
 
 }  // namespace
@@ -52,21 +67,23 @@ void LiveCopy::enter(const std::string& state, Stamp now) {
   live_.stamp = now;
 }
 
-/// The newest returns above the floor.
+/// The newest returns above the floor, one a cell, evenly chosen where these are still too many.
 void LiveCopy::take_scan(const CycleInput& input, const planning::SensorView& lidar, double yaw_rad,
                          const Transform2<Map, Base>& pose) {
-  if (input.clouds.empty()) return;
+  if (input.clouds.empty() || to_seconds(input.now - scanned_) < kScanEvery_s) return;
+  scanned_ = input.now;
   const auto& points = input.clouds.back().points;
   const Transform2<Base, Lidar> base_from_lidar(lidar.x_m, lidar.y_m, yaw_rad);
-  const std::size_t shown = std::min(points.size(), kMostScanPoints);
   std::vector<Point2<Base>> scan;
-  scan.reserve(shown);
-  for (std::size_t k = 0; k < shown; ++k) {
-    const CloudPoint& point = points[k * points.size() / shown];  // evenly chosen
-    if (static_cast<double>(point.z_m) + lidar.z_m > kFloor_m)
-      scan.push_back(base_from_lidar *
-                     Point2<Lidar>{static_cast<double>(point.x_m), static_cast<double>(point.y_m)});
+  std::unordered_set<std::uint64_t> taken;
+  for (const CloudPoint& point : points) {
+    if (static_cast<double>(point.z_m) + lidar.z_m <= kFloor_m) continue;
+    const Point2<Lidar> at{static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
+    if (taken.insert(cell_of(at)).second) scan.push_back(base_from_lidar * at);
   }
+  const std::size_t shown = std::min(scan.size(), kMostScanPoints);
+  for (std::size_t k = 0; k < shown; ++k) scan[k] = scan[k * scan.size() / shown];
+  scan.resize(shown);
   live_.scan = std::make_shared<const std::string>(hmi::scan_frame(scan, pose));
 }
 
@@ -91,12 +108,15 @@ void LiveCopy::show(const CycleInput& input, const CycleState& state, const Tran
   live_.remedy = shown(state.standstill.remedy);
   live_.pose = state.pose;
   live_.pose.map_from_base = state.site->on_drawing(state.pose.map_from_base);
-  live_.pose.stamp = input.now;  // the panel shows ages by the clock of the steps
-  live_.velocity = run.view().command;
+  live_.pose.stamp = std::min(state.pose.stamp, input.now);
+  live_.velocity.reset();
+  if (is_fresh(state.drive_heard, input.now))
+    live_.velocity = VelocityCommand{state.odometry.linear_mps(), state.odometry.angular_radps()};
   live_.emergency_stop = state.mode == Mode::EmergencyStop;
   live_.order_id = input.order ? std::optional<long long>(input.order->id) : std::nullopt;
   live_.battery_v.reset();
-  if (state.drive.battery_mv > 0) live_.battery_v = state.drive.battery_mv / 1000.0;
+  if (state.drive.battery_mv > 0 && is_fresh(state.drive_heard, input.now))
+    live_.battery_v = state.drive.battery_mv / 1000.0;
   live_.goal =
       state.way.target ? node_name(run.config().routes, state.way.stop.node).value_or("") : std::string();
   live_.path.clear();
@@ -116,7 +136,7 @@ void LiveCopy::take_places(const CycleState& state, Stamp now) {
   live_.score.reset();
   for (const auto& place : state.localization->hypotheses())
     locate_.places.push_back({place.map_from_base, place.explained});
-  if (!locate_.places.empty()) live_.score = locate_.places.front().score;
+  if (!locate_.places.empty() && is_fresh(state.lidar_heard, now)) live_.score = locate_.places.front().score;
   // The places that compete while none is sure: the cloud of particles of this localization.
   live_.particles.clear();
   if (locate_.places.size() > 1)
@@ -130,7 +150,7 @@ void LiveCopy::take_places(const CycleState& state, Stamp now) {
       locate_.state = "ambiguous";
       break;
     case LocalizationState::Lost:
-      locate_.state = state.lidar_heard ? "searching" : "blind";
+      locate_.state = is_fresh(state.lidar_heard, now) ? "searching" : "blind";
       break;
   }
 }

@@ -40,6 +40,7 @@ class LiveCopy {
   Mode mode_ = Mode::Paused;
   Stamp shown_{};
   Stamp placed_{};
+  Stamp scanned_{};
   std::deque<Stamp> revolutions_;  ///< of the last second
   std::deque<Stamp> reports_;      ///< of the drive, of the last second
 };

@@ -114,6 +114,11 @@ void PanelOrders::cancel_running(const std::string& why) {
     if (order.state == OrderState::Running) store_.close(order.id, OrderState::Cancelled, why, time_of_day());
 }
 
+void PanelOrders::tell(const std::string& text) {
+  const std::scoped_lock lock(mutex_);
+  store_.add_event({time_of_day(), "operator", text});
+}
+
 std::vector<hmi::EventView> PanelOrders::events(std::size_t newest) const {
   const std::scoped_lock lock(mutex_);
   std::vector<hmi::EventView> list;

@@ -28,6 +28,8 @@ class PanelOrders {
   hmi::Reply arrange(const std::vector<long long>& ids);
   /// Ends the order that is being worked on.
   void cancel_running(const std::string& why);
+  /// An operator's word, among the events.
+  void tell(const std::string& text);
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const;
   [[nodiscard]] long long stops_done() const;
 

@@ -5,6 +5,7 @@
 
 #include "app/panel/found_devices.hpp"
 #include "app/panel/notices.hpp"
+#include "core/clock.hpp"
 
 namespace madori::app {
 namespace {
@@ -57,7 +58,8 @@ void PanelVehicle::idle(const CycleInput& input) {
 
 hmi::Reply PanelVehicle::command(hmi::Command command) {
   const auto view = run_.view();
-  if (!view) return not_drivable(run_);
+  const bool stop = command == hmi::Command::Stop || command == hmi::Command::Halt;
+  if (!view) return stop ? hmi::Reply::done() : not_drivable(run_);  // the drive is not enabled then
   const Mode now = view->mode;
   switch (command) {
     case hmi::Command::Start:
@@ -70,8 +72,13 @@ hmi::Reply PanelVehicle::command(hmi::Command command) {
       run_.say({OperatorWord::Pause, {}, {}});
       break;
     case hmi::Command::Stop:
-      run_.say({OperatorWord::Pause, {}, {}});
+      jogging_.bar();
+      run_.say({OperatorWord::Stop, {}, {}});
       orders_.cancel_running("stopped at the panel");
+      break;
+    case hmi::Command::Halt:
+      jogging_.bar();
+      run_.say({OperatorWord::Halt, {}, {}});
       break;
     case hmi::Command::Confirm:
       run_.say({OperatorWord::Confirm, {}, {}});
@@ -88,6 +95,8 @@ hmi::Reply PanelVehicle::jog(const VelocityCommand& velocity) {
   const bool stands = velocity == VelocityCommand{};
   if (!view) return stands ? hmi::Reply::done() : not_drivable(run_);
   if (view->mode == Mode::EmergencyStop || view->mode == Mode::Fault) return confirm_first();
+  if (!jogging_.allows(velocity, clock_now()))
+    return hmi::Reply::refused("stopped", "somebody pressed Stop: let the button go first");
   if (view->mode != Mode::Manual && stands) return hmi::Reply::done();
   if (view->mode != Mode::Manual) run_.say({OperatorWord::ManualOn, {}, {}});
   run_.say({OperatorWord::Jog, velocity, {}});
@@ -96,10 +105,21 @@ hmi::Reply PanelVehicle::jog(const VelocityCommand& velocity) {
 
 hmi::Reply PanelVehicle::add_order(const std::vector<hmi::StopView>& stops, int repeat) {
   if (!run_.view()) return not_drivable(run_);
+  std::vector<int> nodes;
+  for (const auto& stop : stops) nodes.push_back(stop.node);
+  std::optional<int> after;
+  for (const auto& order : orders_.open())
+    if (!order.stops.empty()) after = order.stops.back().node;
+  if (const auto station = run_.without_way(after, nodes, repeat > 1)) {
+    const std::string name = run_.node_name(*station).value_or(std::to_string(*station));
+    return {false, {"no-way-to-station", {{"station", name}}, "no way leads to " + name}};
+  }
   return orders_.add(stops, repeat);
 }
 
 hmi::Reply PanelVehicle::repeat_order(long long id) {
+  for (const auto& order : orders_.ended())
+    if (order.id == id) return add_order(order.stops, order.repeat);
   if (!run_.view()) return not_drivable(run_);
   return orders_.repeat(id);
 }
@@ -111,8 +131,15 @@ hmi::Reply PanelVehicle::search_place() {
 
 hmi::Reply PanelVehicle::set_pose(const Transform2<Map, Base>& map_from_base) {
   if (!run_.may_change_site()) return driving();
+  // Nobody may be surprised by a vehicle that drives off because its place was said: it waits for Resume.
+  run_.say({OperatorWord::Pause, {}, {}});
   const GivenPose given{map_from_base.translation(), map_from_base.yaw_rad(), PoseSigma{}};
   return run_.say({OperatorWord::SetPose, {}, given}) ? hmi::Reply::done() : not_drivable(run_);
+}
+
+hmi::Reply PanelVehicle::report(const std::string& text) {
+  orders_.tell("operator: " + text);
+  return hmi::Reply::done();
 }
 
 std::vector<hmi::FoundDevice> PanelVehicle::found_devices() const {

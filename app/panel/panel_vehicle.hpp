@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/camera/camera_capture.hpp"
+#include "app/panel/jog_bar.hpp"
 #include "app/panel/live_copy.hpp"
 #include "app/panel/panel_orders.hpp"
 #include "app/runner/site_run.hpp"
@@ -38,6 +39,7 @@ class PanelVehicle final : public hmi::Vehicle {
   [[nodiscard]] hmi::LocateView locate() const override { return copy_.locate(); }
   hmi::Reply search_place() override;
   hmi::Reply set_pose(const Transform2<Map, Base>& map_from_base) override;
+  hmi::Reply report(const std::string& text) override;
   [[nodiscard]] std::vector<hmi::FoundDevice> found_devices() const override;
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const override;
   [[nodiscard]] hmi::StatisticsView statistics() const override;
@@ -52,6 +54,7 @@ class PanelVehicle final : public hmi::Vehicle {
   LiveCopy copy_;
   PanelOrders orders_;
   WorkMeter meter_;
+  JogBar jogging_;
   std::optional<CameraCapture> camera_;
 };
 

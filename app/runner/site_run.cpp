@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "app/cycle/stages.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/route_tools.hpp"
@@ -162,6 +163,21 @@ std::optional<std::string> SiteRun::node_name(int id) const {
   const std::scoped_lock lock(mutex_);
   if (!run_) return std::nullopt;
   return app::node_name(run_->config().routes, id);
+}
+
+std::optional<int> SiteRun::without_way(std::optional<int> after, const std::vector<int>& stops,
+                                        bool repeats) const {
+  const std::scoped_lock lock(mutex_);
+  if (!run_) return std::nullopt;
+  const planning::RouteGraph& routes = run_->config().routes;
+  const VehicleView view = run_->view();
+  std::vector<std::size_t> starts = main_routes(routes);
+  const auto before = after ? routes.index_of(*after) : std::nullopt;
+  if (before)
+    starts = {*before};
+  else if (may_drive(view.pose.health.state))
+    starts = nodes_near(routes, view.pose.map_from_base.translation());
+  return stop_without_way(routes, std::move(starts), stops, repeats);
 }
 
 bool SiteRun::may_change_site() const {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/cycle/site_config.hpp"
 #include "app/keeping/site_keeper.hpp"
@@ -50,6 +51,11 @@ class SiteRun {
   [[nodiscard]] std::optional<VehicleView> view() const;
   /// The node's name, or its number where it has none; nothing for a node that is not in the routes.
   [[nodiscard]] std::optional<std::string> node_name(int id) const;
+  /// The first of these stops that no way leads to: from the stop `after` (from where the vehicle is, while
+  /// there is none; from the main part of the routes while that is not known), from each to the next, and
+  /// from the last to the first where the order `repeats`.
+  [[nodiscard]] std::optional<int> without_way(std::optional<int> after, const std::vector<int>& stops,
+                                               bool repeats) const;
   /// The vehicle stands, and will not move before somebody lets it.
   [[nodiscard]] bool may_change_site() const;
   /// What the run has seen of the drawn walls; empty while there is none.

@@ -1,6 +1,9 @@
 #include <sodium.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <fstream>
 
@@ -89,6 +92,27 @@ json to_wire(const mapping::ImportReport& report) {
           {"notes", report.notes}};
 }
 
+/// What kind of failure an import's reason is, for the panel's catalogues.
+std::string kind_of(const std::string& name, const std::string& reason) {
+  struct Kind {
+    const char* says;
+    const char* kind;
+  };
+  constexpr std::array kKinds{Kind{"is not an image that Madori reads", "unreadable-format"},
+                              Kind{"cut off", "damaged-file"},
+                              Kind{"damaged", "damaged-file"},
+                              Kind{"is empty", "damaged-file"},
+                              Kind{"is no readable PDF", "damaged-file"},
+                              Kind{"password", "locked-file"},
+                              Kind{"no wall was found", "no-wall"}};
+  std::string ending = fs::path(name).extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (ending == ".dwg") return "dwg-format";
+  for (const auto& [says, kind] : kKinds)
+    if (reason.find(says) != std::string::npos) return kind;
+  return "job-failed";
+}
+
 /// The operator knows the drawing by the name that it was uploaded with.
 mapping::ImportReport import_as(const std::string& name, const mapping::ImportOptions& options,
                                 const Job::Progress& progress) {
@@ -101,7 +125,7 @@ mapping::ImportReport import_as(const std::string& name, const mapping::ImportOp
     for (auto at = text.find(temporary); at != std::string::npos;
          at = text.find(temporary, at + shown.size()))
       text.replace(at, temporary.size(), shown);
-    throw Error(text);
+    throw Job::Failed(kind_of(name, text), text);
   }
 }
 

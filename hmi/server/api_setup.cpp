@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "core/angle.hpp"
 #include "hmi/server/api.hpp"
 #include "hmi/server/api_support.hpp"
 
@@ -25,6 +28,14 @@ Transform2<Map, Base> pose_from(const json& wire) {
   return pose;
 }
 
+/// "the drawing does not fit at x 12.3 m, y 4.5 m, 90 deg: 3 m of wall contradict"
+std::string report_of(const json& wire) {
+  const auto pose = pose_from(wire);
+  return fmt::format(
+      "the drawing does not fit at x {:.1f} m, y {:.1f} m, {:.0f} deg: {} m of wall contradict", pose.x_m(),
+      pose.y_m(), to_deg(pose.yaw_rad()), whole_number<int>(wire.at("walls")));
+}
+
 }  // namespace
 
 void add_setup_routes(Router& router, ApiContext& context) {
@@ -37,8 +48,15 @@ void add_setup_routes(Router& router, ApiContext& context) {
              answering([&](const Request&) { return to_wire(vehicle.locate()); }));
   router.add("POST", "/api/locate/search", Role::Operator,
              [&](const Request&) { return answer(vehicle.search_place()); });
-  router.add("POST", "/api/vehicle/pose", Role::Operator,
-             guarded([&](const Request& r) { return answer(vehicle.set_pose(pose_from(body_of(r)))); }));
+  router.add("POST", "/api/vehicle/pose", Role::Operator, guarded([&](const Request& r) {
+               const json body = body_of(r);
+               const auto pose = pose_from(body);
+               const bool insists = body.value("insist", false);
+               return answer(insists ? vehicle.insist_on_pose(pose) : vehicle.set_pose(pose));
+             }));
+  router.add("POST", "/api/vehicle/report", Role::Operator,
+             guarded([&](const Request& r) { return answer(vehicle.report(report_of(body_of(r)))); }),
+             Work::Worker);
 }
 
 }  // namespace madori::hmi

@@ -83,6 +83,9 @@ void add_vehicle_routes(Router& router, ApiContext& context) {
   for (const auto& [name, command] : kCommands)
     router.add("POST", std::string("/api/vehicle/") + name, Role::Operator,
                [&vehicle, c = command](const Request&) { return answer(vehicle.command(c)); });
+  // To stand is always allowed: whoever is at the page, logged in or not, may halt the vehicle before it.
+  router.add("POST", "/api/vehicle/halt", Role::None,
+             [&vehicle](const Request&) { return answer(vehicle.command(Command::Halt)); });
   add_order_routes(router, vehicle);
   router.add("GET", "/api/camera.jpg", Role::Viewer, [&](const Request&) { return camera_picture(vehicle); });
 }

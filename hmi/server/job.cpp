@@ -50,6 +50,8 @@ void Job::run(const Work& work) {
     });
   } catch (const Cancelled&) {
     error = {"cancelled", {}, "cancelled; nothing has changed"};
+  } catch (const Failed& e) {
+    error = {"job-failed", {{"reason", e.what()}, {"kind", e.kind}}, e.what()};
   } catch (const std::exception& e) {
     error = {"job-failed", {{"reason", e.what()}}, e.what()};
   }

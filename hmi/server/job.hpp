@@ -3,8 +3,10 @@
 #include <functional>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "hmi/server/vehicle.hpp"
 
@@ -18,6 +20,12 @@ class Job {
   struct Outcome {
     std::string summary;    ///< in words
     nlohmann::json report;  ///< ImportSummary of an import, else null
+  };
+  /// A failure of a kind that panels know.
+  struct Failed : std::runtime_error {
+    Failed(std::string known_as, const std::string& reason)
+        : std::runtime_error(reason), kind(std::move(known_as)) {}
+    std::string kind;
   };
   /// Throws on failure.
   using Work = std::function<Outcome(const Progress&)>;

@@ -11,18 +11,8 @@
 #include "planning/route_graph/route_check.hpp"
 
 namespace madori::hmi {
-namespace {
-
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-std::vector<planning::RouteFinding> findings_of(const fs::path& folder, const planning::RouteGraph& graph) {
-  planning::RouteCheckOptions options;
-  if (has_site(folder)) options.half_width_m = mapping::load_site(folder).vehicle.width_m / 2.0;
-  return planning::check_routes(graph, drawn_walls(folder), options);
-}
-
-}  // namespace
 
 json SiteEditor::routes() const {
   const std::scoped_lock lock(mutex_);

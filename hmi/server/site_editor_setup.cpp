@@ -12,8 +12,12 @@ namespace {
 
 using nlohmann::json;
 
+constexpr const char* kFaultyLegs = "routes-through-wall";
+
 json step(const char* name, const Notice& missing) {
-  return {{"name", name}, {"done", missing.code.empty()}, {"what", to_wire(missing)}};
+  const bool done =
+      missing.code.empty() || missing.code == kFaultyLegs;  // it can be driven, as far as it goes
+  return {{"name", name}, {"done", done}, {"what", to_wire(missing)}};
 }
 
 Notice what_routes_miss(const std::filesystem::path& folder) {
@@ -25,6 +29,9 @@ Notice what_routes_miss(const std::filesystem::path& folder) {
     const std::string first = parsed.findings.empty() ? "" : parsed.findings.front().text();
     return {"faulty-routes", {{"finding", first}}, "The routes cannot be read: " + first};
   }
+  for (const auto& finding : findings_of(folder, parsed.graph))
+    if (finding.severity == planning::Severity::Error)
+      return {kFaultyLegs, {{"finding", finding.text()}}, finding.text()};
   if (parsed.graph.nodes().size() < 2)
     return {"few-routes", {}, "The routes need at least two points and a line between them."};
   return {};

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "mapping/site/site.hpp"
 #include "mapping/wall_map/wall_files.hpp"
 
 namespace madori::hmi {
@@ -17,6 +18,13 @@ std::vector<Segment2<Map>> drawn_walls(const std::filesystem::path& folder) {
   if (!has_site(folder)) return walls;
   for (const auto& wall : mapping::load_walls(folder / "walls.csv")) walls.push_back(wall.segment);
   return walls;
+}
+
+std::vector<planning::RouteFinding> findings_of(const std::filesystem::path& folder,
+                                                const planning::RouteGraph& graph) {
+  planning::RouteCheckOptions options;
+  if (has_site(folder)) options.half_width_m = mapping::load_site(folder).vehicle.width_m / 2.0;
+  return planning::check_routes(graph, drawn_walls(folder), options);
 }
 
 std::string attribution_of(const std::filesystem::path& tiles) {

@@ -59,8 +59,8 @@ struct LiveState {
   Notice remedy;
   Stamp since{};  ///< of the state
   PoseEstimate pose;
-  VelocityCommand velocity;
-  std::optional<double> battery_share;  ///< 0..1
+  std::optional<VelocityCommand> velocity;  ///< as the wheels turn; nothing while the drive is silent
+  std::optional<double> battery_share;      ///< 0..1
   std::optional<double> battery_v;
   std::optional<double> score;  ///< share of the walls seen that lie on drawn ones, 0..1
   double odometer_m = 0.0;      ///< driven since the site began
@@ -140,8 +140,8 @@ struct StatisticsView {
   std::vector<CauseView> causes;  ///< longest first
 };
 
-/// GoOn ends the stay at a stop.
-enum class Command { Start, Pause, Resume, Stop, Confirm, GoOn };
+/// GoOn ends the stay at a stop. Stop stands and ends the order that is under way; Halt stands, whoever asks.
+enum class Command { Start, Pause, Resume, Stop, Confirm, GoOn, Halt };
 
 /// The vehicle as the server sees it. Every member may be called from the server's threads at any time and
 /// returns at once: the autonomy cycle is never held up by a panel.
@@ -168,6 +168,14 @@ class Vehicle {
   virtual Reply search_place() = 0;
   /// A person says that the vehicle stands there.
   virtual Reply set_pose(const Transform2<Map, Base>& map_from_base) = 0;
+  /// The same although what is seen contradicts: the vehicle drives slowly from there until it agrees.
+  virtual Reply insist_on_pose(const Transform2<Map, Base>& /*map_from_base*/) {
+    return Reply::refused("not-possible", "this vehicle drives only where it agrees");
+  }
+  /// An operator's word to the integrator: it stands among the events.
+  virtual Reply report(const std::string& /*text*/) {
+    return Reply::refused("not-possible", "this vehicle keeps no events");
+  }
 
   [[nodiscard]] virtual std::vector<FoundDevice> found_devices() const = 0;
   [[nodiscard]] virtual std::vector<EventView> events(std::size_t newest) const = 0;

@@ -1,5 +1,7 @@
 #include "hmi/server/wire.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/clock.hpp"
@@ -9,7 +11,12 @@ namespace {
 
 using nlohmann::json;
 constexpr std::size_t kMostParticles = 400;
-constexpr std::size_t kMostPathPoints = 400;
+constexpr std::size_t kMostPathPoints = 100;
+
+/// To the millimetre and milliradian: a panel shows no more, and a network carries less.
+json rounded(double value) {
+  return std::round(value * 1e3) / 1e3;
+}
 
 template <class Value>
 json or_null(const std::optional<Value>& value) {
@@ -20,25 +27,31 @@ json or_null(const std::optional<Value>& value) {
 json thinned(const std::vector<Point2<Map>>& points, std::size_t most) {
   json list = json::array();
   const std::size_t stride = std::max<std::size_t>(1, (points.size() + most - 1) / most);
-  for (std::size_t i = 0; i < points.size(); i += stride) list.push_back({points[i].x_m, points[i].y_m});
+  for (std::size_t i = 0; i < points.size(); i += stride)
+    list.push_back({rounded(points[i].x_m), rounded(points[i].y_m)});
   if (!points.empty() && (points.size() - 1) % stride != 0)
-    list.push_back({points.back().x_m, points.back().y_m});
+    list.push_back({rounded(points.back().x_m), rounded(points.back().y_m)});
   return list;
 }
 
 json pose_to_wire(const PoseEstimate& pose, Stamp now) {
   const auto& c = pose.covariance;
-  return {{"x", pose.map_from_base.x_m()},          {"y", pose.map_from_base.y_m()},
-          {"yaw", pose.map_from_base.yaw_rad()},    {"covariance", {c(0, 0), c(0, 1), c(1, 1), c(2, 2)}},
-          {"health", to_string(pose.health.state)}, {"health_reason", pose.health.reason},
-          {"age_s", to_seconds(now - pose.stamp)}};
+  return {{"x", pose.map_from_base.x_m()},
+          {"y", pose.map_from_base.y_m()},
+          {"yaw", pose.map_from_base.yaw_rad()},
+          {"covariance", {c(0, 0), c(0, 1), c(1, 1), c(2, 2)}},
+          {"health", to_string(pose.health.state)},
+          {"health_reason", pose.health.reason},
+          {"age_s", rounded(std::max(0.0, to_seconds(now - pose.stamp)))}};
 }
 
 json particles_to_wire(const std::vector<Transform2<Map, Base>>& particles) {
   json list = json::array();
   const std::size_t stride = std::max<std::size_t>(1, particles.size() / kMostParticles);
   for (std::size_t i = 0; i < particles.size(); i += stride)
-    list.push_back({particles[i].x_m(), particles[i].y_m(), particles[i].yaw_rad()});
+
+    list.push_back(
+        {rounded(particles[i].x_m()), rounded(particles[i].y_m()), rounded(particles[i].yaw_rad())});
   return list;
 }
 
@@ -48,7 +61,7 @@ json devices_to_wire(const std::vector<DeviceStatus>& devices) {
     list.push_back({{"name", d.name},
                     {"type", d.type},
                     {"healthy", d.healthy},
-                    {"age_s", d.age_s},
+                    {"age_s", rounded(d.age_s)},
                     {"rate_hz", or_null(d.rate_hz)},
                     {"detail", to_wire(d.detail)}});
   return list;
@@ -67,8 +80,8 @@ json to_wire(const LiveState& live, Stamp now) {
           {"remedy", to_wire(live.remedy)},
           {"since", to_seconds(time_of_day(live.since))},
           {"pose", pose_to_wire(live.pose, now)},
-          {"speed", live.velocity.linear_mps},
-          {"turn_rate", live.velocity.angular_radps},
+          {"speed", live.velocity ? rounded(live.velocity->linear_mps) : json(nullptr)},
+          {"turn_rate", live.velocity ? rounded(live.velocity->angular_radps) : json(nullptr)},
           {"battery", or_null(live.battery_share)},
           {"battery_v", or_null(live.battery_v)},
           {"score", or_null(live.score)},

@@ -12,13 +12,17 @@ export class Refused extends Error {
   }
 }
 
-async function request<T>(method: string, path: string, body?: unknown, raw?: Blob): Promise<T> {
+/** Told whenever the server wants a PIN: the session is over, or the server was started anew. */
+export const pinWanted = { tell: (): void => undefined };
+
+async function request<T>(method: string, path: string, body?: unknown, raw?: Blob, answer_ms?: number): Promise<T> {
   let response: Response;
   try {
     response = await fetch(path, {
       method,
       credentials: "same-origin",
       headers: raw || body === undefined ? {} : { "Content-Type": "application/json" },
+      ...(answer_ms === undefined ? {} : { signal: AbortSignal.timeout(answer_ms) }),
       body: raw ?? (body === undefined ? undefined : JSON.stringify(body)),
     });
   } catch {
@@ -28,6 +32,7 @@ async function request<T>(method: string, path: string, body?: unknown, raw?: Bl
   const parsed: unknown = text === "" ? {} : JSON.parse(text);
   if (!response.ok) {
     const { error } = parsed as wire.ApiError;
+    if (error.code === "no-session") pinWanted.tell();
     throw new Refused(response.status, error.code, error.text, error.values ?? {});
   }
   return parsed as T;
@@ -68,7 +73,11 @@ export const api = {
   searchAnew: () => post("/api/locate/search"),
   setPose: (pose: wire.SetPose) => post("/api/vehicle/pose", pose),
 
-  command: (name: "start" | "pause" | "resume" | "stop" | "confirm" | "go-on") => post(`/api/vehicle/${name}`),
+  command: (name: "start" | "pause" | "resume" | "confirm" | "go-on") => post(`/api/vehicle/${name}`),
+  stop: (answer_ms: number) => request("POST", "/api/vehicle/stop", {}, undefined, answer_ms),
+  /** needs no PIN */
+  halt: (answer_ms: number) => request("POST", "/api/vehicle/halt", {}, undefined, answer_ms),
+  report: (what: wire.PlaceReport) => post("/api/vehicle/report", what),
   replay: async () => {
     const answer = await fetch("/api/replay", { credentials: "same-origin" });
     if (!answer.ok) throw new Refused(answer.status, "not-found", "there is no replay");

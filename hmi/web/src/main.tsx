@@ -2,10 +2,10 @@ import { render } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import "ol/ol.css";
 import "./styles.css";
-import { api } from "./api";
+import { api, pinWanted } from "./api";
 import type { Session, SiteRevisions } from "./api_types";
 import { loadContent, newestOnly, type Content } from "./content";
-import { language, useText } from "./i18n";
+import { language, nextLanguage, textIn, useText } from "./i18n";
 import { live } from "./live/live_socket";
 import { theme } from "./map/theme";
 import { DrivePage } from "./pages/drive";
@@ -32,7 +32,7 @@ function Rail(props: { page: PageName; role: Session["role"]; needsPin: boolean;
       {entry("history")}
       <span class="spring" />
       {props.needsPin && <button type="button" class="target tool" onClick={props.leave}><Icon name="bad" /><span>{t("nav.leave")}</span></button>}
-      <button type="button" class="target tool" lang={language.value === "en" ? "ja" : "en"} onClick={() => language.set(language.value === "en" ? "ja" : "en")}>{t("nav.language")}</button>
+      <button type="button" class="target tool" lang={nextLanguage()} onClick={() => language.set(nextLanguage())}>{textIn(nextLanguage(), "language.name")}</button>
       <button type="button" class="target" aria-label={t("nav.theme")} onClick={() => theme.set(theme.value === "dark" ? "light" : "dark")}><Icon name="theme" /></button>
     </nav>
   );
@@ -53,6 +53,7 @@ function useRevisions(load: () => Promise<unknown>): void {
 }
 
 function Panel() {
+  const t = useText();
   const [session, setSession] = useState<Session | null>(null);
   const [content, setContent] = useState<Content | null>(null);
   const [page, setPage] = useState<PageName | null>(null);
@@ -67,25 +68,37 @@ function Panel() {
     void attempt(async () => {
       const current = await api.session();
       setSession(current);
-      if (current.role === "none") return;
+      if (current.role === "none") return live.close();
       live.open();
       await load();
     });
+  /** A server that was started anew knows no session: the PIN is asked for where the page stands. */
+  const askWho = () =>
+    void api.session().then((current) => {
+      if (current.role !== "none") return;
+      setSession(current);
+      live.close();
+    }, () => undefined);
   const leave = () => void attempt(api.logout).then(() => { live.close(); setContent(null); enter(); });
   useRevisions(load);
   useEffect(() => {
     enter();
-    return () => live.close();
+    pinWanted.tell = askWho;
+    const unwatch = live.lost.watch(askWho);
+    return () => {
+      unwatch();
+      live.close();
+    };
   }, []);
-  if (session?.role === "none") return <LoginPage entered={enter} />;
-  if (!session || !content || !page) return <Toast />;
+  if (session?.role === "none") return <><LoginPage entered={enter} /><CommandBar role="none" /><Toast /></>;
+  if (!session || !content || !page) return <><main class="page starting">{t("app.name")}</main><CommandBar role={session?.role ?? "none"} /><Toast /></>;
   const { role } = session;
   const shown = role === "integrator" || page !== "setup" ? page : "drive";
   const version = content.site.walls_revision + content.site.routes_revision;
   return (
     <>
       <Rail page={shown} role={role} needsPin={session.needs_pin} go={setPage} leave={leave} />
-      {shown === "drive" && <DrivePage key={version} {...content} role={role} />}
+      {shown === "drive" && <DrivePage key={version} {...content} role={role} changed={load} />}
       {shown === "setup" && <SetupPage {...content} changed={load} finished={() => setPage("drive")} />}
       {shown === "history" && <HistoryPage role={role} />}
       <CommandBar role={role} />

@@ -49,6 +49,7 @@ export function start(program, args, ready) {
     stop: () => new Promise((done) => {
       if (ended) return done();
       child.once("exit", done);
+      child.kill("SIGCONT");
       child.kill("SIGTERM");
       setTimeout(() => child.kill("SIGKILL"), 5000).unref();
     }),
@@ -62,7 +63,7 @@ export function start(program, args, ready) {
     const take = (data) => {
       output += data;
       const match = output.match(ready);
-      if (match) done({ match, output: () => output, kill });
+      if (match) done({ match, output: () => output, kill, child });
     };
     child.stdout.on("data", take);
     child.stderr.on("data", take);

@@ -89,6 +89,7 @@ TEST_F(NetworkAttackTest, AViewerCommandsNothing) {
   for (const char* path : {"/api/vehicle/start", "/api/vehicle/stop", "/api/orders", "/api/vehicle/pose",
                            "/api/locate/search", "/api/site/drawing?name=a.png", "/api/site/scale"})
     EXPECT_EQ(call("POST", path, "{}", login.cookie).status, 403) << path;
+  EXPECT_EQ(call("POST", "/api/vehicle/halt", "{}").status, 200) << "to stand is always allowed";
   for (const char* path : {"/api/site/walls", "/api/site/routes", "/api/site/vehicle", "/api/orders/queue"})
     EXPECT_EQ(call("PUT", path, "{}", login.cookie).status, 403) << path;
   test::LiveClient panel(server_->port(), "same", login.cookie);

@@ -1,19 +1,27 @@
-import type { Notice } from "../api_types";
 import { Store, useStore } from "../store";
 import { en, type TextKey } from "./en";
-import { ja } from "./ja";
 
-export type Language = "en" | "ja";
-const catalogues: Record<Language, Record<TextKey, string>> = { en, ja };
+type Texts = Record<TextKey, string>;
 
-const stored = localStorage.getItem("madori.language");
-const preferred: Language = navigator.language.startsWith("ja") ? "ja" : "en";
-export const language = new Store<Language>(stored === "en" || stored === "ja" ? stored : preferred);
+/** A language is one file beside this one, named by its code (BCP 47), that exports its texts. */
+const files = import.meta.glob<Record<string, Texts>>(["./*.ts", "!./index.ts"], { eager: true });
+const catalogues: Record<string, Texts> = Object.fromEntries(
+  Object.entries(files).map(([file, module]) => [file.slice(2, -3), Object.values(module)[0] ?? en]),
+);
+const languages = ["en", ...Object.keys(catalogues).filter((code) => code !== "en").sort()];
+
+const stored = localStorage.getItem("madori.language") ?? "";
+const preferred = languages.find((code) => navigator.language.startsWith(code)) ?? "en";
+export const language = new Store<string>(languages.includes(stored) ? stored : preferred);
 language.watch((value) => {
   localStorage.setItem("madori.language", value);
   document.documentElement.lang = value;
 });
 document.documentElement.lang = language.value;
+
+const catalogue = (code: string): Texts => catalogues[code] ?? en;
+export const nextLanguage = (): string => languages[(languages.indexOf(language.value) + 1) % languages.length] ?? "en";
+export const textIn = (code: string, key: TextKey): string => catalogue(code)[key];
 
 type Values = Record<string, string | number>;
 
@@ -26,17 +34,7 @@ export type Translate = (key: TextKey, values?: Values) => string;
 /** The text of a key in the chosen language. */
 export function useText(): Translate {
   const chosen = useStore(language);
-  return (key, values = {}) => fill(catalogues[chosen][key], values);
+  return (key, values = {}) => fill(catalogue(chosen)[key], values);
 }
 
-/** The values with the {reason} in the chosen language, where its codes (the outer one first) are known. */
-function withReason(t: Translate, values: Record<string, string>): Record<string, string> {
-  const keys = (values["reason_codes"] ?? "").split("+").map((code) => `reason.${code}`);
-  return keys.every((key) => key in en) ? { ...values, reason: keys.map((key) => t(key as TextKey)).join(" ") } : values;
-}
-
-/** A notice of the vehicle: from the catalogue where it is known, else in the vehicle's own English. */
-export function noticeText(t: Translate, prefix: string, notice: Notice): string {
-  const key = [`${prefix}.${notice.code}`, notice.code].find((one) => one in en);
-  return key === undefined ? notice.text : t(key as TextKey, withReason(t, notice.values));
-}
+export { kindText, noticeText } from "../notice_text";

@@ -18,6 +18,8 @@ const RETRY_MS = [250, 500, 1000, 2000];
 export class LiveSocket {
   readonly newest = new Store<Frame | null>(null);
   readonly connected = new Store(false);
+  /** counts how often the connection was lost or not made */
+  readonly lost = new Store(0);
   readonly refusal = new Store<Notice | null>(null);
   readonly history: Frame[] = [];
   private socket: WebSocket | null = null;
@@ -30,6 +32,7 @@ export class LiveSocket {
 
   open(): void {
     this.closed = false;
+    if (this.socket && this.socket.readyState <= WebSocket.OPEN) return;
     const socket = new WebSocket(this.url);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
@@ -39,7 +42,9 @@ export class LiveSocket {
     };
     socket.onmessage = (event) => this.take(event.data as string | ArrayBuffer);
     socket.onclose = () => {
+      if (this.socket !== socket) return;
       this.connected.set(false);
+      this.lost.set(this.lost.value + 1);
       const wait = RETRY_MS[Math.min(this.failures++, RETRY_MS.length - 1)] ?? 2000;
       if (!this.closed) setTimeout(() => this.open(), wait);
     };
@@ -49,6 +54,8 @@ export class LiveSocket {
   close(): void {
     this.closed = true;
     this.socket?.close();
+    this.socket = null;
+    this.connected.set(false);
   }
 
   /** Metres and radians a second. The vehicle stops when no call follows within 250 ms. */

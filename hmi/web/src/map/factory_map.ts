@@ -153,8 +153,10 @@ export class FactoryMap {
     }
   }
 
-  showRoutes(routes: Pick<Routes, "nodes" | "legs">, chosen: readonly number[] = []): void {
+  /** `faulty`: what a check found, marked on the legs ("from>to") and points (their ID) that it names. */
+  showRoutes(routes: Pick<Routes, "nodes" | "legs">, chosen: readonly number[] = [], faulty: ReadonlySet<string> = new Set()): void {
     this.routes.clear(true);
+    this.map.getTargetElement()?.setAttribute("data-faulty", [...faulty].join(" "));  // so that a test can ask
     const at = new Map(routes.nodes.map((node) => [node.id, [node.x, node.y] as XY]));
     const has = new Set(routes.legs.map(([from, to]) => `${from}>${to}`));
     for (const [from, to] of routes.legs) {
@@ -163,12 +165,12 @@ export class FactoryMap {
       const oneWay = !has.has(`${to}>${from}`);
       if (!a || !b || (!oneWay && (from ?? 0) > (to ?? 0))) continue;
       const leg = new Feature(new LineString([a, b]));
-      leg.setProperties({ kind: "leg", oneWay, from, to });
+      leg.setProperties({ kind: "leg", oneWay, from, to, faulty: faulty.has(`${from}>${to}`) || faulty.has(`${to}>${from}`) });
       this.routes.addFeature(leg);
     }
     for (const node of routes.nodes) {
       const feature = new Feature(new Point([node.x, node.y]));
-      feature.setProperties({ kind: "node", node, chosen: chosen.includes(node.id) });
+      feature.setProperties({ kind: "node", node, chosen: chosen.includes(node.id), faulty: faulty.has(String(node.id)) });
       this.routes.addFeature(feature);
     }
   }

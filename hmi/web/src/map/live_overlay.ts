@@ -13,7 +13,11 @@ export interface Moving {
   scanAt?: { x: number; y: number; yaw: number };
   live: Live | null;
   vehicle: VehicleInfo;
+  /** of before: drawn pale */
   stale: boolean;
+  /** false while nobody knows where the vehicle is: then it has no place on the map */
+  vehicleShown: boolean;
+  scanShown: boolean;
 }
 
 /** Points straight into pixels, two by two: tens of thousands a tenth of a second are too many for features. */
@@ -21,6 +25,7 @@ function drawPoints(context: CanvasRenderingContext2D, pixels: ImageData, moving
   const { width, height } = pixels;
   const words = new Uint32Array(pixels.data.buffer);
   words.fill(0);
+  if (!moving.scanShown) return context.putImageData(pixels, 0, 0);
   const { points } = moving.scan;
   const { x, y, yaw } = moving.scanAt ?? moving.scan;
   const [cx = 0, cy = 0] = map.getView().getCenter() ?? [];
@@ -78,13 +83,14 @@ export function drawVehicle(context: CanvasRenderingContext2D, pose: { x: number
   context.stroke();
 }
 
-function drawState(context: CanvasRenderingContext2D, live: Live, vehicle: VehicleInfo, to: ToScreen): void {
+function drawState(context: CanvasRenderingContext2D, live: Live, vehicle: VehicleInfo, shown: boolean, to: ToScreen): void {
   const { ink, grey, amber, red } = palette();
   context.fillStyle = grey;
   for (const [x = 0, y = 0] of live.particles) {
     const [u, v] = to(x, y);
     context.fillRect(u - 1, v - 1, 3, 3);
   }
+  if (!shown) return;
   if (live.path.length > 1) {
     trace(context, live.path, to);
     context.setLineDash([12, 8]);
@@ -123,6 +129,10 @@ export class LiveOverlay {
 
   show(moving: Moving): void {
     this.moving = moving;
+    const target = this.map.getTargetElement();  // what is shown, so that a test can ask
+    const word = (is: boolean) => (!is ? "hidden" : moving.stale ? "old" : "shown");
+    target?.setAttribute("data-vehicle", word(moving.vehicleShown));
+    target?.setAttribute("data-scan", word(moving.scanShown));
     this.draw();
   }
 
@@ -143,11 +153,12 @@ export class LiveOverlay {
     if (!this.moving || !this.context || !this.scanContext || !this.fitSize() || !this.pixels) return;
     drawPoints(this.scanContext, this.pixels, this.moving, this.map);
     this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    this.canvas.style.opacity = this.moving.stale ? "0.35" : "1";
     const [cx = 0, cy = 0] = this.map.getView().getCenter() ?? [];
     const resolution = this.map.getView().getResolution() ?? 1;
     const to: ToScreen = (x, y) => [this.canvas.width / 2 + (x - cx) / resolution, this.canvas.height / 2 - (y - cy) / resolution];
     const { live, vehicle, scanAt } = this.moving;
-    if (live) drawState(this.context, live, vehicle, to);
+    if (live) drawState(this.context, live, vehicle, this.moving.vehicleShown, to);
     else if (scanAt) drawVehicle(this.context, scanAt, vehicle, palette().ink, to);
   }
 }

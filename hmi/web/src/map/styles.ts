@@ -52,14 +52,15 @@ function heading(degrees: number): Style {
 }
 
 export function route(feature: FeatureLike): Style | Style[] {
-  const { ink, paper, grey, blue } = palette();
+  const { ink, paper, grey, blue, red } = palette();
   if (feature.get("kind") === "leg") {
-    const line = new Style({ stroke: new Stroke({ color: grey, width: 5 }) });
+    const faulty = feature.get("faulty") as boolean;
+    const line = new Style({ stroke: new Stroke({ color: faulty ? red : grey, width: faulty ? 8 : 5, lineDash: faulty ? [14, 8] : undefined, lineCap: "butt" }) });
     return feature.get("oneWay") ? [line, arrow(feature)] : line;
   }
   const node = feature.get("node") as RouteNode;
   const chosen = feature.get("chosen") as boolean;
-  const stroke = new Stroke({ color: chosen ? blue : ink, width: chosen ? 6 : 3 });
+  const stroke = new Stroke({ color: chosen ? blue : feature.get("faulty") ? red : ink, width: chosen ? 6 : 3 });
   const fill = new Fill({ color: paper });
   const image = node.station
     ? new RegularShape({ points: 4, radius: chosen ? 19 : 15, angle: Math.PI / 4, stroke, fill })
@@ -75,6 +76,7 @@ export function sketch(feature: FeatureLike): Style[] {
   const label = feature.get("label") as string | undefined;
   const color = feature.get("outlier") ? red : blue;
   const geometry = feature.getGeometry();
+  if (feature.get("contradicted")) return [new Style({ stroke: new Stroke({ color: paper, width: 9 }) }), new Style({ stroke: new Stroke({ color: red, width: 6, lineDash: [6, 6], lineCap: "butt" }) })];
   const dot = new Circle({ radius: 8, stroke: new Stroke({ color, width: 4 }), fill: new Fill({ color: paper }) });
   const styles = [new Style({ stroke: new Stroke({ color, width: 4 }), image: dot, text: label ? text(label, -22, color) : undefined })];
   if (geometry instanceof LineString)

@@ -5,16 +5,19 @@ import { useText } from "../i18n";
 import { live, type Frame } from "../live/live_socket";
 import type { FactoryMap } from "../map/factory_map";
 import { MapView } from "../map/map_view";
+import { usePlacing } from "../map/use_placing";
 import { usePolled, useStore } from "../store";
+import { faultyOf } from "./setup/route_edit";
 import { Camera } from "../ui/camera";
-import { Gauges } from "../ui/gauges";
+import { Gauges, heardAgo } from "../ui/gauges";
 import { Icon } from "../ui/icon";
 import { Jog } from "../ui/jog";
 import { OrdersCard } from "../ui/orders_card";
 import { Replay } from "../ui/replay";
-import { STALE_S } from "../ui/stale";
-import { StateCard } from "../ui/state_card";
+import { STALE_S, Stale, useAge } from "../ui/stale";
+import { StateCard, kLost_s } from "../ui/state_card";
 import { Tabs, type Tab } from "../ui/tabs";
+import { WhereCard } from "../ui/where_card";
 
 type TabName = "orders" | "hand" | "replay" | "camera";
 
@@ -27,8 +30,19 @@ function Legend() {
   );
 }
 
+/** Says on the map that the scan or all of it is of before, or that nobody knows where the vehicle is. */
+function OldBanner({ frame, back, lidar_s, age_s }: { frame: Frame | null; back: number; lidar_s: number; age_s: number }) {
+  const t = useText();
+  const banner = (name: string, text: string, age?: number) => <p class="banner caution" role="status" data-banner={name}><Icon name="warning" /> {text} {age !== undefined && <Stale age={age} />}</p>;
+  if (back > 0) return <p class="banner caution" role="status"><Icon name="history" /> {t("drive.replay.banner", { age: back.toFixed(0) })}</p>;
+  if (!frame) return null;
+  if (age_s > kLost_s) return banner("old", t("drive.old"), age_s);
+  if (lidar_s > STALE_S) return banner("no-scan", t("drive.no_scan"), lidar_s);
+  return frame.live.drivable && frame.live.pose.health === "LOST" ? banner("lost", t("drive.lost")) : null;
+}
+
 /** The operator's page: where the vehicle is, what it does, why it stands, and what to send it next. */
-export function DrivePage({ site, walls, routes, role }: { site: Site; walls: Walls; routes: Routes; role: Session["role"] }) {
+export function DrivePage({ site, walls, routes, role, changed }: { site: Site; walls: Walls; routes: Routes; role: Session["role"]; changed: () => Promise<unknown> }) {
   const t = useText();
   const map = useRef<FactoryMap | null>(null);
   const [following, setFollowing] = useState(false);
@@ -38,12 +52,22 @@ export function DrivePage({ site, walls, routes, role }: { site: Site; walls: Wa
   const follow = useRef(false);
   follow.current = following;
   const frame = useStore(live.newest);
+  const age_s = useAge(frame);
+  const lidar_s = heardAgo(frame, "lidar", age_s);
+  const [asking, setAsking] = useState(false);
+  const placing = usePlacing(site, walls.walls, asking);
+  const asked = useRef(asking);
+  asked.current = asking;
   const show = () => {
+    if (asked.current) return;
     const shown = replayed.current ?? live.newest.value;
     if (!shown || !map.current) return;
-    const stale = !replayed.current && performance.now() - shown.received_ms > 1000 * STALE_S;
-    map.current.live.show({ scan: shown.scan, live: shown.live, vehicle: site.vehicle, stale });
-    if (follow.current) map.current.map.getView().setCenter([shown.live.pose.x, shown.live.pose.y]);
+    const age = (performance.now() - shown.received_ms) / 1000;
+    const stale = !replayed.current && age > kLost_s;
+    const known = shown.live.drivable && shown.live.pose.health !== "LOST";
+    const scanYoung = replayed.current !== null || stale || heardAgo(shown, "lidar", age) <= STALE_S;
+    map.current.live.show({ scan: shown.scan, live: shown.live, vehicle: site.vehicle, stale, vehicleShown: known, scanShown: known && scanYoung });
+    if (follow.current && known) map.current.map.getView().setCenter([shown.live.pose.x, shown.live.pose.y]);
   };
   const ready = (made: FactoryMap) => {
     map.current = made;
@@ -51,11 +75,16 @@ export function DrivePage({ site, walls, routes, role }: { site: Site; walls: Wa
     made.showSite(site, site.drawing ? api.drawingUrl(site.walls_revision) : null);
     made.showWalls(walls.walls);
     made.fitWalls();
-    made.showRoutes(routes);
+    made.showRoutes(routes, [], faultyOf(routes.findings));
     show();
-    return live.newest.watch(show);
+    const unwatch = live.newest.watch(show);
+    const end = placing.attach(made);
+    return () => {
+      unwatch();
+      end();
+    };
   };
-  useEffect(show, [following]);
+  useEffect(show, [following, asking, age_s > kLost_s, lidar_s > STALE_S]);
   const { value: pieces } = usePolled(api.wallsSeen, 5000);
   useEffect(() => map.current?.showSeen(pieces ?? []), [pieces]);
   const may = role === "operator" || role === "integrator";
@@ -68,20 +97,22 @@ export function DrivePage({ site, walls, routes, role }: { site: Site; walls: Wa
       <MapView ready={ready} above={<>
         <div class="map-top">
           <Gauges frame={frame} />
-          {back > 0 && <p class="banner caution" role="status"><Icon name="history" /> {t("drive.replay.banner", { age: back.toFixed(0) })}</p>}
+          {asking && placing.byHand ? <p class="banner card" role="status">{t("locate.hint.hand")}</p> : <OldBanner frame={frame} back={back} lidar_s={lidar_s} age_s={age_s} />}
         </div>
         {(pieces ?? []).some((piece) => piece.state !== "unseen") && <Legend />}
       </>}>
         <button type="button" class="target" aria-label={t("drive.follow")} aria-pressed={following} onClick={() => setFollowing(!following)}><Icon name="follow" /></button>
+        <button type="button" class="target where-button" aria-pressed={asking} onClick={() => setAsking(!asking)}><Icon name="pin" /> {t("where.title")}</button>
       </MapView>
       <aside>
-        <StateCard frame={frame} may={may} />
-        <Tabs label={t("drive.tabs")} tabs={tabs} shown={tab} choose={setTab}>
+        <StateCard frame={frame} />
+        {asking && <WhereCard placing={placing} frame={frame} role={role} walls={walls} changed={() => void changed()} close={() => setAsking(false)} />}
+        {!asking && <Tabs label={t("drive.tabs")} tabs={tabs} shown={tab} choose={setTab}>
           {tab === "orders" && <OrdersCard nodes={routes.nodes} may={may} />}
           {tab === "hand" && <Jog />}
           {tab === "replay" && <Replay onFrame={(chosen, back_s) => { replayed.current = chosen; setBack(back_s); show(); }} />}
           {tab === "camera" && <Camera />}
-        </Tabs>
+        </Tabs>}
       </aside>
     </main>
   );

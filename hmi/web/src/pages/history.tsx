@@ -1,7 +1,7 @@
 import { useState } from "preact/hooks";
 import { api } from "../api";
 import type { Event, Session } from "../api_types";
-import { noticeText, useText } from "../i18n";
+import { kindText, noticeText, useText } from "../i18n";
 import { usePolled } from "../store";
 import { Icon } from "../ui/icon";
 import { Stale } from "../ui/stale";
@@ -66,8 +66,8 @@ function StatisticsCard() {
       <ul class="bars">
         {stops.map((stop) => (
           <li key={stop.cause.code + stop.cause.text}>
-            <span>{noticeText(t, "cause", stop.cause)}</span>
-            <meter min={0} max={most} value={stop.seconds} aria-label={noticeText(t, "cause", stop.cause)} />
+            <span>{kindText(t, stop.cause)}</span>
+            <meter min={0} max={most} value={stop.seconds} aria-label={kindText(t, stop.cause)} />
             <span class="quiet">{t("history.times", { count: Math.max(1, stop.count), minutes: (stop.seconds / 60).toFixed(1) })}</span>
           </li>
         ))}

@@ -1,21 +1,36 @@
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { api, Refused } from "../api";
 import { useText } from "../i18n";
+import { en, type TextKey } from "../i18n/en";
 
 const digits = ["1", "2", "3", "4", "5", "6", "7", "8", "9", "", "0", ""];
+const kAsk_ms = 2000;
+
+/** Whether the vehicle's server answers; asked every two seconds. */
+function useAnswers(): boolean {
+  const [answers, setAnswers] = useState(true);
+  useEffect(() => {
+    const ask = () => void api.session().then(() => setAnswers(true), () => setAnswers(false));
+    const timer = setInterval(ask, kAsk_ms);
+    return () => clearInterval(timer);
+  }, []);
+  return answers;
+}
 
 /** A number pad large enough for gloves; a keyboard works too. */
 export function LoginPage({ entered }: { entered: () => void }) {
   const t = useText();
+  const answers = useAnswers();
   const [pin, setPin] = useState("");
-  const [refusal, setRefusal] = useState("");
+  const [refusal, setRefusal] = useState<TextKey | "">("");
   const enter = async () => {
     try {
       await api.login(pin);
       entered();
     } catch (error) {
       setPin("");
-      setRefusal(error instanceof Refused && error.status !== 401 ? error.message : t("login.wrong"));
+      const key = error instanceof Refused ? `error.${error.code}` : "";
+      setRefusal(key in en ? (key as TextKey) : "login.wrong");
     }
   };
   return (
@@ -24,7 +39,7 @@ export function LoginPage({ entered }: { entered: () => void }) {
         <h1>{t("login.title")}</h1>
         <input class="target wide" type="password" autocomplete="current-password" inputMode="numeric" aria-label={t("login.title")}
           value={pin} onInput={(event) => setPin(event.currentTarget.value)} />
-        <p role="alert">{refusal}</p>
+        <p role="alert" class={answers ? "" : "bad"} data-connection={answers ? "good" : "lost"}>{!answers ? t("error.no-connection") : refusal === "" ? "" : t(refusal)}</p>
         <div class="pad">
           {digits.map((digit, index) =>
             digit === "" ? (

@@ -17,14 +17,14 @@ export function Jog() {
   });
   return (
     <section class="jog-card">
-      <p class="quiet">{t("drive.jog.hint")}</p>
-      {refusal && <p class="bad" role="status">{noticeText(t, "error", refusal)}</p>}
       <div class="jog">
         <HoldButton icon="left" label={t("drive.left")} {...hold(0, JOG_RADPS)} />
         <HoldButton icon="up" label={t("drive.forward")} {...hold(JOG_MPS, 0)} />
         <HoldButton icon="right" label={t("drive.right")} {...hold(0, -JOG_RADPS)} />
         <HoldButton icon="down" label={t("drive.backward")} {...hold(-JOG_MPS, 0)} />
       </div>
+      {refusal && <p class="bad" role="status">{noticeText(t, "error", refusal)}</p>}
+      <p class="quiet">{t("drive.jog.hint")}</p>
     </section>
   );
 }

@@ -1,5 +1,6 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { useText } from "../i18n";
+import { AbovePage } from "./above_page";
 import { Icon } from "./icon";
 
 interface Asked {
@@ -17,8 +18,6 @@ interface Asked {
 export function AskNumber(props: Asked & { done: (value: number | null) => void; cancel: () => void }) {
   const t = useText();
   const [text, setText] = useState("");
-  const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => dialog.current?.showModal(), []);
   const value = Number(text);
   const empty = text === "";
   const good = empty ? props.optional === true : Number.isFinite(value) && value >= props.least && value <= props.most;
@@ -33,11 +32,12 @@ export function AskNumber(props: Asked & { done: (value: number | null) => void;
   };
   const digit = (key: string) => <button key={key} type="button" class="target" onClick={() => press(key)}>{key}</button>;
   return (
-    <dialog ref={dialog} class="number-pad" aria-label={props.label} onCancel={props.cancel}
-      onKeyDown={(event) => press(event.key) && event.preventDefault()}>
-      <h2>{props.label}</h2>
-      <output class="figure" aria-live="polite">{empty ? (props.value ?? "–") : text} {props.unit}</output>
-      <p class="quiet">{t("pad.range", { least: props.least, most: props.most })}</p>
+    <AbovePage class="number-pad" label={props.label} cancel={props.cancel} pressed={(event) => press(event.key)}>
+      <div>
+        <h2>{props.label}</h2>
+        <output class="figure" aria-live="polite">{empty ? (props.value ?? "–") : text} {props.unit}</output>
+        <p class="quiet">{t("pad.range", { least: props.least, most: props.most })}</p>
+      </div>
       <div class="keys">
         {["7", "8", "9"].map(digit)}
         <button type="button" class="target" aria-label={t("pad.erase")} onClick={() => press("Backspace")}><Icon name="back" /></button>
@@ -48,7 +48,7 @@ export function AskNumber(props: Asked & { done: (value: number | null) => void;
         {["0", "."].map(digit)}
         <button type="button" class="target primary enter" disabled={!good} onClick={() => press("Enter")}>{t("pad.enter")}</button>
       </div>
-    </dialog>
+    </AbovePage>
   );
 }
 

@@ -54,7 +54,7 @@ function OrderTools(props: { order: Order; queue: readonly number[]; change: (ac
     change(() => api.reorder({ ids }));
   };
   return (
-    <div class="buttons" role="group" aria-label={t("drive.order", { id: order.id })}>
+    <div class="buttons" role="group" aria-label={t("drive.order", { id: order.id })} ref={(tools) => tools?.scrollIntoView({ block: "nearest" })}>
       <Tool icon="up" label={t("drive.earlier")} disabled={at <= 0} onClick={() => move(-1)} />
       <Tool icon="down" label={t("drive.later")} disabled={at < 0 || at === queue.length - 1} onClick={() => move(1)} />
       <Tool icon="bin" label={t("drive.cancel")} onClick={() => change(() => api.cancelOrder(order.id))} />

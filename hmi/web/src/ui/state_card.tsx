@@ -1,4 +1,4 @@
-import { api } from "../api";
+import type { Live } from "../api_types";
 import { noticeText, useText } from "../i18n";
 import { en, type TextKey } from "../i18n/en";
 import type { Frame } from "../live/live_socket";
@@ -6,21 +6,46 @@ import { live } from "../live/live_socket";
 import { useStore } from "../store";
 import { Icon } from "./icon";
 import { Stale, useAge } from "./stale";
-import { attempt } from "./toast";
 
 const abnormal = new Set(["fault", "emergency_stop"]);
 const standing = new Set(["waiting", "localizing"]);
 /** a stay that a person may end */
 const stays = new Set(["loading", "unloading", "order-stop"]);
+export const isStay = ({ cause }: Live): boolean => stays.has(cause.code);
+/** what is wanted, and no reason to look up */
+const wanted = new Set(["", "paused", "stopped", "stopped-order", "no-order", "manual", "setting-up"]);
 
-/** The state in large words, why the vehicle stands, since when, and what to do about it. */
-export function StateCard({ frame, may }: { frame: Frame | null; may: boolean }) {
+/** Without a message for so long there is no connection, also where the socket seems open. */
+export const kLost_s = 2;
+
+function toneOf({ state, cause }: Live): string {
+  if (abnormal.has(state)) return "alarm";
+  const caution = (standing.has(state) && cause.text !== "") || !wanted.has(cause.code);
+  return caution && !stays.has(cause.code) ? "caution" : "";
+}
+
+/** The devices that are silent, each with how long, in every state. */
+function Silent({ frame, age }: { frame: Frame; age: number }) {
+  const t = useText();
+  return (
+    <>
+      {frame.live.devices.filter((device) => !device.healthy && device.type !== "link").map((device) => (
+        <p key={device.name} class="bad" data-silent={device.type}>
+          <Icon name="warning" /> {device.age_s > 86_400 ? t("device.never", { name: t(`device.${device.type}` as TextKey) }) : t("device.silent_for", { name: t(`device.${device.type}` as TextKey), age: (device.age_s + age).toFixed(0) })}
+        </p>
+      ))}
+    </>
+  );
+}
+
+/** The state in large words, why the vehicle stands, since when, and what to do about it. Always of the same height: what lies below it must not move under a finger. */
+export function StateCard({ frame }: { frame: Frame | null }) {
   const t = useText();
   const connected = useStore(live.connected);
   const age = useAge(frame);
-  if (!frame || !connected) {
+  if (!frame || !connected || age > kLost_s) {
     return (
-      <section class="card state alarm" aria-live="polite">
+      <section class="card state alarm" aria-live="polite" tabIndex={0} data-connection="lost">
         <h2><Icon name="warning" /> {t("live.lost")}</h2>
         <p>{Number.isFinite(age) ? t("live.lost.mend", { age: age.toFixed(0) }) : t("live.none.mend")}</p>
       </section>
@@ -28,18 +53,17 @@ export function StateCard({ frame, may }: { frame: Frame | null; may: boolean })
   }
   const { state, cause, remedy, since, goal } = frame.live;
   const key = `state.${state}`;
-  const staysHere = stays.has(cause.code);
-  const tone = abnormal.has(state) ? "alarm" : standing.has(state) && cause.text !== "" && !staysHere ? "caution" : "";
+  const tone = toneOf(frame.live);
   return (
-    <section class={`card state ${tone}`} aria-live="polite" data-state={state}>
+    <section class={`card state ${tone}`} aria-live="polite" tabIndex={0} data-state={state} data-cause={cause.code}>
       <h2>{tone !== "" && <Icon name="warning" />} {key in en ? t(key as TextKey) : state}</h2>
+      {cause.text !== "" && <p class="cause">{noticeText(t, "cause", cause)}</p>}
+      {remedy.text !== "" && <p class="remedy"><Icon name="next" /> {noticeText(t, "remedy", remedy)}</p>}
+      <Silent frame={frame} age={age} />
       <p class="quiet">
         {goal !== "" && <span>{t("state.to", { goal })} </span>}
         {since > 0 && t("state.since", { time: new Date(since * 1000).toLocaleTimeString() })} <Stale age={age} />
       </p>
-      {cause.text !== "" && <p class="cause">{noticeText(t, "cause", cause)}</p>}
-      {remedy.text !== "" && <p class="remedy"><Icon name="next" /> {noticeText(t, "remedy", remedy)}</p>}
-      {may && staysHere && <button type="button" class="target wide" onClick={() => void attempt(() => api.command("go-on"))}>{t("command.go-on")}</button>}
     </section>
   );
 }

@@ -138,26 +138,28 @@ function wsFrame(data, text) {
   return Buffer.concat([head, data]);
 }
 
-function serveLive(socket, key, points) {
+function serveLive(socket, key, points, told) {
   const accept = createHash("sha1").update(`${key}258EAFA5-E914-47DA-95CA-C5AB0DC85B11`).digest("base64");
   socket.write(`HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: ${accept}\r\n\r\n`);
   const frames = Array.from({ length: 20 }, (_, i) => scanFrame(poseAt(i / 10), points));
   let tick = 0;
   const timer = setInterval(() => {
+    if (told.held) return;
     socket.write(wsFrame(frames[tick % frames.length], false));
-    socket.write(wsFrame(Buffer.from(JSON.stringify({ live: liveState(tick / 10) })), true));
+    socket.write(wsFrame(Buffer.from(JSON.stringify({ live: { ...liveState(tick / 10), ...told.live } })), true));
     ++tick;
   }, 100);
   for (const end of ["close", "error"]) socket.on(end, () => clearInterval(timer));
   socket.on("data", () => undefined);
 }
 
-/** Serves `page` (a built page's folder); answers its address and how to end it. */
+/** Serves `page` (a built page's folder). Answers its address, `say` (parts of the live state from now on), `hold` (send nothing), `answer` (to an address from now on) and how to end it. */
 export function startMadeUpVehicle(page, { points = 20_000 } = {}) {
   const png = drawing();
+  const told = { live: {}, held: false, answers: {} };
   const server = createServer((request, answer) => {
     const path = new URL(request.url, "http://x").pathname;
-    const json = answers[path];
+    const json = path in told.answers ? () => told.answers[path] : answers[path];
     if (json) return answer.writeHead(200, { "Content-Type": "application/json" }).end(JSON.stringify(json()));
     if (path === "/api/site/drawing.png") return answer.writeHead(200, { "Content-Type": "image/png" }).end(png);
     if (path === "/api/replay") return answer.writeHead(200).end();
@@ -169,6 +171,6 @@ export function startMadeUpVehicle(page, { points = 20_000 } = {}) {
       answer.writeHead(404).end();
     }
   });
-  server.on("upgrade", (request, socket) => serveLive(socket, request.headers["sec-websocket-key"], points));
-  return new Promise((done) => server.listen(0, "127.0.0.1", () => done({ address: `http://127.0.0.1:${server.address().port}/`, stop: () => { server.closeAllConnections(); server.close(); } })));
+  server.on("upgrade", (request, socket) => serveLive(socket, request.headers["sec-websocket-key"], points, told));
+  return new Promise((done) => server.listen(0, "127.0.0.1", () => done({ address: `http://127.0.0.1:${server.address().port}/`, say: (live) => { told.live = live; }, hold: (held) => { told.held = held; }, answer: (path, json) => { told.answers[path] = json; }, stop: () => { server.closeAllConnections(); server.close(); } })));
 }

@@ -45,7 +45,7 @@ function Report({ report }: { report: NonNullable<Job["report"]> }) {
   return (
     <div class="report" role="status">
       <p>{t("drawing.report", { walls, rejected, skew: skew_deg.toFixed(1) })}</p>
-      {notes.map((note) => <p key={note} class="quiet">{note}</p>)}
+      {notes.map((note) => <p key={note} class="quiet" lang="en">{note}</p>)}
     </div>
   );
 }

@@ -20,7 +20,7 @@ export function JobCard({ kind, done, ended }: { kind: string; done: (job: Job) 
         if (!open) return;
         setJob(state);
         if (state.running) return void setTimeout(() => void ask(), kAsk_ms);
-        if (state.error.text !== "") tell(state.error.code, state.error.text, state.error.values);
+        if (state.error.text !== "") tell(state.error.values["kind"] ?? state.error.code, state.error.text, state.error.values);
         else done(state);
         ended();
       } catch {
@@ -33,7 +33,7 @@ export function JobCard({ kind, done, ended }: { kind: string; done: (job: Job) 
     };
   }, []);
   const stage = `stage.${job?.stage ?? ""}`;
-  const words = stage in en ? t(stage as TextKey) : (job?.stage ?? "");
+  const words = stage in en ? t(stage as TextKey) : kind === "tiles" ? (job?.stage ?? "") : t("drawing.stage");
   return (
     <section class="card" aria-live="polite">
       <p>{t(kind === "tiles" ? "scale.photo.working" : "drawing.working", { stage: words })}</p>

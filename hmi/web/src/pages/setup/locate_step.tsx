@@ -1,25 +1,22 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import type { ComponentChildren } from "preact";
 import { api } from "../../api";
 import type { Hypothesis, Site, Walls } from "../../api_types";
 import { useText } from "../../i18n";
 import { live } from "../../live/live_socket";
-import { dragOn } from "../../map/drag_gesture";
 import type { FactoryMap } from "../../map/factory_map";
-import type { XY } from "../../map/geometry";
 import { MapView } from "../../map/map_view";
-import { angleOf, apply, type Similarity } from "../../map/similarity";
-import { usePolled, useStore } from "../../store";
+import { usePlacing, type Pose } from "../../map/use_placing";
+import { useStore } from "../../store";
 import { Stale } from "../../ui/stale";
 import { attempt } from "../../ui/toast";
 import { Tool } from "../../ui/tool";
 
-type Pose = Pick<Hypothesis, "x" | "y" | "yaw">;
-const kHandle_px = 110;
+const degrees = (yaw: number) => ((yaw * 180) / Math.PI).toFixed(0);
 
-const moved = (pose: Pose, by: Similarity): Pose => {
-  const [x, y] = apply(by, [pose.x, pose.y]);
-  return { x, y, yaw: pose.yaw + angleOf(by) };
-};
+function PlaceText({ pose, children }: { pose: Pose; children?: ComponentChildren }) {
+  const t = useText();
+  return <span>{t("locate.place", { x: pose.x.toFixed(1), y: pose.y.toFixed(1), yaw: degrees(pose.yaw) })}{children}</span>;
+}
 
 function Places(props: { places: readonly Hypothesis[]; chosen: number; choose: (index: number) => void }) {
   const t = useText();
@@ -29,11 +26,10 @@ function Places(props: { places: readonly Hypothesis[]; chosen: number; choose: 
         <li key={i}>
           <button type="button" class="target row" aria-pressed={i === props.chosen} onClick={() => props.choose(i)}>
             <b>{i + 1}</b>
-            <span>
-              {t("locate.place", { x: place.x.toFixed(1), y: place.y.toFixed(1), yaw: ((place.yaw * 180) / Math.PI).toFixed(0) })}
+            <PlaceText pose={place}>
               <meter min={0} max={1} value={place.score} aria-label={t("drive.score")} />
               <small>{t("locate.score", { score: (100 * place.score).toFixed(0) })}</small>
-            </span>
+            </PlaceText>
           </button>
         </li>
       ))}
@@ -44,55 +40,31 @@ function Places(props: { places: readonly Hypothesis[]; chosen: number; choose: 
 /** Step 5: ranked places, each with the live scan laid over the walls; one tap accepts, or the pose is dragged. */
 export function LocateStep({ site, walls, finished }: { site: Site; walls: Walls; finished: () => void }) {
   const t = useText();
-  const { value: locate, refresh, age_s } = usePolled(api.locate, 1000);
-  const [chosen, setChosen] = useState(0);
-  const [byHand, setByHand] = useState<Pose | null>(null);
-  const map = useRef<FactoryMap | null>(null);
+  const placing = usePlacing(site, walls.walls, true);
   const frame = useStore(live.newest);
-  const places = locate?.hypotheses ?? [];
-  const pose: Pose | null = byHand ?? places[chosen] ?? places[0] ?? null;
-  const now = useRef({ byHand, pose });
-  now.current = { byHand, pose };
-  useEffect(() => {
-    const scan = live.newest.value?.scan;
-    if (!map.current || !scan) return;
-    if (pose) map.current.live.show({ scan, scanAt: pose, live: null, vehicle: site.vehicle, stale: false });
-  }, [frame, pose?.x, pose?.y, pose?.yaw]);
+  const { locate, byHand, pose, fit } = placing;
   const ready = (made: FactoryMap) => {
-    map.current = made;
     made.showSite(site, api.drawingUrl(site.walls_revision));
     made.showWalls(walls.walls);
     made.fitWalls();
-    const reach = () => kHandle_px * (made.map.getView().getResolution() ?? 1);
-    const handle = (): XY => {
-      const at = now.current.byHand ?? { x: 0, y: 0, yaw: 0 };
-      return [at.x + reach() * Math.cos(at.yaw), at.y + reach() * Math.sin(at.yaw)];
-    };
-    return dragOn(made.map, {
-      middle: () => (now.current.byHand ? [now.current.byHand.x, now.current.byHand.y] : null),
-      handle,
-      rigid: true,
-      moved: (by) => setByHand((old) => old && moved(old, by)),
-    });
-  };
-  const startByHand = () => {
-    const [x, y] = map.current?.map.getView().getCenter() ?? [0, 0];
-    setByHand(byHand ? null : (pose ?? { x: x ?? 0, y: y ?? 0, yaw: 0 }));
+    return placing.attach(made);
   };
   const accept = () => {
     if (!pose) return;
     void attempt(() => api.setPose({ x: pose.x, y: pose.y, yaw: pose.yaw })).then((good) => good && finished());
   };
+  const contradicted = fit?.contradicted.length ?? 0;
   return (
     <>
       <MapView ready={ready} above={byHand && <p class="banner card" role="status">{t("locate.hint.hand")}</p>} />
       <aside>
-        <p class="facts" role="status" data-locate={locate?.state ?? ""}>{t(`locate.state.${locate?.state ?? "blind"}`)} <Stale age={age_s} limit={3} /></p>
-        {!byHand && <Places places={places} chosen={chosen} choose={setChosen} />}
-        {byHand && <p class="quiet">{t("locate.place", { x: byHand.x.toFixed(1), y: byHand.y.toFixed(1), yaw: ((byHand.yaw * 180) / Math.PI).toFixed(0) })}</p>}
+        <p class="facts" role="status" data-locate={locate?.state ?? ""}>{t(`locate.state.${locate?.state ?? "blind"}`)} <Stale age={placing.age_s} limit={3} /></p>
+        {!byHand && <Places places={placing.places} chosen={placing.chosen} choose={placing.choose} />}
+        {byHand && <p class="quiet"><PlaceText pose={byHand} /></p>}
+        {contradicted > 0 && <p class="bad" data-contradicted={contradicted}>{t("where.contradicted", { count: contradicted })}</p>}
         <div class="buttons">
-          <Tool icon="hand" label={t("locate.by_hand")} pressed={byHand !== null} onClick={startByHand} />
-          <Tool icon="search" label={t("locate.again")} onClick={() => void attempt(api.searchAnew).then(refresh)} />
+          <Tool icon="hand" label={t("locate.by_hand")} pressed={byHand !== null} onClick={placing.toggleHand} />
+          <Tool icon="search" label={t("locate.again")} onClick={() => void attempt(api.searchAnew).then(placing.refresh)} />
         </div>
         <span class="spring" />
         <div class="buttons finish">

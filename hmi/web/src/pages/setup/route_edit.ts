@@ -1,4 +1,4 @@
-import type { RouteNode, Routes } from "../../api_types";
+import type { Finding, RouteNode, Routes } from "../../api_types";
 import { distanceToSegment, nearest, type XY } from "../../map/geometry";
 
 export type RoutePlan = Pick<Routes, "nodes" | "legs">;
@@ -97,3 +97,7 @@ export function freeName(plan: RoutePlan, word: string): string {
 
 /** The direction from a node to a place: whole degrees, counter-clockwise from x. */
 export const headingTo = (node: RouteNode, [x, y]: XY): number => Math.round((Math.atan2(y - node.y, x - node.x) * 180) / Math.PI);
+
+/** The legs ("from>to") and points (their ID) that errors name, as the map marks them. */
+export const faultyOf = (findings: readonly Finding[]): ReadonlySet<string> =>
+  new Set(findings.filter(({ severity }) => severity === "error").map(({ values }) => values["node"] ?? `${values["from"]}>${values["to"]}`));

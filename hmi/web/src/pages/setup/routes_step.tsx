@@ -11,7 +11,7 @@ import { Icon } from "../../ui/icon";
 import { Tool } from "../../ui/tool";
 import { CsvCard } from "./csv_card";
 import { NodeCard, type NodeTool } from "./node_card";
-import { draw, headingTo, nodeAt, update, type RoutePlan } from "./route_edit";
+import { draw, faultyOf, headingTo, nodeAt, update, type RoutePlan } from "./route_edit";
 import { useEdit } from "./use_edit";
 
 const kReach_px = 28;
@@ -68,8 +68,8 @@ export function RoutesStep({ site, walls, routes, changed, next }: { site: Site;
   const now = useRef({ drawing, chosen, tool, edit });
   now.current = { drawing, chosen, tool, edit };
   useEffect(() => {
-    map.current?.showRoutes(plan, chosen === null ? [] : [chosen]);
-  }, [plan, chosen]);
+    map.current?.showRoutes(plan, chosen === null ? [] : [chosen], faultyOf(findings));
+  }, [plan, chosen, findings]);
 
   const useTool = (at: XY): boolean => {
     const { chosen: id, tool: active, edit: current } = now.current;

@@ -32,12 +32,15 @@ function StepBar({ shown, site, setup, choose }: { shown: Step; site: Site; setu
   return (
     <nav class="steps" aria-label={t("nav.setup")}>
       {steps.map((name, i) => {
-        const done = setup?.steps.find((step) => step.name === name)?.done ?? false;
+        const state = setup?.steps.find((step) => step.name === name);
+        const faulty = ["routes-through-wall", "faulty-routes"].includes(state?.what.code ?? "");
+        const done = (state?.done ?? false) && !faulty;
         return (
-          <button key={name} type="button" class="target" aria-current={name === shown ? "step" : undefined} disabled={!isOpen(name, site)} onClick={() => choose(name)}>
-            {done ? <Icon name="good" /> : <b>{i + 1}</b>}
+          <button key={name} type="button" class="target" aria-current={name === shown ? "step" : undefined} disabled={!isOpen(name, site)} data-done={done} onClick={() => choose(name)}>
+            {done ? <Icon name="good" /> : faulty ? <Icon name="warning" /> : <b>{i + 1}</b>}
             <span>{t(`setup.${name}`)}</span>
             {done && <span class="unseen">{t("setup.done")}</span>}
+            {faulty && state && <span class="unseen">{noticeText(t, "setup", state.what)}</span>}
           </button>
         );
       })}

@@ -33,7 +33,7 @@ export function Measurements(props: { labels: readonly string[]; result: ScaleRe
               {residual && (
                 <small class={residual.outlier ? "bad" : ""}>
                   {residual.outlier && <Icon name="warning" />}
-                  {t("scale.residual", { residual: (1000 * residual.residual_m).toFixed(0) })}
+                  {t("scale.residual", { residual: Math.abs(1000 * residual.residual_m).toFixed(0) })}
                   {residual.outlier && ` – ${t("scale.outlier")}`}
                 </small>
               )}
