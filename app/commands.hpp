@@ -27,8 +27,10 @@ void add_run(CLI::App& app);
 void add_scale(CLI::App& app);
 void add_tiles(CLI::App& app);
 void add_sim(CLI::App& app);
+void add_diff(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_record(CLI::App& app);
 void add_version(CLI::App& app);
+void add_versions(CLI::App& app);
 
 }  // namespace madori::app

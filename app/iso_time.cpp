@@ -8,7 +8,11 @@
 namespace madori::app {
 
 std::string iso_time_utc() {
-  const auto now = static_cast<std::time_t>(to_seconds(time_of_day()));
+  return iso_time_of(to_seconds(time_of_day()));
+}
+
+std::string iso_time_of(double stamp_s) {
+  const auto now = static_cast<std::time_t>(stamp_s);
   std::tm parts{};
   gmtime_r(&now, &parts);
   std::array<char, 32> text{};

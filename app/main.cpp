@@ -42,7 +42,9 @@ int main(int argc, char** argv) {
   madori::app::add_landmarks(app);
   madori::app::add_localize(app);
   madori::app::add_map(app);
+  madori::app::add_diff(app);
   madori::app::add_export(app);
+  madori::app::add_versions(app);
   madori::app::add_import(app);
   madori::app::add_relocalize(app);
   madori::app::add_route(app);

@@ -8,6 +8,7 @@
 #include "app/learned/learned_drawing.hpp"
 #include "app/plot/reliability_plot.hpp"
 #include "core/result.hpp"
+#include "hmi/server/site_backup.hpp"
 #include "localization/warp/warp_file.hpp"
 #include "mapping/georeference/geojson.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -34,6 +35,7 @@ struct ExportArguments {
   std::string geojson;
   std::string reliability;
   std::string deviations;
+  std::string backup;
 };
 
 void write_geojson(const ExportArguments& arguments) {
@@ -87,11 +89,15 @@ void add_export(CLI::App& app) {
       "where the building is not as drawn, wall by wall: STEM.png, STEM.csv and STEM.geojson; "
       "without STEM: deviations in the site folder");
   deviations->expected(0, 1);
+  command->add_option("--backup", arguments->backup,
+                      "the whole site as one file, with its versions; madori import FILE makes it again");
   command->callback([arguments, deviations] {
     if (deviations->count() > 0 && arguments->deviations.empty())
       arguments->deviations = (std::filesystem::path(arguments->site) / "deviations").string();
-    if (arguments->geojson.empty() && arguments->reliability.empty() && arguments->deviations.empty())
-      throw CLI::RequiredError("--geojson, --reliability or --deviations");
+    if (arguments->geojson.empty() && arguments->reliability.empty() && arguments->deviations.empty() &&
+        arguments->backup.empty())
+      throw CLI::RequiredError("--geojson, --reliability, --deviations or --backup");
+    if (!arguments->backup.empty()) hmi::write_backup(arguments->site, arguments->backup);
     if (!arguments->deviations.empty()) write_deviations(*arguments);
     if (!arguments->geojson.empty()) write_geojson(*arguments);
     if (!arguments->reliability.empty()) write_reliability(*arguments);

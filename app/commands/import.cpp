@@ -1,8 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "app/commands.hpp"
@@ -10,6 +13,7 @@
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
 #include "core/result.hpp"
+#include "hmi/server/site_backup.hpp"
 #include "mapping/drawing/import_drawing.hpp"
 
 namespace madori::app {
@@ -57,14 +61,26 @@ void add_detection_options(CLI::App& command, mapping::DetectionOptions& d) {
   command.add_flag("!--no-straighten", d.straighten, "leave walls as they are drawn");
 }
 
+/// `madori import BACKUP`
+void restore(const ImportArguments& arguments) {
+  const auto& [drawing, given] = std::tie(arguments.options.drawing, arguments.options.site);
+  const std::filesystem::path site = given.empty() ? drawing.stem() : given;
+  const std::size_t files = hmi::read_backup(drawing, site, arguments.options.force);
+  if (arguments.json_file != "-")
+    std::printf("%s: %zu files of a backup, as they were\n", site.c_str(), files);
+  write_json(arguments.json_file, {{"site", site.string()}, {"files", files}});
+}
+
 }  // namespace
 
 void add_import(CLI::App& app) {
   auto arguments = std::make_shared<ImportArguments>();
   auto& o = arguments->options;
   CLI::App* command = app.add_subcommand("import", "turn a layout drawing into a site with a wall map");
-  command->add_option("drawing", o.drawing, "PNG, JPEG, TIFF, BMP, PDF, SVG or DXF")->required();
-  command->add_option("--site", o.site, "the site folder to make")->required();
+  command->add_option("drawing", o.drawing, "PNG, JPEG, TIFF, BMP, PDF, SVG or DXF; or a backup of a site")
+      ->required();
+  command->add_option("--site", o.site,
+                      "the site folder to make (of a backup, default: its file's name without ending)");
   command->add_option("--name", o.name, "name of the site (default: the drawing's)");
   command->add_option("--scale", o.m_per_px, "metres a pixel, where it is known")
       ->check(CLI::Range(1e-9, 1e6));
@@ -91,6 +107,8 @@ void add_import(CLI::App& app) {
   add_detection_options(*command, o.detection);
   add_touches(*command, *arguments);
   command->callback([arguments] {
+    if (hmi::is_backup(arguments->options.drawing)) return restore(*arguments);
+    if (arguments->options.site.empty()) throw CLI::RequiredError("--site");
     arguments->options.date = iso_time_utc();
     auto& touches = arguments->options.detection.touches;
     for (const std::string& place : arguments->like) touches.push_back(touch_at(place, true));

@@ -12,6 +12,7 @@
 #include "hmi/server/origin.hpp"
 #include "hmi/server/server.hpp"
 #include "mapping/site/site.hpp"
+#include "mapping/site/site_versions.hpp"
 
 namespace madori::app {
 namespace {
@@ -85,6 +86,7 @@ std::unique_ptr<Panel> open_panel(SiteRun& run, const PanelOptions& options) {
     return nullptr;
   }
   std::filesystem::create_directories(options.site);
+  mapping::set_version_author("panel");
   return std::make_unique<ServedPanel>(run, options, parse_address(options.host_port));
 }
 

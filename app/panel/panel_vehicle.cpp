@@ -137,6 +137,15 @@ hmi::Reply PanelVehicle::set_pose(const Transform2<Map, Base>& map_from_base) {
   return run_.say({OperatorWord::SetPose, {}, given}) ? hmi::Reply::done() : not_drivable(run_);
 }
 
+/// A person who insists is believed to a hand's breadth: what is seen has to speak against that much more.
+hmi::Reply PanelVehicle::insist_on_pose(const Transform2<Map, Base>& map_from_base) {
+  if (!run_.may_change_site()) return driving();
+  constexpr PoseSigma kInsisted{0.1, 0.035};
+  run_.say({OperatorWord::Pause, {}, {}});
+  const GivenPose given{map_from_base.translation(), map_from_base.yaw_rad(), kInsisted};
+  return run_.say({OperatorWord::SetPose, {}, given}) ? hmi::Reply::done() : not_drivable(run_);
+}
+
 hmi::Reply PanelVehicle::report(const std::string& text) {
   orders_.tell("operator: " + text);
   return hmi::Reply::done();

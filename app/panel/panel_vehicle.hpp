@@ -39,6 +39,7 @@ class PanelVehicle final : public hmi::Vehicle {
   [[nodiscard]] hmi::LocateView locate() const override { return copy_.locate(); }
   hmi::Reply search_place() override;
   hmi::Reply set_pose(const Transform2<Map, Base>& map_from_base) override;
+  hmi::Reply insist_on_pose(const Transform2<Map, Base>& map_from_base) override;
   hmi::Reply report(const std::string& text) override;
   [[nodiscard]] std::vector<hmi::FoundDevice> found_devices() const override;
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const override;

@@ -16,6 +16,7 @@ Router make_router(ApiContext& context) {
   add_setup_routes(router, context);
   add_vehicle_routes(router, context);
   add_history_routes(router, context);
+  add_version_routes(router, context);
   return router;
 }
 

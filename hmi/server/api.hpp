@@ -35,5 +35,6 @@ void add_setup_routes(Router& router, ApiContext& context);
 void add_scale_routes(Router& router, ApiContext& context);
 void add_vehicle_routes(Router& router, ApiContext& context);
 void add_history_routes(Router& router, ApiContext& context);
+void add_version_routes(Router& router, ApiContext& context);
 
 }  // namespace madori::hmi

@@ -1,5 +1,6 @@
 #include "hmi/server/api.hpp"
 #include "hmi/server/api_support.hpp"
+#include "hmi/server/site_backup.hpp"
 #include "hmi/server/tar_stream.hpp"
 
 namespace madori::hmi {
@@ -13,17 +14,9 @@ Response csv_file(const std::string& content, const std::string& name) {
   return response;
 }
 
-/// The folder without what is not the site's: PINs, recordings, the database, devices.
+/// The same file as `madori export --backup` makes.
 Response site_as_tar(const std::filesystem::path& folder) {
-  std::vector<TarStream::Entry> entries;
-  for (auto& entry : tar_entries(folder, "site/")) {
-    const std::string name = entry.name.substr(5);
-    const bool own = name == "site.yaml" || name.starts_with("drawing.") || name.starts_with("walls.") ||
-                     name.starts_with("map.") || name == "import.png" || name == "reliability.csv" ||
-                     name.starts_with("routes/") || name.starts_with("tiles/");
-    if (own) entries.push_back(std::move(entry));
-  }
-  return tar_response(std::move(entries), "site.tar");
+  return tar_response(site_entries(folder), "site.tar");
 }
 
 void add_routes_routes(Router& router, SiteEditor& editor, Vehicle& vehicle) {

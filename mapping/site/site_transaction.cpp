@@ -13,6 +13,7 @@
 #include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site_file.hpp"
+#include "mapping/site/site_versions.hpp"
 #include "mapping/wall_map/wall.hpp"
 
 namespace madori::mapping {
@@ -121,6 +122,7 @@ void SiteTransaction::read_back() const {
 
 void SiteTransaction::commit() {
   read_back();
+  stage_version(*this, site_, site_ / kStaging, puts_, removals_, sentence_);
   std::string journal;
   for (const auto& name : removals_) journal += "- " + name + "\n";
   for (const auto& name : puts_) {

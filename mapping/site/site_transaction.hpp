@@ -24,8 +24,11 @@ class SiteTransaction {
   void write(const std::string& name, std::string_view content);
   /// The file disappears with the commit; a missing one is fine.
   void remove(const std::string& name);
-  /// All or nothing. What would become site.yaml or walls.csv is read back first, as the next command will.
-  /// Throws Error (it cannot be read, disk full, no permission) with the site as it was.
+  /// What this change is, for the list of versions; otherwise the files that change say it.
+  void say(const std::string& sentence) { sentence_ = sentence; }
+  /// All or nothing, with a version of the site (site_versions.hpp). What would become site.yaml or walls.csv
+  /// is read back first, as the next command will. Throws Error (it cannot be read, disk full, no permission)
+  /// with the site as it was.
   void commit();
 
  private:
@@ -34,6 +37,7 @@ class SiteTransaction {
   std::filesystem::path site_;
   std::vector<std::string> puts_;
   std::vector<std::string> removals_;
+  std::string sentence_;
   int lock_ = -1;
   bool created_ = false;
   bool committed_ = false;

@@ -67,6 +67,10 @@ export const api = {
   saveRoutes: (edit: wire.RoutesEdit) => put<wire.Routes>("/api/site/routes", edit),
   importRoutes: (csv: wire.RoutesCsv) => post<wire.Routes>("/api/site/routes/csv", csv),
 
+  versions: () => get<wire.SiteVersion[]>("/api/site/versions"),
+  compareVersions: (before: number, after: number) => get<wire.VersionDiff>(`/api/site/versions/${before}/against/${after}`),
+  restoreVersion: (number: number) => post(`/api/site/versions/${number}/restore`),
+
   devices: () => get<wire.FoundDevice[]>("/api/devices"),
   saveVehicle: (edit: wire.VehicleEdit) => put<wire.Saved>("/api/site/vehicle", edit),
   locate: () => get<wire.Locate>("/api/locate"),

@@ -2,6 +2,7 @@ import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import ts from "typescript";
 import { describe, expect, it } from "vitest";
+import { de } from "../src/i18n/de";
 import { en } from "../src/i18n/en";
 import { ja } from "../src/i18n/ja";
 
@@ -74,11 +75,13 @@ export function visibleTexts(code: string): string[] {
 
 describe("the catalogues", () => {
   it("have the same keys and placeholders, and no empty text", () => {
-    expect(Object.keys(ja).sort()).toEqual(Object.keys(en).sort());
-    for (const [key, text] of Object.entries(en)) {
-      const other = ja[key as keyof typeof en];
-      expect(other.trim(), key).not.toBe("");
-      expect(placeholders(other), key).toEqual(placeholders(text));
+    for (const texts of [de, ja]) {
+      expect(Object.keys(texts).sort()).toEqual(Object.keys(en).sort());
+      for (const [key, text] of Object.entries(en)) {
+        const other = texts[key as keyof typeof en];
+        expect(other.trim(), key).not.toBe("");
+        expect(placeholders(other), key).toEqual(placeholders(text));
+      }
     }
   });
 
@@ -86,6 +89,15 @@ describe("the catalogues", () => {
     const said = saidByTheVehicle();
     for (const kind of ["cause", "remedy", "finding", "reason", "error"]) expect(said.filter((key) => key.startsWith(`${kind}.`)).length, kind).toBeGreaterThan(10);
     expect(said.filter((key) => !(key in en) && !inEnglish.includes(key))).toEqual([]);
+  });
+
+  it("name no value that the vehicle does not send with it", () => {
+    const root = new URL("../../..", import.meta.url).pathname;
+    const notices = readFileSync(join(root, "app/cycle/notice.hpp"), "utf8").replace(/"\s*\n\s*"/g, "");
+    const sent = new Map([...notices.matchAll(/CatalogueEntry\{"([\w-]+)",\s*"([^"]*)"/g)].map(([, code, text]) => [code ?? "", placeholders(text ?? "")]));
+    expect(sent.size).toBeGreaterThan(40);
+    for (const [code, names] of sent)
+      for (const key of [`cause.${code}`, `remedy.${code}`]) if (key in en) expect(placeholders(en[key as keyof typeof en]), key).toEqual(names);
   });
 
   it("are used: no key stands there for nothing", () => {

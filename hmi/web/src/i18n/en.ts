@@ -529,6 +529,16 @@ export const en = {
   "stage.merge": "walls",
   "stage.label": "walls or not",
   "stage.settle": "walls",
+  "question.no": "Leave it as it is",
+  "drawing.question": "{name} takes the place of drawing, scale and walls; the routes stay. What is now remains among the versions (Look back, Downloads).",
+  "drawing.replace.yes": "Replace it",
+  "versions.title": "Versions",
+  "versions.none": "No save yet",
+  "versions.restore": "Bring it back",
+  "versions.question": "Bring version {number} back? What is now remains among the versions.",
+  "versions.drawing": "Another drawing.",
+  "versions.walls": "Since then {gone} m of wall went and {added} m came.",
+  "versions.points": "{count} points of the routes differ.",
 } as const;
 
 export type TextKey = keyof typeof en;

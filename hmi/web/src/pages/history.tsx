@@ -7,6 +7,7 @@ import { Icon } from "../ui/icon";
 import { Stale } from "../ui/stale";
 import { Tabs, type Tab } from "../ui/tabs";
 import { Tool } from "../ui/tool";
+import { VersionsCard } from "../ui/versions_card";
 
 type TabName = "events" | "statistics" | "files";
 
@@ -76,7 +77,7 @@ function StatisticsCard() {
   );
 }
 
-function Files({ may }: { may: boolean }) {
+function Files({ may, restores }: { may: boolean; restores: boolean }) {
   const t = useText();
   const { value, age_s } = usePolled(api.recordings, 5000);
   const link = (href: string, name: string, words: string, size: string) => (
@@ -88,6 +89,7 @@ function Files({ may }: { may: boolean }) {
       <Stale age={age_s} limit={12} />
       <h2>{t("history.site")}</h2>
       <ul class="files">{link("/api/site/download", "site.tar", t("history.site.download"), t("history.site.what"))}</ul>
+      <VersionsCard may={restores} />
       <h2>{t("history.recordings")}</h2>
       {(value ?? []).length === 0 && <p class="quiet" role="status">{t(value === null ? "history.asking" : "history.none")}</p>}
       <ul class="files">
@@ -111,7 +113,7 @@ export function HistoryPage({ role }: { role: Session["role"] }) {
       <Tabs label={t("nav.history")} tabs={tabs} shown={tab} choose={setTab}>
         {tab === "events" && <Events />}
         {tab === "statistics" && <StatisticsCard />}
-        {tab === "files" && <Files may={role === "operator" || role === "integrator"} />}
+        {tab === "files" && <Files may={role === "operator" || role === "integrator"} restores={role === "integrator"} />}
       </Tabs>
     </main>
   );

@@ -1,0 +1,185 @@
+#include "app/revision/drawing_revision.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/revision/carry_site.hpp"
+#include "core/angle.hpp"
+#include "core/result.hpp"
+#include "core/segment_distance.hpp"
+#include "mapping/revision/wall_changes.hpp"
+#include "mapping/site/site_transaction.hpp"
+#include "mapping/wall_map/wall.hpp"
+#include "planning/route_graph/route_csv.hpp"
+#include "planning/route_graph/route_search.hpp"
+
+namespace madori::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Walls2 = std::vector<Segment2<Map>>;
+
+/// The new drawing, imported into a folder of its own that goes with this object.
+class Beside {
+ public:
+  Beside(mapping::ImportOptions options, const mapping::Progress& progress) {
+    folder_ = fs::temp_directory_path() /
+              ("madori-revision-" + std::to_string(::getpid()) + "-" + std::to_string(++count_));
+    options.site = folder_;
+    options.force = false;
+    (void)mapping::import_drawing(options, progress);
+  }
+  ~Beside() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+  [[nodiscard]] const fs::path& folder() const { return folder_; }
+
+ private:
+  inline static std::atomic<int> count_ = 0;
+  fs::path folder_;
+};
+
+Walls2 walls_of(const fs::path& site) {
+  Walls2 walls;
+  for (const auto& wall : mapping::load_walls(site / "walls.csv")) walls.push_back(wall.segment);
+  return walls;
+}
+
+bool same(const planning::RouteFinding& a, const planning::RouteFinding& b) {
+  return a.code == b.code && a.values.contains("from") == b.values.contains("from") &&
+         a.values.contains("node") == b.values.contains("node") &&
+         (!a.values.contains("from") ||
+          (a.values.at("from") == b.values.at("from") && a.values.at("to") == b.values.at("to"))) &&
+         (!a.values.contains("node") || a.values.at("node") == b.values.at("node"));
+}
+
+/// The stations that a vehicle can serve: far enough from walls, and reached over legs that pass none.
+std::set<std::size_t> served(const planning::RouteGraph& routes, const Walls2& walls, double half_width_m) {
+  std::vector<planning::RouteLeg> free;
+  for (const auto& leg : routes.legs()) {
+    const Segment2<Map> way{routes.nodes()[leg.from].position, routes.nodes()[leg.to].position};
+    if (std::ranges::none_of(walls, [&](const auto& wall) { return distance_m(way, wall) == 0.0; }))
+      free.push_back(leg);
+  }
+  const planning::RouteGraph open(routes.nodes(), free);
+  const auto [component, largest] = planning::strong_components(open);
+  std::set<std::size_t> stations;
+  for (const std::size_t station : routes.stations()) {
+    const Point2<Map>& at = routes.nodes()[station].position;
+    const bool room =
+        std::ranges::none_of(walls, [&](const auto& wall) { return distance_m(wall, at) < half_width_m; });
+    if (room && component[station] == largest) stations.insert(station);
+  }
+  return stations;
+}
+
+/// What the new walls mean for the routes, which stay where they are.
+void check(const fs::path& site, const mapping::Site& record, const Walls2& before, const Walls2& now,
+           DrawingRevision& revision) {
+  if (!fs::exists(site / "routes/path.csv")) return;
+  const auto routes = planning::load_routes(site / "routes");
+  const planning::RouteCheckOptions options{.half_width_m = record.vehicle.width_m / 2.0};
+  const auto old = planning::check_routes(routes, before, options);
+  for (auto& finding : planning::check_routes(routes, now, options))
+    if (std::ranges::none_of(old, [&](const auto& one) { return same(one, finding); }))
+      revision.findings.push_back(std::move(finding));
+  const auto left = served(routes, now, options.half_width_m);
+  for (const std::size_t station : served(routes, before, options.half_width_m)) {
+    if (left.contains(station)) continue;
+    const auto& node = routes.nodes()[station];
+    revision.stations_lost.push_back(node.name.empty() ? std::to_string(node.id) : node.name);
+  }
+}
+
+DrawingRevision compared(const fs::path& site, const fs::path& beside) {
+  const mapping::Site record = mapping::load_site(site);
+  const Walls2 before = walls_of(site);
+  const double unit = record.scale ? 1.0 : 1.0 / 0.02;  // pixels are taken for 2 cm while nobody measured
+  const auto laid = mapping::register_walls(before, walls_of(beside), 0.15 * unit);
+  if (!laid)
+    throw Error("the new drawing", "is no revision of the site's: its walls do not lie on the old ones",
+                "import it as a site of its own, or replace the drawing with --force");
+  DrawingRevision revision{*laid, {}, {}, {}, {}, {}};
+  Walls2 drawn;
+  for (const auto& wall : walls_of(beside)) drawn.push_back(mapping::moved(laid->old_from_new, wall));
+  const mapping::ChangeOptions options{.within = 0.15 * unit, .shortest = 0.5 * unit, .step = 0.05 * unit};
+  const DrawnInk old_ink(site), new_ink(beside);
+  const auto changes = [&](const Walls2& of, const Walls2& others, auto drawn_too) {
+    Walls2 pieces = mapping::pieces_without(of, others, options);
+    std::erase_if(pieces, drawn_too);  // taken for a wall in one drawing only, and drawn in both
+    return pieces;
+  };
+  const auto back = inverse(laid->old_from_new);
+  revision.added = changes(drawn, before, [&](const Segment2<Map>& piece) {
+    return old_ink.is_bold_along(piece, new_ink, mapping::moved(back, piece));
+  });
+  revision.gone = changes(before, drawn, [&](const Segment2<Map>& piece) {
+    return new_ink.is_bold_along(mapping::moved(back, piece), old_ink, piece);
+  });
+  // What has not changed stays as it is, with all that a person mended of it.
+  const mapping::ChangeOptions exactly{.within = 1e-3 * unit, .shortest = 0.05 * unit, .step = 0.05 * unit};
+  revision.walls = mapping::pieces_without(before, revision.gone, exactly);
+  revision.walls.insert(revision.walls.end(), revision.added.begin(), revision.added.end());
+  check(site, record, before, revision.walls, revision);
+  return revision;
+}
+
+nlohmann::json rows(const Walls2& pieces) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& p : pieces) list.push_back({p.a.x_m, p.a.y_m, p.b.x_m, p.b.y_m});
+  return list;
+}
+
+double length_of(const Walls2& pieces) {
+  double sum = 0.0;
+  for (const auto& piece : pieces) sum += piece.length_m();
+  return sum;
+}
+
+}  // namespace
+
+DrawingRevision compare_drawing(const mapping::ImportOptions& options, const mapping::Progress& progress) {
+  const Beside beside(options, progress);
+  return compared(options.site, beside.folder());
+}
+
+DrawingRevision apply_drawing(const mapping::ImportOptions& options, const mapping::Progress& progress) {
+  const Beside beside(options, progress);
+  DrawingRevision revision = compared(options.site, beside.folder());
+  carry_site(options.site, beside.folder(), revision.laid.old_from_new, revision.walls);
+  return revision;
+}
+
+nlohmann::json revision_json(const DrawingRevision& revision, bool applied) {
+  const auto& by = revision.laid.old_from_new;
+  nlohmann::json findings = nlohmann::json::array();
+  for (const auto& finding : revision.findings)
+    findings.push_back({{"severity", finding.severity == planning::Severity::Error ? "error" : "warning"},
+                        {"file", finding.file},
+                        {"line", finding.line},
+                        {"message", finding.message},
+                        {"code", finding.code},
+                        {"values", finding.values}});
+  return {{"laid",
+           {{"scale", by.scale},
+            {"yaw_deg", to_deg(by.yaw_rad)},
+            {"x", by.offset.x()},
+            {"y", by.offset.y()},
+            {"covered", revision.laid.covered}}},
+          {"gone", rows(revision.gone)},
+          {"added", rows(revision.added)},
+          {"gone_m", length_of(revision.gone)},
+          {"added_m", length_of(revision.added)},
+          {"findings", findings},
+          {"stations_lost", revision.stations_lost},
+          {"applied", applied}};
+}
+
+}  // namespace madori::app

@@ -1,0 +1,192 @@
+#include "mapping/site/site_versions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "core/clock.hpp"
+#include "core/result.hpp"
+#include "core/stamp.hpp"
+#include "mapping/site/atomic_file.hpp"
+#include "mapping/site/site.hpp"
+#include "mapping/site/site_file.hpp"
+#include "mapping/site/site_transaction.hpp"
+#include "mapping/wall_map/wall_files.hpp"
+
+namespace madori::mapping {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::mutex author_mutex;                   // NOLINT: of the one author of this program
+std::string author_name = "command line";  // NOLINT
+
+bool is_kept(const std::string& name) {
+  return name == "site.yaml" || name == "walls.csv" || name == "import.png" || name == "routes/tree.csv" ||
+         name == "routes/path.csv" || name.starts_with("drawing.");
+}
+
+/// FNV-1a of 128 bits, and the length: names contents, keeps no secret.
+std::string name_of(const std::string& content) {
+  __extension__ using Wide = unsigned __int128;
+  constexpr Wide kPrime = (static_cast<Wide>(0x1000000) << 64U) + 0x13BU;
+  Wide hash = (static_cast<Wide>(0x6C62272E07BB0142ULL) << 64U) + 0x62B821756295C58DULL;
+  for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * kPrime;
+  return fmt::format("{:016x}{:016x}-{}", static_cast<std::uint64_t>(hash >> 64U),
+                     static_cast<std::uint64_t>(hash), content.size());
+}
+
+/// Objects never change: one that is there is whole, for it got its name only when it was.
+std::string keep_object(const fs::path& site, const fs::path& file) {
+  const std::string content = file_content(file);
+  std::string name = name_of(content);
+  const fs::path object = site / "versions/objects" / name;
+  if (fs::exists(object)) return name;
+  fs::create_directories(object.parent_path());
+  write_file_atomically(object, content);
+  return name;
+}
+
+SiteVersion read(const fs::path& manifest) {
+  const json all = json::parse(file_content(manifest));
+  return {all.at("number").get<int>(), all.at("stamp_s").get<double>(), all.at("author").get<std::string>(),
+          all.at("sentence").get<std::string>(), all.at("files").get<std::map<std::string, std::string>>()};
+}
+
+std::string manifest_name(int number) {
+  return fmt::format("versions/{:06}.json", number);
+}
+
+/// "walls, routes"
+std::string words(const std::map<std::string, std::string>& before,
+                  const std::map<std::string, std::string>& now) {
+  const auto differs = [&](const std::string& name) {
+    const auto a = before.find(name), b = now.find(name);
+    return (a == before.end()) != (b == now.end()) || (a != before.end() && a->second != b->second);
+  };
+  const auto drawing = [](const auto& files) {
+    const auto found =
+        std::ranges::find_if(files, [](const auto& f) { return f.first.starts_with("drawing."); });
+    return found == files.end() ? std::string() : found->second;
+  };
+  std::string text;
+  const auto add = [&](const char* word) { text += (text.empty() ? "" : ", ") + std::string(word); };
+  if (drawing(before) != drawing(now)) add("drawing");
+  if (differs("walls.csv")) add("walls");
+  if (differs("routes/tree.csv") || differs("routes/path.csv")) add("routes");
+  if (text.empty() || (differs("site.yaml") && drawing(before) == drawing(now))) add("settings");
+  return text;
+}
+
+/// What of a version lies in the site now.
+std::map<std::string, std::string> files_now(const fs::path& site) {
+  std::map<std::string, std::string> files;
+  std::error_code missing;
+  for (const char* folder : {".", "routes"})
+    for (const auto& entry : fs::directory_iterator(site / folder, missing)) {
+      const std::string name = entry.path().lexically_relative(site).lexically_normal().generic_string();
+      if (entry.is_regular_file() && is_kept(name)) files[name] = keep_object(site, entry.path());
+    }
+  return files;
+}
+
+std::string manifest(int number, const std::map<std::string, std::string>& files,
+                     const std::string& sentence) {
+  const std::scoped_lock lock(author_mutex);
+  return json{{"number", number},
+              {"stamp_s", to_seconds(time_of_day())},
+              {"author", author_name},
+              {"sentence", sentence},
+              {"files", files}}
+             .dump(1) +
+         "\n";
+}
+
+}  // namespace
+
+void set_version_author(const std::string& author) {
+  const std::scoped_lock lock(author_mutex);
+  author_name = author;
+}
+
+std::vector<SiteVersion> site_versions(const fs::path& site) {
+  std::vector<SiteVersion> all;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(site / "versions", missing)) {
+    if (entry.path().extension() != ".json") continue;
+    try {
+      all.push_back(read(entry.path()));
+    } catch (const std::exception&) {
+      // not of this program: the others count
+    }
+  }
+  std::ranges::sort(all, {}, &SiteVersion::number);
+  return all;
+}
+
+SiteVersion site_version(const fs::path& site, int number) {
+  for (auto& version : site_versions(site))
+    if (version.number == number) return version;
+  throw Error(site.string(), "has no version " + std::to_string(number), "list them: madori versions DIR");
+}
+
+std::string version_file(const fs::path& site, const SiteVersion& version, const std::string& name) {
+  const auto found = version.files.find(name);
+  return found == version.files.end() ? std::string()
+                                      : file_content(site / "versions/objects" / found->second);
+}
+
+void stage_version(SiteTransaction& change, const fs::path& site, const fs::path& staging,
+                   const std::vector<std::string>& puts, const std::vector<std::string>& removals,
+                   const std::string& sentence) {
+  if (std::ranges::none_of(puts, is_kept) && std::ranges::none_of(removals, is_kept)) return;
+  const auto brings = [](const std::string& name) { return name.starts_with("versions/"); };
+  if (std::ranges::any_of(puts, brings)) return;  // a backup brings its own
+  const auto versions = site_versions(site);
+  auto before = versions.empty() ? std::map<std::string, std::string>() : versions.back().files;
+  int number = versions.empty() ? 0 : versions.back().number;
+  const auto stage = [&](const std::map<std::string, std::string>& files, const std::string& what) {
+    if (files == before) return;
+    ++number;
+    change.write(manifest_name(number), manifest(number, files, what.empty() ? words(before, files) : what));
+    before = files;
+  };
+  auto files = files_now(site);
+  if (!files.empty())
+    stage(files, "as it was found");  // saved by another program, or before there were versions
+  for (const auto& name : removals) files.erase(name);
+  const std::vector<std::string> kept(puts);  // staging a manifest adds to them
+  for (const auto& name : kept)
+    if (is_kept(name)) files[name] = keep_object(site, staging / name);
+  stage(files, sentence);
+}
+
+void restore_version(const fs::path& site, int number) {
+  const SiteVersion version = site_version(site, number);
+  SiteTransaction change(site);
+  change.say("version " + std::to_string(number) + " restored");
+  for (const auto& [name, object] : version.files) {
+    if (!fs::exists(site / "versions/objects" / object))
+      throw Error(site.string(), "version " + std::to_string(number) + " lost its " + name,
+                  "restore another version, or a backup");
+    change.write(name, version_file(site, version, name));
+  }
+  const auto versions = site_versions(site);
+  for (const auto& [name, object] : versions.back().files)
+    if (!version.files.contains(name)) change.remove(name);
+  if (version.files.contains("site.yaml") && version.files.contains("walls.csv")) {
+    const Site record = read_site_file(change.staged("site.yaml"));
+    const double unit = record.scale ? record.scale->m_per_px : 1.0;
+    const std::string walls = version_file(site, version, "walls.csv");
+    (void)stage_wall_files(change, load_walls(change.staged("walls.csv")), record.drawing.width_px * unit,
+                           record.drawing.height_px * unit,
+                           record.scale ? WallFileOptions{} : WallFileOptions::unscaled());
+    change.write("walls.csv", walls);  // with its probabilities
+  }
+  change.commit();
+}
+
+}  // namespace madori::mapping

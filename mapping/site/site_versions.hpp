@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace madori::mapping {
+
+class SiteTransaction;
+
+/// One save of a site.
+struct SiteVersion {
+  int number = 0;
+  double stamp_s = 0.0;                      ///< time of day
+  std::string author;                        ///< who changed it: a panel, the command line
+  std::string sentence;                      ///< what changed
+  std::map<std::string, std::string> files;  ///< name in the site -> object in versions/objects
+};
+
+/// Every save of a site, below DIR/versions: `objects/` holds each content once, named by its hash and never
+/// changed, `NNNNNN.json` names the objects of a version. SiteTransaction stages a version with every change,
+/// so that the change and its version happen together or not at all; what can be computed from walls.csv
+/// (walls.pcd, map.pgm) is not kept.
+/// Stages the version that `change` will make: `puts` are staged below the folder `staging`, `removals` go.
+/// Nothing where no file of a version changes.
+void stage_version(SiteTransaction& change, const std::filesystem::path& site,
+                   const std::filesystem::path& staging, const std::vector<std::string>& puts,
+                   const std::vector<std::string>& removals, const std::string& sentence);
+
+/// All versions, oldest first; damaged manifests are left out.
+[[nodiscard]] std::vector<SiteVersion> site_versions(const std::filesystem::path& site);
+/// Throws Error where there is no such version.
+[[nodiscard]] SiteVersion site_version(const std::filesystem::path& site, int number);
+/// The content of a file of a version; empty where it had none.
+[[nodiscard]] std::string version_file(const std::filesystem::path& site, const SiteVersion& version,
+                                       const std::string& name);
+/// Makes the site what it was, as a new version. Throws Error.
+void restore_version(const std::filesystem::path& site, int number);
+
+/// Who the saves of this program are by.
+void set_version_author(const std::string& author);
+
+}  // namespace madori::mapping
