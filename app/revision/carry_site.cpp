@@ -97,7 +97,7 @@ double DrawnInk::cover(const Segment2<Map>& piece, double share, double half_wid
 bool DrawnInk::is_bold_along(const Segment2<Map>& here, const DrawnInk& own,
                              const Segment2<Map>& piece) const {
   constexpr int kPlaces = 60;
-  constexpr double kAsBold = 0.6, kAlong = 0.7;
+  constexpr double kAsBold = 0.5, kAlong = 0.55;
   const double half_width = 0.2 * (own.unit_ > 0.5 ? 50.0 : 1.0);  // pixels while nobody measured
   const double scale = here.length_m() / piece.length_m();
   int along = 0;

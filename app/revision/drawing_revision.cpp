@@ -109,7 +109,7 @@ DrawingRevision compared(const fs::path& site, const fs::path& beside) {
   DrawingRevision revision{*laid, {}, {}, {}, {}, {}};
   Walls2 drawn;
   for (const auto& wall : walls_of(beside)) drawn.push_back(mapping::moved(laid->old_from_new, wall));
-  const mapping::ChangeOptions options{.within = 0.15 * unit, .shortest = 0.5 * unit, .step = 0.05 * unit};
+  const mapping::ChangeOptions options{.within = 0.15 * unit, .shortest = 0.8 * unit, .step = 0.05 * unit};
   const DrawnInk old_ink(site), new_ink(beside);
   const auto changes = [&](const Walls2& of, const Walls2& others, auto drawn_too) {
     Walls2 pieces = mapping::pieces_without(of, others, options);

@@ -32,9 +32,9 @@ Walls2 on_sheet(const Walls2& walls, const Similarity& by, std::mt19937& random)
   Walls2 sheet;
   for (const auto& wall : walls) {
     const auto noisy = [&](const Point2<Map>& p) {
-      return moved(by, {p.x_m + off(random), p.y_m + off(random)});
+      return moved(by, Point2<Map>{p.x_m + off(random), p.y_m + off(random)});
     };
-    sheet.push_back({noisy(wall.a), noisy(wall.b)});
+    sheet.push_back(Segment2<Map>{noisy(wall.a), noisy(wall.b)});
   }
   return sheet;
 }
