@@ -33,8 +33,8 @@ async function driveOff(panel, station) {
   expect(order.status === 200, `the order was refused: ${JSON.stringify(order)}`);
   await until("the vehicle drives", async () => {
     const now = await state(panel).catch(() => "");
-    if (now === "fault") await touch(panel, "Confirm");
-    if (now === "paused") await touch(panel, "Resume");
+    const button = { fault: "confirm", paused: "resume" }[now];  // the state may change under the finger
+    if (button) await panel.page.locator(`.command.${button}`).tap({ timeout: 1000 }).catch(() => undefined);
     return now === "driving" && Number.parseFloat(await gauge(panel, "Speed")) > 0.1;
   }, 90_000);
 }
