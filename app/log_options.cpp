@@ -1,20 +1,26 @@
 #include "app/log_options.hpp"
 
-#include "core/angle.hpp"
+#include "app/lidars.hpp"
+#include "sensors/lidar/registry.hpp"
 
 namespace madori::app {
+
+LidarModel log_lidar(const mapping::Site& site) {
+  for (const mapping::SensorRecord& sensor : site.sensors)
+    if (!sensors::lidar_of(sensor.type, "site.yaml").has_field) return lidar_model(sensor);
+  sensors::LidarSettings nobody;
+  nobody.mounting = {0.0, 0.0, 0.0, 0.0};
+  return sensors::lidar_rows().front().model(nobody);
+}
 
 sensors::LogOptions log_options(const mapping::Site& site, const std::filesystem::path& wheels) {
   sensors::LogOptions options;
   options.wheels = wheels;
   const mapping::VehicleRecord& vehicle = site.vehicle;
   options.geometry = {vehicle.wheel_radius_m, vehicle.wheel_radius_m, vehicle.half_wheel_separation_m};
-  for (const mapping::SensorRecord& sensor : site.sensors) {
-    if (sensor.type == "s300") continue;  // the safety scanner
-    options.base_from_lidar = {sensor.x_m, sensor.y_m, to_rad(sensor.yaw_deg)};
-    options.lidar_height_m = sensor.z_m;
-    break;
-  }
+  const LidarModel lidar = log_lidar(site);
+  options.base_from_lidar = lidar.mounting.base_from_lidar();
+  options.lidar_height_m = lidar.mounting.z_m;
   return options;
 }
 

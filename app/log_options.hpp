@@ -2,13 +2,17 @@
 
 #include <filesystem>
 
+#include "core/lidar_model.hpp"
 #include "mapping/site/site.hpp"
 #include "sensors/open_log.hpp"
 
 namespace madori::app {
 
-/// How a log of this site's vehicle is read: its wheels, and the mounting of its first lidar (at the Base
-/// origin where the site names none). `wheels` may be empty.
+/// The lidar whose log this site's vehicle records: its first one without a protective field. Where the site
+/// names none, the first kind of the registry at the Base origin, on the floor.
+[[nodiscard]] LidarModel log_lidar(const mapping::Site& site);
+/// How a log of this site's vehicle is read: its wheels, and the mounting of that lidar. `wheels` may be
+/// empty.
 [[nodiscard]] sensors::LogOptions log_options(const mapping::Site& site,
                                               const std::filesystem::path& wheels = {});
 

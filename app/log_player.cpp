@@ -15,7 +15,8 @@ struct Seen {
   Point2<Base> sensor;
 };
 
-Seen seen(const sensors::ScanRecord& record, localization::Localizer& localizer) {
+Seen seen(const sensors::ScanRecord& record, const LidarModel& /*lidar*/,
+          localization::Localizer& localizer) {
   if (record.odom_from_base) {
     (void)localizer.on_odometry({record.scan.stamp, *record.odom_from_base});
   }
@@ -23,20 +24,21 @@ Seen seen(const sensors::ScanRecord& record, localization::Localizer& localizer)
           record.base_from_lidar.translation()};
 }
 
-Seen seen(const sensors::CloudRecord& record, localization::Localizer& /*localizer*/) {
-  return {record.cloud.stamp, localization::extract_walls(sensors::cloud_in_base(record)),
+Seen seen(const sensors::CloudRecord& record, const LidarModel& lidar,
+          localization::Localizer& /*localizer*/) {
+  return {record.cloud.stamp, localization::extract_walls(sensors::cloud_in_base(record), lidar),
           record.base_from_lidar.translation()};
 }
 
 }  // namespace
 
-PlayedLog play_log(sensors::LogReader& log, localization::Localizer& localizer,
+PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localization::Localizer& localizer,
                    const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans) {
   PlayedLog played;
   const auto timed = [&](const auto& record) {
     ++played.scans;
     const auto before = std::chrono::steady_clock::now();
-    const Seen scan = seen(record, localizer);
+    const Seen scan = seen(record, lidar, localizer);
     const PoseEstimate estimate = localizer.on_scan(scan.stamp, scan.points, scan.sensor);
     sink(estimate);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;

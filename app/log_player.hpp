@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "core/lidar_model.hpp"
 #include "core/pose_estimate.hpp"
 #include "localization/localizer/localizer.hpp"
 #include "sensors/log_record.hpp"
@@ -20,7 +21,8 @@ using ScanSink =
     std::function<void(const localization::ScanPoints&, const Point2<Base>&, const PoseEstimate&)>;
 
 /// Runs a log through the localizer in the order of its records, and hands out the pose of every record.
-PlayedLog play_log(sensors::LogReader& log, localization::Localizer& localizer,
+/// `lidar` is the one whose clouds the log holds.
+PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localization::Localizer& localizer,
                    const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans = {});
 
 }  // namespace madori::app

@@ -19,6 +19,7 @@ struct LaserScan {
   double range_max_m = 0.0;        ///< beyond it the sensor reports nothing
   std::vector<float> ranges_m;     ///< kNoReturn where nothing came back
   std::vector<float> intensities;  ///< empty, or one a beam, sensor's own unit
+  std::size_t lidar = 0;           ///< which of the vehicle's lidars, where it has several
 
   [[nodiscard]] double angle_rad(std::size_t beam) const {
     return angle_min_rad + static_cast<double>(beam) * angle_step_rad;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,7 @@ template <class F>
 struct PointCloud {
   Stamp stamp{};  ///< of the first firing
   std::vector<CloudPoint> points;
+  std::size_t lidar = 0;  ///< which of the vehicle's lidars, where it has several
 };
 
 }  // namespace madori

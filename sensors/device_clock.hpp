@@ -34,7 +34,7 @@ class DeviceClock {
  private:
   static constexpr std::int64_t kDriftPpm = 100;
   /// By the device's clock. A backlog that a socket or port keeps while the computer stands still is shorter:
-  /// 2 MiB of UDP hold 2.4 s of a VLP-16, 4 KiB of a serial line 1.4 s of the drive.
+  /// 2 MiB of UDP hold 2.4 s of a 3D lidar, 4 KiB of a serial line 1.4 s of the drive.
   static constexpr std::int64_t kWindowUs = 3'000'000;
   /// Later than any computer is for a whole window, unless it stays so.
   static constexpr Duration kSet = std::chrono::milliseconds(50);

@@ -23,7 +23,7 @@ struct ScanRecord {
 
 /// One revolution of a 3D lidar of a log.
 struct CloudRecord {
-  std::string source;  ///< vlp16, or the topic
+  std::string source;  ///< the kind of lidar, or the topic
   PointCloud<Lidar> cloud;
   Transform2<Base, Lidar> base_from_lidar;
   double lidar_height_m = 0.0;  ///< of the lidar above the floor

@@ -87,6 +87,9 @@ class Factory {
     return sensors_.mounting(device);
   }
 
+  /// As the site lists them, with the settings that they measure by.
+  [[nodiscard]] const std::vector<mapping::SensorRecord>& sensors() const { return sensors_.sensors(); }
+
   /// Puts the vehicle there at once, standing still; the encoders notice nothing.
   void set_pose(const Transform2<Map, Base>& map_from_base);
   /// From now on, whatever at_s says; at_s and for_s count from now.

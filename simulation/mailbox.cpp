@@ -51,11 +51,11 @@ bool Mailbox::damage(Device device, std::vector<std::uint8_t>& bytes, double now
   return true;
 }
 
-void Mailbox::send(Device device, std::vector<std::uint8_t> bytes, Duration now) {
+void Mailbox::send(Device device, std::vector<std::uint8_t> bytes, Duration now, std::size_t unit) {
   const double now_s = to_seconds(now);
   const std::uint64_t number = sent_[static_cast<std::size_t>(device)]++;
   if (!damage(device, bytes, now_s, number)) return;
-  Pending pending{now, device, std::move(bytes)};
+  Pending pending{now, device, std::move(bytes), unit};
   if (const FaultSpec* delay = active(FaultKind::Delay, device, now_s))
     pending.due += duration_from_seconds(delay->delay_s);
   const FaultSpec* twice = active(FaultKind::Duplicate, device, now_s);
@@ -72,7 +72,7 @@ std::vector<DevicePacket> Mailbox::take(Duration now, Stamp epoch) {
   std::vector<DevicePacket> arrived;
   arrived.reserve(static_cast<std::size_t>(first_later - pending_.begin()));
   for (auto p = pending_.begin(); p != first_later; ++p)
-    arrived.push_back({p->device, epoch + p->due, std::move(p->bytes)});
+    arrived.push_back({p->device, epoch + p->due, std::move(p->bytes), p->unit});
   pending_.erase(pending_.begin(), first_later);
   return arrived;
 }

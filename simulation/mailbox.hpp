@@ -14,6 +14,7 @@ struct DevicePacket {
   Device device = Device::Vlp16;
   Stamp sent{};
   std::vector<std::uint8_t> bytes;
+  std::size_t unit = 0;  ///< of several devices of that kind, in the site's order
 };
 
 /// The wires of all devices, with the faults that the scenario asks for. In order of time.
@@ -28,7 +29,7 @@ class Mailbox {
   [[nodiscard]] const FaultSpec* active(FaultKind kind, Device device, double now_s) const;
 
   /// Sends bytes through the device's faults.
-  void send(Device device, std::vector<std::uint8_t> bytes, Duration now);
+  void send(Device device, std::vector<std::uint8_t> bytes, Duration now, std::size_t unit = 0);
   /// What has arrived by now, in order of arrival.
   [[nodiscard]] std::vector<DevicePacket> take(Duration now, Stamp epoch);
 
@@ -37,6 +38,7 @@ class Mailbox {
     Duration due{};
     Device device = Device::Vlp16;
     std::vector<std::uint8_t> bytes;
+    std::size_t unit = 0;
   };
   bool damage(Device device, std::vector<std::uint8_t>& bytes, double now_s, std::uint64_t number) const;
 

@@ -9,9 +9,6 @@ namespace lms1xx = sensors::lms1xx;
 namespace s300 = sensors::s300;
 namespace wire = control::wire;
 
-/// From the first to the last beam of an S300 scan: 270 of 360 deg.
-constexpr Duration kS300Sweep = std::chrono::milliseconds(30);
-
 control::OdometryOptions odometry_options(const WheelGeometry& wheels) {
   control::OdometryOptions options;
   options.wheels = wheels;
@@ -28,7 +25,7 @@ Receiver::Receiver(const WheelGeometry& wheels, bool binary_lms)
         if (telegram.content != s300::Content::Distances) return;
         fields_ = s300::fields_of(telegram);
         LaserScan scan = s300::to_laser_scan(telegram);
-        scan.stamp = s300_received_ - kS300Sweep;
+        scan.stamp = s300_clock_.stamp_of(telegram, s300_received_);
         s300_scans.push_back(std::move(scan));
       }),
       odometry_(odometry_options(wheels)) {}
@@ -62,8 +59,7 @@ void Receiver::take_lms(const DevicePacket& packet) {
     if (!scan) continue;
     LaserScan taken = std::move(scan).value();
     // 15 ms of turning lie between the first beam and the telegram.
-    lms_clock_.observe(data.value().transmit_time_us, packet.sent);
-    taken.stamp = lms_clock_.stamp_of(data.value().scan_time_us);
+    taken.stamp = lms_clock_.stamp_of(data.value(), packet.sent);
     lms_scans.push_back(std::move(taken));
   }
 }

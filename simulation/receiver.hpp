@@ -8,9 +8,9 @@
 #include "core/laser_scan.hpp"
 #include "core/odometry.hpp"
 #include "core/point_cloud.hpp"
-#include "sensors/device_clock.hpp"
-#include "sensors/lms1xx/scan_data.hpp"
-#include "sensors/s300/telegram.hpp"
+#include "sensors/lms1xx/cola.hpp"
+#include "sensors/lms1xx/scan_clock.hpp"
+#include "sensors/s300/scan_clock.hpp"
 #include "sensors/vlp16/assembler.hpp"
 #include "simulation/mailbox.hpp"
 
@@ -49,8 +49,9 @@ class Receiver {
   sensors::lms1xx::Dialect dialect_;
   sensors::vlp16::Assembler vlp16_;
   sensors::lms1xx::Splitter lms_;
-  sensors::DeviceClock lms_clock_;
+  sensors::lms1xx::ScanClock lms_clock_;
   sensors::s300::Stream s300_;
+  sensors::s300::ScanClock s300_clock_{sensors::s300::kBitsPerSecond};
   Stamp s300_received_{};
   control::wire::FrameCutter cutter_;
   control::DiffDriveOdometry odometry_;

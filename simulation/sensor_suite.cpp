@@ -13,13 +13,28 @@ namespace {
 namespace lms1xx = sensors::lms1xx;
 namespace s300 = sensors::s300;
 
-constexpr Duration kLmsPeriod = std::chrono::milliseconds(20);
 constexpr Duration kS300Period = std::chrono::milliseconds(40);
 constexpr Duration kHour = std::chrono::hours(1);
 constexpr std::uint64_t kLmsStream = 0x1115, kS300Stream = 0x300;
 
 const char* type_of(Device device) {
   return device == Device::Drive ? "" : to_string(device);
+}
+
+/// A whole number among a sensor's settings.
+int setting(const mapping::SensorRecord& record, const char* key, int otherwise) {
+  const auto found = record.settings.find(key);
+  return found == record.settings.end() ? otherwise : std::stoi(found->second);
+}
+
+bool is_binary(const mapping::SensorRecord& record) {
+  const auto found = record.settings.find("cola");
+  return found == record.settings.end() || found->second != "A";
+}
+
+/// Of a telegram of all distances, ten bits a byte.
+Duration on_the_line(const mapping::SensorRecord& record, std::size_t bytes) {
+  return duration_from_seconds(10.0 * static_cast<double>(bytes) / setting(record, "baud", 500'000));
 }
 
 std::uint16_t rssi(const Echo& echo) {
@@ -38,18 +53,36 @@ std::vector<mapping::SensorRecord> default_sensors(const mapping::VehicleRecord&
 SensorSuite::SensorSuite(const Scenario& scenario, const mapping::VehicleRecord& vehicle,
                          const std::vector<mapping::SensorRecord>& sensors, std::uint64_t seed, Stamp epoch)
     : scenario_(scenario), vehicle_(vehicle), sensors_(sensors.empty() ? default_sensors(vehicle) : sensors) {
-  if (const auto top = mounting(Device::Vlp16))
-    vlp16_.emplace(*top, scenario.vlp16, seed, epoch.time_since_epoch() % kHour);
-  if (const auto front = mounting(Device::Lms1xx)) {
-    const EchoOptions echo{static_cast<float>(scenario.lms1xx.noise_m), scenario.lms1xx.dropout, 0.05F,
-                           static_cast<float>(scenario.lms1xx.range_max_m)};
-    lms_.emplace(*front, PlaneScannerOptions{kLmsPeriod, echo, kLmsStream}, seed);
+  const Duration hour_offset = epoch.time_since_epoch() % kHour;
+  for (const Device device : {Device::Vlp16, Device::Lms1xx, Device::S300}) {
+    std::size_t unit = 0;
+    for (auto& sensor : sensors_) {
+      if (sensor.type != type_of(device)) continue;
+      if (device == Device::Lms1xx) sensor.settings.try_emplace("cola", scenario.lms1xx.binary ? "B" : "A");
+      add(device, sensor, unit++, seed, hour_offset);
+    }
   }
-  if (const auto safety = mounting(Device::S300)) {
-    const EchoOptions echo{static_cast<float>(scenario.s300.noise_m), scenario.s300.dropout, 0.05F,
-                           static_cast<float>(scenario.s300.range_max_m)};
-    s300_.emplace(*safety, PlaneScannerOptions{kS300Period, echo, kS300Stream}, seed);
+}
+
+void SensorSuite::add(Device device, const mapping::SensorRecord& record, std::size_t unit,
+                      std::uint64_t seed, Duration hour_offset) {
+  constexpr std::uint64_t kNextUnit = 0x10000;
+  if (device == Device::Vlp16)
+    return void(vlp16_.emplace_back(record, scenario_.vlp16, seed + unit * kNextUnit, hour_offset));
+  const bool lms = device == Device::Lms1xx;
+  const double noise_m = lms ? scenario_.lms1xx.noise_m : scenario_.s300.noise_m;
+  const EchoOptions echo{static_cast<float>(noise_m), lms ? scenario_.lms1xx.dropout : scenario_.s300.dropout,
+                         0.05F,
+                         static_cast<float>(lms ? scenario_.lms1xx.range_max_m : scenario_.s300.range_max_m)};
+  PlaneScannerOptions options{kS300Period, 2, setting(record, "every", 1), echo, kS300Stream};
+  if (lms) {
+    const int rate_hz = setting(record, "rate_hz", 50);
+    options.period = Duration(std::chrono::seconds(1)) / rate_hz;
+    options.beams_a_degree = 100 / rate_hz;
+    options.stream = kLmsStream;
   }
+  options.stream += unit * kNextUnit;
+  (lms ? lms_ : s300_).push_back({record, unit, PlaneScanner(record, options, seed)});
 }
 
 std::optional<mapping::SensorRecord> SensorSuite::mounting(Device device) const {
@@ -59,31 +92,37 @@ std::optional<mapping::SensorRecord> SensorSuite::mounting(Device device) const 
 }
 
 void SensorSuite::measure_until(Duration now, const View& view, Mailbox& out) {
-  while (vlp16_ && vlp16_->next_complete() <= now) {
-    const Duration due = vlp16_->next_complete();
-    const auto bytes = sensors::vlp16::encode(vlp16_->measure(view));
-    out.send(Device::Vlp16, {bytes.begin(), bytes.end()}, due);
-  }
-  while (lms_ && lms_->next_complete() <= now) {
-    const Duration start = lms_->next_start(), due = lms_->next_complete();
-    out.send(Device::Lms1xx, lms_telegram(lms_->measure(view), start, due), due);
-  }
-  while (s300_ && s300_->next_complete() <= now) {
-    const Duration due = s300_->next_complete();
-    const bool standby = out.active(FaultKind::Standby, Device::S300, to_seconds(due)) != nullptr;
-    out.send(Device::S300, s300_telegram(s300_->measure(view), standby), due);
-  }
+  for (std::size_t unit = 0; unit < vlp16_.size(); ++unit)
+    while (vlp16_[unit].next_complete() <= now) {
+      const Duration due = vlp16_[unit].next_complete();
+      const auto bytes = sensors::vlp16::encode(vlp16_[unit].measure(view));
+      out.send(Device::Vlp16, {bytes.begin(), bytes.end()}, due, unit);
+    }
+  for (Scanner& lms : lms_)
+    while (lms.scanner.next_complete() <= now) {
+      const Duration start = lms.scanner.next_start(), due = lms.scanner.next_complete();
+      out.send(Device::Lms1xx, lms_telegram(lms, lms.scanner.measure(view), start, due), due, lms.unit);
+    }
+  for (Scanner& s300 : s300_)
+    while (s300.scanner.next_complete() <= now) {
+      const Duration due = s300.scanner.next_complete();
+      const bool standby = out.active(FaultKind::Standby, Device::S300, to_seconds(due)) != nullptr;
+      auto bytes = s300_telegram(s300, s300.scanner.measure(view), standby);
+      const Duration heard = due + on_the_line(s300.record, bytes.size());
+      out.send(Device::S300, std::move(bytes), heard, s300.unit);
+    }
 }
 
-std::vector<std::uint8_t> SensorSuite::lms_telegram(const std::vector<Echo>& echoes, Duration start,
-                                                    Duration now) {
+std::vector<std::uint8_t> SensorSuite::lms_telegram(const Scanner& lms, const std::vector<Echo>& echoes,
+                                                    Duration start, Duration now) {
   lms1xx::ScanData data;
-  const std::uint64_t number = lms_->scans();
+  const std::uint64_t number = lms.scanner.scans();
+  const auto step = static_cast<std::uint16_t>(270.0 * 1e4 / static_cast<double>(lms.scanner.beams() - 1));
   data.telegram_counter = data.scan_counter = static_cast<std::uint16_t>(number);
   data.scan_time_us = static_cast<std::uint32_t>(start.count() / 1000);
   data.transmit_time_us = static_cast<std::uint32_t>(now.count() / 1000);
-  lms1xx::Channel<std::uint16_t> distance{{'D', 'I', 'S', 'T', '1'}, 1.0F, 0.0F, -450'000, 5'000, {}};
-  lms1xx::Channel<std::uint8_t> strength{{'R', 'S', 'S', 'I', '1'}, 1.0F, 0.0F, -450'000, 5'000, {}};
+  lms1xx::Channel<std::uint16_t> distance{{'D', 'I', 'S', 'T', '1'}, 1.0F, 0.0F, -450'000, step, {}};
+  lms1xx::Channel<std::uint8_t> strength{{'R', 'S', 'S', 'I', '1'}, 1.0F, 0.0F, -450'000, step, {}};
   for (const Echo& echo : echoes) {
     const bool seen = echo.range_m != Hit::kNothing;
     distance.values.push_back(seen ? static_cast<std::uint16_t>(std::lround(echo.range_m * 1000.0F))
@@ -92,11 +131,11 @@ std::vector<std::uint8_t> SensorSuite::lms_telegram(const std::vector<Echo>& ech
   }
   data.channels16.push_back(std::move(distance));
   data.channels8.push_back(std::move(strength));
-  return lms1xx::encode(scenario_.lms1xx.binary ? lms1xx::Dialect::B : lms1xx::Dialect::A, data);
+  return lms1xx::encode(is_binary(lms.record) ? lms1xx::Dialect::B : lms1xx::Dialect::A, data);
 }
 
-std::uint16_t SensorSuite::field_bits(float range_m, double angle_rad) const {
-  const auto at = *mounting(Device::S300);
+std::uint16_t SensorSuite::field_bits(const mapping::SensorRecord& at, float range_m,
+                                      double angle_rad) const {
   const Transform2<Base, Lidar> base_from_lidar(at.x_m, at.y_m, to_rad(at.yaw_deg));
   const Point2<Base> p =
       base_from_lidar * Point2<Lidar>{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)};
@@ -108,16 +147,18 @@ std::uint16_t SensorSuite::field_bits(float range_m, double angle_rad) const {
   return bits;
 }
 
-std::vector<std::uint8_t> SensorSuite::s300_telegram(const std::vector<Echo>& echoes, bool standby) {
+std::vector<std::uint8_t> SensorSuite::s300_telegram(const Scanner& s300, const std::vector<Echo>& echoes,
+                                                     bool standby) {
   s300::Telegram telegram;
-  telegram.scan_number = static_cast<std::uint32_t>(s300_->scans());
-  telegram.telegram_number = static_cast<std::uint16_t>(s300_->scans());
+  telegram.scan_number = static_cast<std::uint32_t>(s300.scanner.turns());
+  telegram.telegram_number = static_cast<std::uint16_t>(s300.scanner.scans());
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     const float range_m = echoes[i].range_m;
     std::uint16_t value = s300::kDistanceMask;  // 81.91 m: nothing seen
     if (range_m != Hit::kNothing)
-      value = static_cast<std::uint16_t>(static_cast<std::uint16_t>(std::lround(range_m * 100.0F)) |
-                                         field_bits(range_m, to_rad(-135.0 + 0.5 * static_cast<double>(i))));
+      value = static_cast<std::uint16_t>(
+          static_cast<std::uint16_t>(std::lround(range_m * 100.0F)) |
+          field_bits(s300.record, range_m, to_rad(-135.0 + 0.5 * static_cast<double>(i))));
     telegram.values.push_back(standby ? s300::kStandbyValue : value);
   }
   return s300::encode(telegram);

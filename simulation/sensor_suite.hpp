@@ -12,7 +12,8 @@ namespace madori::simulation {
 /// A VLP-16 on a mast, an LMS1xx at the front, an S300 below it: for sites that list no sensors yet.
 [[nodiscard]] std::vector<mapping::SensorRecord> default_sensors(const mapping::VehicleRecord& vehicle);
 
-/// The vehicle's lidars: measures what is due and sends the telegrams. One of each type at most.
+/// The vehicle's lidars: measures what is due and sends the telegrams. A kind that the simulation does not
+/// know stays silent.
 class SensorSuite {
  public:
   SensorSuite(const Scenario& scenario, const mapping::VehicleRecord& vehicle,
@@ -20,21 +21,32 @@ class SensorSuite {
 
   /// Everything whose last beam lies at or before `now`.
   void measure_until(Duration now, const View& view, Mailbox& out);
-  /// How the sensor of that type is mounted; nothing when there is none.
+  /// How the first sensor of that type is mounted; nothing when there is none.
   [[nodiscard]] std::optional<mapping::SensorRecord> mounting(Device device) const;
+  /// All of them, with the settings that they measure by.
+  [[nodiscard]] const std::vector<mapping::SensorRecord>& sensors() const { return sensors_; }
 
  private:
-  [[nodiscard]] std::vector<std::uint8_t> lms_telegram(const std::vector<Echo>& echoes, Duration start,
-                                                       Duration now);
-  [[nodiscard]] std::vector<std::uint8_t> s300_telegram(const std::vector<Echo>& echoes, bool standby);
-  [[nodiscard]] std::uint16_t field_bits(float range_m, double angle_rad) const;
+  struct Scanner {
+    mapping::SensorRecord record;
+    std::size_t unit;  ///< among those of its kind
+    PlaneScanner scanner;
+  };
+  void add(Device device, const mapping::SensorRecord& record, std::size_t unit, std::uint64_t seed,
+           Duration hour_offset);
+  [[nodiscard]] std::vector<std::uint8_t> lms_telegram(const Scanner& lms, const std::vector<Echo>& echoes,
+                                                       Duration start, Duration now);
+  [[nodiscard]] std::vector<std::uint8_t> s300_telegram(const Scanner& s300, const std::vector<Echo>& echoes,
+                                                        bool standby);
+  [[nodiscard]] std::uint16_t field_bits(const mapping::SensorRecord& at, float range_m,
+                                         double angle_rad) const;
 
   Scenario scenario_;
   mapping::VehicleRecord vehicle_;
   std::vector<mapping::SensorRecord> sensors_;
-  std::optional<Vlp16Model> vlp16_;
-  std::optional<PlaneScanner> lms_;
-  std::optional<PlaneScanner> s300_;
+  std::vector<Vlp16Model> vlp16_;
+  std::vector<Scanner> lms_;
+  std::vector<Scanner> s300_;
 };
 
 }  // namespace madori::simulation

@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -14,10 +15,12 @@
 #include "app/import_report.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
+#include "app/lidars.hpp"
 #include "app/panel/reference_lidar.hpp"
 #include "core/result.hpp"
 #include "mapping/site/site.hpp"
 #include "mapping/site/strict_yaml.hpp"
+#include "simulation/sensor_suite.hpp"
 
 namespace madori::app {
 namespace {
@@ -26,11 +29,14 @@ namespace fs = std::filesystem;
 
 /// One order each: into the lift, through the automatic door to a goods-in bay, and on to its neighbour.
 const std::vector<int> kStations{19, 21, 20};
+/// Without a 3D lidar nobody sees whether door and lift are high enough: three stations on this side of them.
+const std::vector<int> kNearStations{7, 5, 3};
 
 struct DemoArguments {
   std::string site = "demo";
   std::string data = MADORI_DATA_DIR;
   std::string json_file;
+  std::string lidars;
   bool import_only = false;
 };
 
@@ -55,12 +61,33 @@ void copy_routes(const fs::path& sample, const fs::path& site) {
   fs::copy(sample / "routes_scan", site / "routes");
 }
 
-/// The vehicle's lidar: the import knows nothing of vehicles.
-void mount_lidar(const fs::path& folder) {
+/// The virtual factory's own lidars of those kinds, where it carries them.
+std::vector<mapping::SensorRecord> chosen_lidars(const std::string& kinds, const mapping::VehicleRecord& v) {
+  const auto carried = simulation::default_sensors(v);
+  std::vector<mapping::SensorRecord> chosen;
+  std::istringstream words(kinds);
+  for (std::string kind; std::getline(words, kind, ',');) {
+    (void)sensors::lidar_of(kind, "--lidar " + kinds);
+    const auto found = std::ranges::find(carried, kind, &mapping::SensorRecord::type);
+    if (found == carried.end()) throw Error("--lidar " + kind, "has no virtual counterpart", "");
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+/// The vehicle's lidars: the import knows nothing of vehicles.
+void mount_lidars(const fs::path& folder, const std::string& kinds) {
   mapping::Site site = mapping::load_site(folder);
-  if (!site.sensors.empty()) return;
-  site.sensors.push_back(kReferenceLidar);
+  if (kinds.empty() && !site.sensors.empty()) return;
+  site.sensors = chosen_lidars(kinds, site.vehicle);
+  if (kinds.empty()) site.sensors = {reference_lidar()};
+  (void)lidars_of(site, folder);
   mapping::save_site(folder, site);
+}
+
+bool sees_heights(const fs::path& folder) {
+  return std::ranges::any_of(lidars_of(mapping::load_site(folder), folder),
+                             [](const auto& lidar) { return lidar.kind == LidarKind::Spinning; });
 }
 
 mapping::ImportReport import_sample(const DemoArguments& arguments, const fs::path& sample) {
@@ -75,7 +102,7 @@ mapping::ImportReport import_sample(const DemoArguments& arguments, const fs::pa
   auto report = mapping::import_drawing(options, progress);
   if (progress) progress("done", 1.0);
   copy_routes(sample, options.site);
-  mount_lidar(options.site);
+  mount_lidars(options.site, arguments.lidars);
   return report;
 }
 
@@ -118,7 +145,8 @@ void run(const DemoArguments& arguments) {
   nlohmann::json figures = import_json(report);
   if (!arguments.import_only) {
     spdlog::set_level(spdlog::level::warn);
-    const auto result = run_demo({arguments.site, data / "scenarios/demo.yaml", kStations});
+    const auto result = run_demo({arguments.site, data / "scenarios/demo.yaml",
+                                  sees_heights(arguments.site) ? kStations : kNearStations});
     const fs::path picture = fs::path(arguments.site) / "demo.png";
     draw_demo(arguments.site, result, picture);
     if (arguments.json_file != "-") {
@@ -143,6 +171,9 @@ void add_demo(CLI::App& app) {
   command->add_option("--site", arguments->site, "the site folder to make")->capture_default_str();
   command->add_option("--data", arguments->data, "folder that holds sample_factory")->capture_default_str();
   command->add_option("--json", arguments->json_file, "write the figures to a file; - for stdout");
+  command->add_option("--lidar", arguments->lidars,
+                      "what the vehicle sees with, e.g. " + sensors::lidar_rows().front().type +
+                          "; several with commas (default: what the site names)");
   command->add_flag("--import-only", arguments->import_only, "make the site, drive nothing");
   command->callback([arguments] { run(*arguments); });
 }

@@ -1,13 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <thread>
 
 #include "app/commands.hpp"
 #include "app/cycle/site_config.hpp"
+#include "app/lidars.hpp"
 #include "app/orders/order_store.hpp"
 #include "app/runner/device_run.hpp"
 #include "core/result.hpp"
@@ -54,6 +57,21 @@ std::string look_at_routes(const fs::path& site, const SiteForDriving& loaded) {
   return std::to_string(loaded.config.routes.nodes().size()) + " nodes, every station can be reached";
 }
 
+/// What a scanner surely sees against what the vehicle needs to stand.
+std::string look_at_sight(const CycleConfig& config) {
+  const double speed_mps = config.limits.max_speed_mps;
+  const double needs_m = config.braking.horizon_m(speed_mps);
+  char text[160];
+  std::snprintf(text, sizeof text, "a leg of %.0f mm is sure to %.1f m; at %.1f m/s the vehicle needs %.1f m",
+                kLegM * 1000.0, config.sure_range_m, speed_mps, needs_m);
+  if (needs_m <= config.sure_range_m) return text;
+  char mend[120];
+  std::snprintf(mend, sizeof mend,
+                "set max_speed_mps to %.2f (no faster is driven), or mount a lidar with a finer step",
+                std::floor(100.0 * config.braking.speed_within(config.sure_range_m)) / 100.0);
+  throw Error("site.yaml", text, mend);
+}
+
 std::string look_at_disk(const fs::path& site) {
   const auto free = fs::space(site).available;
   if (free < kRoomForRecordings)
@@ -63,28 +81,37 @@ std::string look_at_disk(const fs::path& site) {
 }
 
 /// Listens for a moment: both devices speak by themselves.
-std::string look_at_devices(const SocketOptions& devices, const WheelGeometry& wheels) {
-  SocketLink link(devices, wheels);
-  CycleInput heard;
-  for (int i = 0; i < 30 && (heard.drive.empty() || heard.clouds.empty()); ++i) {
+std::string look_at_devices(const SocketOptions& devices, const SiteForDriving& loaded) {
+  SocketLink link(devices, loaded.config.odometry.wheels, loaded.site.sensors);
+  std::map<std::size_t, std::size_t> points;  // of a sweep, by lidar
+  std::vector<control::wire::Status> drive;
+  const std::size_t lidars = loaded.config.lidars.size();
+  for (int i = 0; i < 30 && (drive.empty() || points.size() < lidars); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     CycleInput now;
     link.collect(now);
-    if (!now.drive.empty()) heard.drive = now.drive;
-    if (!now.clouds.empty()) heard.clouds = std::move(now.clouds);
+    if (!now.drive.empty()) drive = now.drive;
+    for (const auto& cloud : now.clouds) points[cloud.lidar] = cloud.points.size();
+    for (const auto& scan : now.scans) points[scan.lidar] = scan.ranges_m.size();
   }
-  if (heard.clouds.empty())
-    throw Error("the VLP-16 is silent",
-                "no revolution came on UDP " + std::to_string(devices.lidar_port) + " in 3 s",
-                "check its power, its cable, and that it sends to this computer");
-  if (heard.drive.empty())
+  std::string text;
+  const auto states = link.lidars();
+  for (std::size_t i = 0; i < lidars; ++i) {
+    const auto& row = sensors::lidar_of(states[i].sensor.type, states[i].sensor.name);
+    if (!points.contains(i))
+      throw Error("the " + row.title + " is silent",
+                  "no revolution came on " + states[i].place + " in 3 s" +
+                      (states[i].health.problem.empty() ? "" : " (" + states[i].health.problem + ")"),
+                  "check its power, its cable, and that it sends to this computer");
+    text += states[i].sensor.name + " (" + row.title + ") " + std::to_string(points[i]) +
+            " points a revolution, ";
+  }
+  if (drive.empty())
     throw Error("the drive is silent", "no status came on " + devices.drive_device + " in 3 s",
                 "check its power, its cable, and --drive");
-  const double battery_v = heard.drive.back().battery_mv / 1000.0;
-  char text[80];
-  std::snprintf(text, sizeof text, "%zu points a revolution, battery %.1f V",
-                heard.clouds.back().points.size(), battery_v);
-  return text;
+  char battery[40];
+  std::snprintf(battery, sizeof battery, "battery %.1f V", drive.back().battery_mv / 1000.0);
+  return text + battery;
 }
 
 void run(const DoctorArguments& arguments) {
@@ -96,6 +123,7 @@ void run(const DoctorArguments& arguments) {
     return loaded->site.name + ", " + std::to_string(loaded->walls.size()) + " walls";
   });
   if (loaded) checkup.check("routes", [&] { return look_at_routes(site, *loaded); });
+  if (loaded) checkup.check("sight", [&] { return look_at_sight(loaded->config); });
   checkup.check("orders", [&] {
     const OrderStore store(site / "madori.db");
     if (const auto verdict = store.integrity(); verdict != "ok")
@@ -104,8 +132,7 @@ void run(const DoctorArguments& arguments) {
   });
   checkup.check("disk", [&] { return look_at_disk(site); });
   if (loaded && !arguments.no_devices)
-    checkup.check("devices",
-                  [&] { return look_at_devices(arguments.devices, loaded->config.odometry.wheels); });
+    checkup.check("devices", [&] { return look_at_devices(arguments.devices, *loaded); });
   if (checkup.missing() > 0)
     throw Error(arguments.site, std::to_string(checkup.missing()) + " thing(s) missing",
                 "see the lines above");

@@ -136,7 +136,7 @@ void localize(const LocalizeArguments& arguments) {
   HealthLog health;
   std::vector<PoseEstimate> estimates;
   const PlayedLog played = play_log(
-      *log, localizer,
+      *log, log_lidar(site), localizer,
       [&](const PoseEstimate& e) {
         trajectory += tum_line(e.stamp, e.map_from_base);
         health.add(e);
@@ -193,7 +193,7 @@ void add_localize(CLI::App& app) {
   auto arguments = std::make_shared<LocalizeArguments>();
   CLI::App* command = app.add_subcommand("localize", "where the vehicle of a log was on the site's drawing");
   command->add_option("site", arguments->site, "site folder")->required()->check(CLI::ExistingDirectory);
-  command->add_option("--log", arguments->log, "CARMEN .log, ROS 1 .bag or VLP-16 .pcap")
+  command->add_option("--log", arguments->log, "CARMEN .log, ROS 1 .bag, or a 3D lidar's .pcap")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("--wheels", arguments->wheels, "time_s,left_rad,right_rad; for a .pcap")

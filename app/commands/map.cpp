@@ -33,7 +33,7 @@ void map_log(const MapArguments& arguments) {
   }
   localization::Localizer localizer({}, localization::InitialPose{});
   const auto log = sensors::open_log(arguments.log, log_options({}, arguments.wheels));
-  const PlayedLog played = play_log(*log, localizer, [](const PoseEstimate&) {});
+  const PlayedLog played = play_log(*log, log_lidar({}), localizer, [](const PoseEstimate&) {});
   const localization::Memory memory = localizer.finished_memory();
   const MappedSite mapped = map_site(localization::memory_cloud(memory), arguments.log);
   const std::string name =
@@ -60,7 +60,7 @@ void map_log(const MapArguments& arguments) {
 void add_map(CLI::App& app) {
   auto arguments = std::make_shared<MapArguments>();
   CLI::App* command = app.add_subcommand("map", "build a site from a log, where there is no drawing");
-  command->add_option("--log", arguments->log, "CARMEN .log, ROS 1 .bag or VLP-16 .pcap")
+  command->add_option("--log", arguments->log, "CARMEN .log, ROS 1 .bag, or a 3D lidar's .pcap")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("--wheels", arguments->wheels, "time_s,left_rad,right_rad; for a .pcap")

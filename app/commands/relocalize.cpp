@@ -53,11 +53,11 @@ loc::PlaceIndex place_index(const std::filesystem::path& site, const mapping::Wa
 }
 
 /// The points of a record that may be walls; nothing for odometry.
-std::optional<loc::ScanPoints> points_of(const sensors::LogRecord& record) {
+std::optional<loc::ScanPoints> points_of(const sensors::LogRecord& record, const LidarModel& lidar) {
   if (const auto* scan = std::get_if<sensors::ScanRecord>(&record))
     return loc::extract_walls(scan->scan, scan->base_from_lidar);
   if (const auto* cloud = std::get_if<sensors::CloudRecord>(&record))
-    return loc::extract_walls(sensors::cloud_in_base(*cloud));
+    return loc::extract_walls(sensors::cloud_in_base(*cloud), lidar);
   return std::nullopt;
 }
 
@@ -95,10 +95,11 @@ void relocalize(const RelocalizeArguments& arguments) {
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
   const loc::GlobalLocalizer global(walls, {}, place_index(folder, walls));
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
+  const LidarModel lidar = log_lidar(site);
   Tally tally;
   while (const auto record = log->next()) {
     const auto started = std::chrono::steady_clock::now();
-    const auto points = points_of(*record);
+    const auto points = points_of(*record, lidar);
     if (!points) continue;
     const loc::GlobalAnswer answer = global.locate(*points);
     tally.ms.push_back(

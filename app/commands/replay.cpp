@@ -23,7 +23,7 @@ struct ReplayArguments {
 void run(const ReplayArguments& arguments) {
   const auto loaded = load_for_driving(arguments.site);
   const auto result = replay(arguments.run, loaded.config,
-                             std::make_unique<LocalizerPose>(loaded.walls, loaded.config.lidar));
+                             std::make_unique<LocalizerPose>(loaded.walls, loaded.config.lidars));
   const double speed = result.worked_s > 0.0 ? result.recorded_s / result.worked_s : 0.0;
   if (arguments.json_file != "-")
     std::printf("%llu steps, %.1f s of driving, replayed %.1f x as fast; %llu commands differ\n",

@@ -8,13 +8,17 @@
 namespace madori::app {
 
 void add_device_options(CLI::App& command, SocketOptions& devices) {
-  command.add_option("--lidar", devices.lidar_address, "address to receive the VLP-16 on")
+  command.add_option("--lidar", devices.lidar_address, "address to receive the lidar on that sends by UDP")
       ->capture_default_str();
   command.add_option("--lidar-port", devices.lidar_port, "its UDP port")->capture_default_str();
   command.add_option("--position-port", devices.lidar_position_port, "UDP port of its position packets")
       ->capture_default_str();
   command.add_option("--drive", devices.drive_device, "serial port of the drive")->capture_default_str();
-  command.add_option("--scanner", devices.safety_scanner, "serial port of an S300 safety scanner");
+  command.add_option("--scanner", devices.safety_scanner, "serial port of the safety scanner");
+  command.add_option("--scanner-baud", devices.scanner_baud, "its baud rate (default: what the site says)");
+  command.add_option("--lms", devices.network_scanner, "HOST[:PORT] of the lidar that is called by TCP");
+  command.add_option("--sensor", devices.addresses,
+                     "NAME=ADDRESS: where a sensor of the site is found (HOST:PORT or serial port)");
 }
 
 void add_run(CLI::App& app) {

@@ -50,14 +50,16 @@ simulation::FactorySetup setup_of(const SimArguments& arguments) {
 }
 
 void print_devices(const simulation::Factory& factory, const simulation::DeviceHub& hub,
-                   const SimArguments& arguments, std::uint16_t truth_port) {
-  const auto has = [&](simulation::Device device) { return factory.mounting(device).has_value(); };
-  if (has(simulation::Device::Vlp16))
-    std::printf("vlp16  udp  %s:%u\n", arguments.hub.host.c_str(), arguments.hub.vlp16_port);
-  if (has(simulation::Device::Lms1xx))
-    std::printf("lms1xx tcp  %s:%u (CoLa %s)\n", arguments.hub.host.c_str(), hub.lms_port(),
-                arguments.hub.binary_lms ? "B" : "A");
-  if (has(simulation::Device::S300)) std::printf("s300   pty  %s\n", hub.s300_link().c_str());
+                   std::uint16_t truth_port) {
+  const auto addresses = hub.addresses();
+  for (std::size_t i = 0; i < addresses.size(); ++i) {
+    const auto& sensor = factory.sensors()[i];
+    const auto cola = sensor.settings.find("cola");
+    const std::string dialect = cola == sensor.settings.end() ? "" : " (CoLa " + cola->second + ")";
+    const char* link = sensor.type == "vlp16" ? "udp" : sensor.type == "s300" ? "pty" : "tcp";
+    if (!addresses[i].empty())
+      std::printf("%-6s %-4s %s%s\n", sensor.type.c_str(), link, addresses[i].c_str(), dialect.c_str());
+  }
   std::printf("drive  pty  %s\n", hub.drive_link().c_str());
   std::printf("truth  ws   ws://127.0.0.1:%u\n", truth_port);
   std::fflush(stdout);
@@ -101,9 +103,9 @@ void simulate(SimArguments arguments) {
       arguments.devices.empty() ? fs::path(arguments.site) / "devices" : fs::path(arguments.devices);
   fs::create_directories(folder);
   arguments.hub.folder = folder;
-  arguments.hub.binary_lms = setup.scenario.lms1xx.binary;
   if (arguments.live.duration_s <= 0.0) arguments.live.duration_s = setup.scenario.duration_s;
   simulation::Factory factory(setup);
+  arguments.hub.sensors = factory.sensors();
   simulation::DeviceHub hub(arguments.hub);
   simulation::TruthServer truth(arguments.truth_port);
   std::ofstream tum;
@@ -116,7 +118,7 @@ void simulate(SimArguments arguments) {
   if (arguments.camera_port)
     camera.emplace(*arguments.camera_port, [&factory] { return to_jpeg(simulation::take_picture(factory)); });
   if (camera) std::printf("camera http %s\n", camera->url().c_str());
-  print_devices(factory, hub, arguments, truth.port());
+  print_devices(factory, hub, truth.port());
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   const auto report =

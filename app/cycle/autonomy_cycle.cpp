@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -58,7 +59,8 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   const bool may_move = (drives(state.mode) || state.mode == Mode::Manual) && !state.protective_stop &&
                         !state.gap && !is_silent(state.drive_heard, input.now, config.drive_silent_s);
   const double free_m =
-      drives(state.mode) ? state.way.stop_along_m - state.way.along_m : planning::PathCheck::kFree;
+      std::min(config.sure_range_m,
+               drives(state.mode) ? state.way.stop_along_m - state.way.along_m : planning::PathCheck::kFree);
   const auto limited = control::limit(state.limits,
                                       {.requested = wanted,
                                        .may_move = may_move,

@@ -250,6 +250,8 @@ std::vector<Point2<Map>> obstacle_points(const CycleState& state) {
 void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   Navigation& way = state.way;
   for (const auto& command : input.commands)
+    if (command.word == OperatorWord::GoOn) allow_door(state);
+  for (const auto& command : input.commands)
     if (command.word == OperatorWord::ForgetObstacles ||
         (command.word == OperatorWord::Resume && state.mode == Mode::Waiting)) {
       way.felt = false;
@@ -262,6 +264,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
     check_behind(state, input.now, config);
   else
     check_ahead(state, obstacles, input.now, config);
+  stop_before_doors(state, config);
   note_held(state, obstacles, input.now, config);
   if (way.backing && way.held) {
     way.backing_held = true;

@@ -16,6 +16,8 @@
 #include "control/drive_link/wire.hpp"
 #include "control/limits/limits.hpp"
 #include "control/pure_pursuit/pure_pursuit.hpp"
+#include "core/laser_scan.hpp"
+#include "core/lidar_model.hpp"
 #include "planning/detour/detour_planner.hpp"
 #include "planning/obstacle_check/motion_guard.hpp"
 #include "planning/obstacle_check/moving_objects.hpp"
@@ -37,11 +39,12 @@ struct CycleConfig {
   planning::CheckOptions check;
   planning::BrakingModel braking;
   planning::GuardOptions guard;
+  double sure_range_m =
+      planning::PathCheck::kFree;  ///< within which a standing body is sure to be seen ahead
   planning::FieldOptions field;
   planning::MoverOptions movers;
   planning::WaypointOptions waypoints;
-  planning::SensorView lidar;  ///< where the 3D lidar sits, and what it sees
-  double lidar_yaw_rad = 0.0;  ///< Base from Lidar
+  std::vector<LidarModel> lidars;  ///< clouds and scans name theirs by its place here
   planning::RouteMetric metric = planning::RouteMetric::Metres;
   double look_ahead_m = 7.0;           ///< of the path, checked for obstacles
   double care_speed_mps = 0.4;         ///< beside something near
@@ -102,7 +105,8 @@ struct CycleInput {
   Stamp now{};
   std::vector<control::wire::Status> drive;
   std::vector<PointCloud<Lidar>> clouds;    ///< whole revolutions
-  std::vector<std::int64_t> firings_us;     ///< the lidar's own time of each one's begin, for recordings
+  std::vector<LaserScan> scans;             ///< of planar lidars
+  std::vector<std::int64_t> firings_us;     ///< the lidar's own time of each cloud's begin, for recordings
   std::vector<sensors::RawPacket> packets;  ///< what they were assembled from, for recordings
   bool protective_stop = false;             ///< a certified scanner's protective field is interrupted
   std::vector<OperatorCommand> commands;
@@ -175,13 +179,15 @@ struct Navigation {
   bool turn_free = true;
   bool held = false;  ///< driving on leads into something beside the path
   std::optional<Stamp> held_since;
-  bool backing = false;       ///< the path is the way that the vehicle came, driven backward
-  bool backing_held = false;  ///< the way that it came led into something: it curves
-  int back_outs = 0;          ///< on this route
-  bool felt = false;          ///< something that was not seen has held the vehicle
-  planning::Squeeze squeeze;  ///< until it is out of where it stands too near to something
-  bool by_mover = false;      ///< what blocks is on its way across
-  bool unseen = false;        ///< what blocks is remembered from before it came too near for the lidar
+  bool backing = false;        ///< the path is the way that the vehicle came, driven backward
+  bool backing_held = false;   ///< the way that it came led into something: it curves
+  int back_outs = 0;           ///< on this route
+  bool felt = false;           ///< something that was not seen has held the vehicle
+  planning::Squeeze squeeze;   ///< until it is out of where it stands too near to something
+  bool height_unseen = false;  ///< ahead is a door or lift of which no lidar sees how high it is open
+  std::vector<std::size_t> doors_allowed;  ///< nodes that an operator has looked at
+  bool by_mover = false;                   ///< what blocks is on its way across
+  bool unseen = false;  ///< what blocks is remembered from before it came too near for the lidar
   std::vector<Stirring> stirring;
   std::optional<Stamp> blocked_since;
   std::optional<Stamp> free_since;
@@ -208,8 +214,10 @@ struct CycleState {
   control::wire::Status drive;
   std::optional<Stamp> drive_heard;
   sensors::DeviceClock drive_clock;
-  std::int64_t drive_us = 0;  ///< the controller's clock, unwrapped
-  std::optional<Stamp> lidar_heard;
+  std::int64_t drive_us = 0;                       ///< the controller's clock, unwrapped
+  std::vector<std::optional<Stamp>> lidars_heard;  ///< each
+  std::optional<Stamp> lidar_heard;                ///< since when something that driving needs is missing
+  Stamp looked{};                                  ///< of the newest sweep that the way was checked with
   std::optional<Stamp> previous;
   std::optional<Stamp> gap;  ///< the first step after a time without steps, until something was measured anew
   bool protective_stop = false;

@@ -43,15 +43,23 @@ Transform2<Odom, Base> odometry_at(const std::deque<OdometryReading>& track, Sta
          Transform2<Base, Base>(share * step.x_m(), share * step.y_m(), share * step.yaw_rad());
 }
 
+/// Whether a return is of the vehicle itself: a level lidar that looks along its sides may see them.
+bool is_own(const Point2<Base>& at, const planning::VehicleOutline& v) {
+  return at.x_m < v.front_m && at.x_m > -v.rear_m && std::abs(at.y_m) < v.half_width_m;
+}
+
 /// A revolution in the Base frame of its last firing: each point is moved by what the vehicle did since its
 /// own.
 PointCloud<Base> in_base(const PointCloud<Lidar>& cloud, const std::deque<OdometryReading>& track,
                          const CycleConfig& config) {
   PointCloud<Base> result;
+  result.lidar = cloud.lidar;
+  const LidarModel& lidar = config.lidars[cloud.lidar];
+  const bool planar = lidar.kind == LidarKind::Planar;
   const float last_s = cloud.points.empty() ? 0.0F : cloud.points.back().time_offset_s;
   result.stamp = cloud.stamp + duration_from_seconds(static_cast<double>(last_s));
   result.points.reserve(cloud.points.size());
-  const Transform2<Base, Lidar> base_from_lidar(config.lidar.x_m, config.lidar.y_m, config.lidar_yaw_rad);
+  const Transform2<Base, Lidar> base_from_lidar = lidar.mounting.base_from_lidar();
   const auto end_from_odom =
       track.empty() ? Transform2<Base, Odom>() : odometry_at(track, result.stamp).inverse();
   // Points of one firing share their time; a motion is worked out once for each.
@@ -64,10 +72,11 @@ PointCloud<Base> in_base(const PointCloud<Lidar>& cloud, const std::deque<Odomet
       moved = end_from_odom * odometry_at(track, moment) * base_from_lidar;
     }
     const Point2<Base> at = moved * Point2<Lidar>{static_cast<double>(p.x_m), static_cast<double>(p.y_m)};
+    if (planar && is_own(at, config.check.vehicle)) continue;
     CloudPoint q = p;
     q.x_m = static_cast<float>(at.x_m);
     q.y_m = static_cast<float>(at.y_m);
-    q.z_m = p.z_m + static_cast<float>(config.lidar.z_m);
+    q.z_m = p.z_m + static_cast<float>(lidar.mounting.z_m);
     q.time_offset_s = 0.0F;
     result.points.push_back(q);
   }
@@ -109,6 +118,44 @@ void follow_drawing(CycleState& state, const CycleConfig& config) {
   state.site = std::move(site);
 }
 
+/// A scan as points in the lidar's plane.
+PointCloud<Lidar> cloud_of(const LaserScan& scan) {
+  PointCloud<Lidar> cloud{scan.stamp, {}, scan.lidar};
+  cloud.points.reserve(scan.ranges_m.size());
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const float range_m = scan.ranges_m[i];
+    if (!(range_m > 0.0F && static_cast<double>(range_m) < scan.range_max_m)) continue;
+    const double angle = scan.angle_rad(i);
+    const double after_s = to_seconds(scan.beam_period) * static_cast<double>(i);
+    cloud.points.push_back({range_m * static_cast<float>(std::cos(angle)),
+                            range_m * static_cast<float>(std::sin(angle)), 0.0F, static_cast<float>(after_s),
+                            0, 0});
+  }
+  return cloud;
+}
+
+/// One sweep to everybody who looks. A lidar that is faster than the way need be checked tells the obstacles
+/// of every sweep, and the movers, whose speeds want time between two looks, of some.
+void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleInput& input,
+                const CycleConfig& config, CycleOutput& output) {
+  constexpr double kLookAgainS = 0.08;
+  if (cloud.lidar >= config.lidars.size() || is_too_old(cloud, state.track)) return;
+  const PointCloud<Base> base = in_base(cloud, state.track, config);
+  state.lidars_heard.resize(config.lidars.size());
+  state.lidars_heard[cloud.lidar] = input.now;
+  if (ends_gap(state, base.stamp, input.now, config)) state.gap.reset();
+  const auto odom_from_base =
+      state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);
+  state.localization->on_cloud(base, odom_from_base);
+  state.pose = state.localization->on_odometry(state.odometry.reading());
+  state.obstacles.update(base, planning::SensorView::of(config.lidars[cloud.lidar]), odom_from_base);
+  const double since_s = to_seconds(base.stamp - state.looked);
+  if (since_s >= 0.0 && since_s < kLookAgainS) return;
+  state.looked = base.stamp;
+  output.computed_lidar = true;
+  state.movers.update(state.obstacles.columns(), base.stamp);
+}
+
 }  // namespace
 
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
@@ -132,19 +179,9 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     if (command.word == OperatorWord::SetPose) take_given_pose(state, command.given_pose);
     if (command.word == OperatorWord::SearchPose) state.localization->search_anew();
   }
-  for (const auto& cloud : input.clouds) {
-    if (is_too_old(cloud, state.track)) continue;
-    const PointCloud<Base> base = in_base(cloud, state.track, config);
-    state.lidar_heard = input.now;
-    if (ends_gap(state, base.stamp, input.now, config)) state.gap.reset();
-    output.computed_lidar = true;
-    const auto odom_from_base =
-        state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);
-    state.localization->on_cloud(base, odom_from_base);
-    state.pose = state.localization->on_odometry(state.odometry.reading());
-    state.obstacles.update(base, config.lidar, odom_from_base);
-    state.movers.update(state.obstacles.columns(), base.stamp);
-  }
+  for (const auto& cloud : input.clouds) take_sweep(state, cloud, input, config, output);
+  for (const auto& scan : input.scans) take_sweep(state, cloud_of(scan), input, config, output);
+  state.lidar_heard = heard_all(state, config);
   follow_drawing(state, config);
 }
 

@@ -52,6 +52,7 @@ enum class Cause : std::uint8_t {
   TimeGap,
   Stopped,
   StoppedOrder,
+  HeightUnseen,
 };
 
 /// What a person can do about it.
@@ -77,6 +78,7 @@ enum class Remedy : std::uint8_t {
   OnceClear,
   ClearWay,
   LookAndResume,
+  LookAndGoOn,
 };
 
 inline constexpr std::array kCauses{
@@ -110,6 +112,7 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"time-gap", "the program stood still, or the computer's clock jumped"},
     CatalogueEntry{"stopped", "stopped at a panel"},
     CatalogueEntry{"stopped-order", "stopped at a panel; order {order} was cancelled"},
+    CatalogueEntry{"height-unseen", "no lidar sees whether the door or lift ahead is open high enough"},
 };
 
 inline constexpr std::array kRemedies{
@@ -134,6 +137,7 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"once-clear", "it goes on by itself once clear"},
     CatalogueEntry{"clear-way", "clear the way: {reason}"},
     CatalogueEntry{"look-and-resume", "look, clear the way, then press Resume"},
+    CatalogueEntry{"look-and-go-on", "look whether it is open, then press Go on"},
 };
 
 /// An event of the cycle, not the cause of a standstill.

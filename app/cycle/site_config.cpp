@@ -1,23 +1,23 @@
 #include "app/cycle/site_config.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "core/angle.hpp"
-#include "core/result.hpp"
+#include "app/lidars.hpp"
 #include "planning/route_graph/route_csv.hpp"
 
 namespace madori::app {
 namespace {
 
-constexpr double kVlp16ElevationRad = to_rad(15.0);
-
-const mapping::SensorRecord& vlp16_of(const mapping::Site& site, const std::filesystem::path& folder) {
-  const auto found = std::find_if(site.sensors.begin(), site.sensors.end(),
-                                  [](const auto& sensor) { return sensor.type == "vlp16"; });
-  if (found == site.sensors.end())
-    throw Error((folder / "site.yaml").string(), "names no VLP-16, which the vehicle needs to drive",
-                "add it below sensors: with its place on the vehicle");
-  return *found;
+/// The slowest lidar rules how long nothing may be heard, and how late something is seen.
+void take_lidars(std::vector<LidarModel> lidars, CycleConfig& config) {
+  constexpr double kPatienceSweeps = 2.5;
+  for (const LidarModel& lidar : lidars) {
+    config.lidar_silent_s = std::max(config.lidar_silent_s, kPatienceSweeps * lidar.period_s);
+    config.braking.scan_period_s = std::max(config.braking.scan_period_s, lidar.period_s);
+  }
+  config.sure_range_m = sure_ahead_m(lidars, config.check.vehicle.front_m);
+  config.lidars = std::move(lidars);
 }
 
 void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
@@ -43,9 +43,7 @@ SiteForDriving load_for_driving(const std::filesystem::path& folder) {
   CycleConfig& config = loaded.config;
   config.routes = planning::load_routes(folder / "routes");
   take_vehicle(loaded.site.vehicle, config);
-  const auto& lidar = vlp16_of(loaded.site, folder);
-  config.lidar = {lidar.x_m, lidar.y_m, lidar.z_m, -kVlp16ElevationRad, kVlp16ElevationRad};
-  config.lidar_yaw_rad = to_rad(lidar.yaw_deg);
+  take_lidars(lidars_of(loaded.site, folder), config);
   for (const auto& sensor : loaded.site.sensors)
     config.check.protective_m = std::max(config.check.protective_m, sensor.protective_m);
   std::vector<Segment2<Map>> segments;

@@ -16,7 +16,7 @@ struct SiteForDriving {
 };
 
 /// Loads a scaled site with its routes; throws Error with the mend where something is missing or faulty: no
-/// scale, no routes, no VLP-16 among the sensors.
+/// scale, no routes, no lidar that can be driven by.
 [[nodiscard]] SiteForDriving load_for_driving(const std::filesystem::path& folder);
 
 }  // namespace madori::app

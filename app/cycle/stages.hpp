@@ -21,6 +21,12 @@ void end_back_out(CycleState& state);
 void take_path(Navigation& way, Path path, const CycleConfig& config);
 /// The path ahead against what the scan and the drawing show; asks for a way around.
 void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// Without a lidar that sees heights the vehicle stands before each door and lift until an operator, who has
+/// looked, says Go on.
+void stop_before_doors(CycleState& state, const CycleConfig& config);
+/// The operator's word for the one before which it stands.
+void allow_door(CycleState& state);
+[[nodiscard]] bool sees_heights(const CycleConfig& config);
 /// Events of all kinds move the mode.
 void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// What the vehicle would do, were there no limits.
@@ -40,6 +46,11 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
 
 /// Confirmed columns around the vehicle, Map frame: their corners.
 [[nodiscard]] std::vector<Point2<Map>> obstacle_points(const CycleState& state);
+/// When all that driving needs of the lidars had last been heard: the way ahead in somebody's field of view,
+/// and a lidar by which the vehicle knows its place. Nothing before that.
+[[nodiscard]] std::optional<Stamp> heard_all(const CycleState& state, const CycleConfig& config);
+/// The lidars that tell where the vehicle is: those that see walls over the equipment, else all of them.
+[[nodiscard]] std::vector<std::size_t> place_lidars(const std::vector<LidarModel>& lidars);
 /// Whether nobody has heard of a device for too long.
 [[nodiscard]] bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s);
 [[nodiscard]] bool may_drive(LocalizationState state);

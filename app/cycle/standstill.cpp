@@ -72,6 +72,7 @@ Standstill why_waiting(const CycleState& state, const CycleInput& input, const C
   if (way.arrived) return why_at_stop(way.stop, now);
   if (!way.no_way.empty()) return {way.no_way, notice(Remedy::ClearOrDraw), now};
   if (way.felt) return because(Cause::HeldBack, Remedy::LookAndResume, now);
+  if (way.height_unseen) return because(Cause::HeightUnseen, Remedy::LookAndGoOn, now);
   if (!way.turn_free) return because(Cause::NoRoomToTurn, Remedy::ClearAround, now);
   if (waits_for_door(state, config)) return because(Cause::DoorNotOpen, Remedy::OnceOpen, now);
   if (way.check.blocked() && way.check.by_wall) return because(Cause::WallInTheWay, Remedy::MoveRoute, now);

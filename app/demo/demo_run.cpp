@@ -112,10 +112,14 @@ DemoResult run_demo(const DemoOptions& options) {
   auto loaded = load_for_driving(options.site);
   const fs::path devices = options.site / "devices";
   fs::create_directories(devices);
-  auto link = std::make_unique<SocketLink>(SocketOptions{"127.0.0.1", 0, 0, (devices / "drive").string(), ""},
-                                           loaded.config.odometry.wheels);
-  auto source = std::make_unique<LocalizerPose>(loaded.walls, loaded.config.lidar);
-  LiveFactory factory(setup_of(options), link->lidar_port(), devices);
+  LiveFactory factory(setup_of(options), devices);
+  SocketOptions sockets;
+  sockets.lidar_address = "127.0.0.1";
+  sockets.lidar_port = sockets.lidar_position_port = 0;
+  sockets.drive_device = (devices / "drive").string();
+  auto link = std::make_unique<SocketLink>(sockets, loaded.config.odometry.wheels, factory.served());
+  factory.send_to(link->lidar_port());
+  auto source = std::make_unique<LocalizerPose>(loaded.walls, loaded.config.lidars);
   TransportRun run(loaded.config, std::move(source), std::move(link),
                    {.site = options.site, .store_poll_s = 0.1});
   for (const Order& order : run.orders().list(true))

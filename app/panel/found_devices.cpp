@@ -15,6 +15,14 @@ bool is_heard(const std::vector<hmi::DeviceStatus>& live, const std::string& typ
   return std::ranges::any_of(live, [&](const auto& d) { return d.type == type && d.healthy; });
 }
 
+/// As people say it: a UDP port is this computer's own.
+std::string place_of(const mapping::SensorRecord& sensor) {
+  const auto* row = sensors::find_lidar(sensor.type);
+  if (row == nullptr) return sensor.address;
+  const std::string& place = sensor.address.empty() ? row->address : sensor.address;
+  return row->link == sensors::LidarLink::Udp ? "UDP " + place.substr(place.rfind(':') + 1) : place;
+}
+
 hmi::Notice heard_or_silent(bool heard) {
   return heard ? hmi::Notice{"heard", {}, "heard"} : hmi::Notice{"silent", {}, "nothing is heard from it"};
 }
@@ -37,14 +45,21 @@ std::vector<std::string> serial_ports() {
 }  // namespace
 
 std::vector<hmi::FoundDevice> found_devices(const SocketOptions& options,
+                                            const std::vector<mapping::SensorRecord>& sensors,
                                             const std::vector<hmi::DeviceStatus>& live) {
-  const bool lidar = is_heard(live, "vlp16");
   const bool drive = is_heard(live, "drive");
-  std::vector<hmi::FoundDevice> found{
-      {"vlp16", "UDP " + std::to_string(options.lidar_port), lidar, heard_or_silent(lidar), kReferenceLidar},
-      {"drive", options.drive_device, drive, heard_or_silent(drive), std::nullopt}};
+  std::vector<hmi::FoundDevice> found;
+  const auto site = sensors.empty() ? std::vector{reference_lidar()} : sensors;
+  for (const auto& sensor : addressed(site, options)) {
+    const bool heard = is_heard(live, sensor.type);
+    mapping::SensorRecord proposal = sensor;
+    proposal.address.clear();
+    proposal.settings.clear();
+    found.push_back({sensor.type, place_of(sensor), heard, heard_or_silent(heard), proposal});
+  }
+  found.push_back({"drive", options.drive_device, drive, heard_or_silent(drive), std::nullopt});
   for (const auto& port : serial_ports())
-    if (port != options.drive_device && port != options.safety_scanner)
+    if (std::ranges::none_of(found, [&](const auto& device) { return device.address == port; }))
       found.push_back({"drive",
                        port,
                        false,

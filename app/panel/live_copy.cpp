@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <unordered_set>
 
+#include "app/lidars.hpp"
 #include "app/panel/notices.hpp"
 #include "app/panel/reference_lidar.hpp"
 #include "app/route_tools.hpp"
@@ -26,8 +27,8 @@ void forget_old(std::deque<Stamp>& stamps, Stamp now) {
   while (!stamps.empty() && to_seconds(now - stamps.front()) > 1.0) stamps.pop_front();
 }
 
-hmi::DeviceStatus device(const char* name, const char* type, const std::optional<Stamp>& heard, Stamp now,
-                         std::size_t rate) {
+hmi::DeviceStatus device(const std::string& name, const std::string& type, const std::optional<Stamp>& heard,
+                         Stamp now, std::size_t rate) {
   const double age_s = heard ? to_seconds(now - *heard) : 1e6;
   hmi::DeviceStatus status{name, type, age_s < kSilent_s, std::min(age_s, 1e6), static_cast<double>(rate),
                            {}};
@@ -39,11 +40,34 @@ bool is_fresh(const std::optional<Stamp>& heard, Stamp now) {
   return heard && to_seconds(now - *heard) < kSilent_s;
 }
 
-std::uint64_t cell_of(const Point2<Lidar>& at) {
+std::uint64_t cell_of(const Point2<Base>& at) {
   const auto half = [](double value) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::lround(value / kScanCell_m)));
   };
   return half(at.x_m) << 32U | half(at.y_m);
+}
+
+/// The returns above the floor.
+std::vector<Point2<Base>> points_of(const PointCloud<Lidar>& cloud, const LidarModel& lidar) {
+  const auto base_from_lidar = lidar.mounting.base_from_lidar();
+  std::vector<Point2<Base>> points;
+  for (const CloudPoint& point : cloud.points)
+    if (static_cast<double>(point.z_m) + lidar.mounting.z_m > kFloor_m)
+      points.push_back(base_from_lidar *
+                       Point2<Lidar>{static_cast<double>(point.x_m), static_cast<double>(point.y_m)});
+  return points;
+}
+
+std::vector<Point2<Base>> points_of(const LaserScan& scan, const LidarModel& lidar) {
+  const auto base_from_lidar = lidar.mounting.base_from_lidar();
+  std::vector<Point2<Base>> points;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double range_m = scan.ranges_m[i], angle_rad = scan.angle_rad(i);
+    if (range_m > 0.0 && range_m < scan.range_max_m)
+      points.push_back(base_from_lidar *
+                       Point2<Lidar>{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)});
+  }
+  return points;
 }
 
 }  // namespace
@@ -55,9 +79,14 @@ bool LiveCopy::due(Stamp now) {
 }
 
 void LiveCopy::count_revolutions(const CycleInput& input) {
-  revolutions_.insert(revolutions_.end(), input.clouds.size(), input.now);
+  const auto count = [&](std::size_t lidar) {
+    revolutions_[lidar].push_back(input.now);
+    heard_[lidar] = input.now;
+  };
+  for (const auto& cloud : input.clouds) count(cloud.lidar);
+  for (const auto& scan : input.scans) count(scan.lidar);
   reports_.insert(reports_.end(), input.drive.size(), input.now);
-  forget_old(revolutions_, input.now);
+  for (auto& [lidar, stamps] : revolutions_) forget_old(stamps, input.now);
   forget_old(reports_, input.now);
 }
 
@@ -67,30 +96,39 @@ void LiveCopy::enter(const std::string& state, Stamp now) {
   live_.stamp = now;
 }
 
-/// The newest returns above the floor, one a cell, evenly chosen where these are still too many.
-void LiveCopy::take_scan(const CycleInput& input, const planning::SensorView& lidar, double yaw_rad,
+/// The newest returns above the floor of all lidars, one a cell, evenly chosen where these are still too
+/// many.
+void LiveCopy::take_scan(const CycleInput& input, const std::vector<LidarModel>& lidars,
                          const Transform2<Map, Base>& pose) {
-  if (input.clouds.empty() || to_seconds(input.now - scanned_) < kScanEvery_s) return;
+  if (input.clouds.empty() && input.scans.empty()) return;
+  if (to_seconds(input.now - scanned_) < kScanEvery_s) return;
   scanned_ = input.now;
-  const auto& points = input.clouds.back().points;
-  const Transform2<Base, Lidar> base_from_lidar(lidar.x_m, lidar.y_m, yaw_rad);
+  for (const auto& cloud : input.clouds)
+    if (cloud.lidar < lidars.size()) seen_[cloud.lidar] = {input.now, points_of(cloud, lidars[cloud.lidar])};
+  for (const auto& scan : input.scans)
+    if (scan.lidar < lidars.size()) seen_[scan.lidar] = {input.now, points_of(scan, lidars[scan.lidar])};
   std::vector<Point2<Base>> scan;
   std::unordered_set<std::uint64_t> taken;
-  for (const CloudPoint& point : points) {
-    if (static_cast<double>(point.z_m) + lidar.z_m <= kFloor_m) continue;
-    const Point2<Lidar> at{static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
-    if (taken.insert(cell_of(at)).second) scan.push_back(base_from_lidar * at);
-  }
+  for (const auto& [lidar, look] : seen_)
+    if (is_fresh(look.first, input.now))
+      for (const auto& at : look.second)
+        if (taken.insert(cell_of(at)).second) scan.push_back(at);
   const std::size_t shown = std::min(scan.size(), kMostScanPoints);
   for (std::size_t k = 0; k < shown; ++k) scan[k] = scan[k * scan.size() / shown];
   scan.resize(shown);
   live_.scan = std::make_shared<const std::string>(hmi::scan_frame(scan, pose));
 }
 
-void LiveCopy::take_devices(Stamp now, const std::optional<Stamp>& lidar, const std::optional<Stamp>& drive,
-                            const std::string& problem) {
-  live_.devices = {device("lidar", "vlp16", lidar, now, revolutions_.size()),
-                   device("drive", "drive", drive, now, reports_.size())};
+void LiveCopy::take_devices(Stamp now, const std::vector<LidarModel>& lidars,
+                            const std::optional<Stamp>& drive, const std::string& problem) {
+  live_.devices.clear();
+  for (std::size_t i = 0; i < lidars.size(); ++i) {
+    const auto heard = heard_.find(i);
+    live_.devices.push_back(device(lidars.size() == 1 ? "lidar" : lidars[i].name, lidars[i].type,
+                                   heard == heard_.end() ? std::nullopt : std::optional(heard->second), now,
+                                   revolutions_[i].size()));
+  }
+  live_.devices.push_back(device("drive", "drive", drive, now, reports_.size()));
   if (!problem.empty())
     live_.devices.push_back({"devices", "link", false, 0.0, std::nullopt, uncoded(problem)});
 }
@@ -99,8 +137,7 @@ void LiveCopy::show(const CycleInput& input, const CycleState& state, const Tran
   const std::scoped_lock lock(mutex_);
   mode_ = state.mode;
   count_revolutions(input);
-  take_scan(input, run.config().lidar, run.config().lidar_yaw_rad,
-            state.site->on_drawing(state.pose.map_from_base));
+  take_scan(input, run.config().lidars, state.site->on_drawing(state.pose.map_from_base));
   if (!due(input.now)) return;
   enter(to_string(state.mode), input.now);
   live_.drivable = true;
@@ -124,7 +161,7 @@ void LiveCopy::show(const CycleInput& input, const CycleState& state, const Tran
     live_.path.push_back(state.site->on_drawing(point.position));
   live_.blocked.clear();
   if (state.way.blocked_since) live_.blocked.push_back(state.site->on_drawing(state.way.check.where));
-  take_devices(input.now, state.lidar_heard, state.drive_heard, run.view().device_problem);
+  take_devices(input.now, run.config().lidars, state.drive_heard, run.view().device_problem);
   take_places(state, input.now);
 }
 
@@ -159,9 +196,8 @@ void LiveCopy::show_setup(const CycleInput& input, const std::string& problem) {
   const std::scoped_lock lock(mutex_);
   mode_ = Mode::Paused;
   count_revolutions(input);
-  const auto& mount = kReferenceLidar;
-  const planning::SensorView lidar{.x_m = mount.x_m, .y_m = mount.y_m, .z_m = mount.z_m};
-  take_scan(input, lidar, to_rad(mount.yaw_deg), {});
+  const std::vector<LidarModel> lidars{lidar_model(reference_lidar())};
+  take_scan(input, lidars, {});
   if (!due(input.now)) return;
   const auto odometer_m = live_.odometer_m;
   auto scan = live_.scan;
@@ -180,7 +216,7 @@ void LiveCopy::show_setup(const CycleInput& input, const std::string& problem) {
   const auto newest = [](const std::deque<Stamp>& stamps) {
     return stamps.empty() ? std::nullopt : std::optional(stamps.back());
   };
-  take_devices(input.now, newest(revolutions_), newest(reports_), problem);
+  take_devices(input.now, lidars, newest(reports_), problem);
   locate_ = {};
 }
 
@@ -206,7 +242,7 @@ Mode LiveCopy::mode() const {
 
 bool LiveCopy::hears_lidar() const {
   const std::scoped_lock lock(mutex_);
-  return !revolutions_.empty();
+  return std::ranges::any_of(revolutions_, [](const auto& lidar) { return !lidar.second.empty(); });
 }
 
 }  // namespace madori::app

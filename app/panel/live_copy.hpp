@@ -1,7 +1,10 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 #include "app/runner/transport_run.hpp"
 #include "hmi/server/vehicle.hpp"
@@ -28,9 +31,9 @@ class LiveCopy {
   [[nodiscard]] bool due(Stamp now);
   void count_revolutions(const CycleInput& input);
   void enter(const std::string& state, Stamp now);
-  void take_scan(const CycleInput& input, const planning::SensorView& lidar, double yaw_rad,
+  void take_scan(const CycleInput& input, const std::vector<LidarModel>& lidars,
                  const Transform2<Map, Base>& pose);
-  void take_devices(Stamp now, const std::optional<Stamp>& lidar, const std::optional<Stamp>& drive,
+  void take_devices(Stamp now, const std::vector<LidarModel>& lidars, const std::optional<Stamp>& drive,
                     const std::string& problem);
   void take_places(const CycleState& state, Stamp now);
 
@@ -41,8 +44,10 @@ class LiveCopy {
   Stamp shown_{};
   Stamp placed_{};
   Stamp scanned_{};
-  std::deque<Stamp> revolutions_;  ///< of the last second
-  std::deque<Stamp> reports_;      ///< of the drive, of the last second
+  std::map<std::size_t, std::deque<Stamp>> revolutions_;                     ///< by lidar, of the last second
+  std::map<std::size_t, Stamp> heard_;                                       ///< by lidar
+  std::map<std::size_t, std::pair<Stamp, std::vector<Point2<Base>>>> seen_;  ///< by lidar, the newest sweep
+  std::deque<Stamp> reports_;  ///< of the drive, of the last second
 };
 
 }  // namespace madori::app

@@ -152,7 +152,7 @@ hmi::Reply PanelVehicle::report(const std::string& text) {
 }
 
 std::vector<hmi::FoundDevice> PanelVehicle::found_devices() const {
-  return app::found_devices(devices_, copy_.live().devices);
+  return app::found_devices(devices_, run_.sensors(), copy_.live().devices);
 }
 
 std::vector<hmi::EventView> PanelVehicle::events(std::size_t newest) const {

@@ -1,10 +1,13 @@
 #pragma once
 
 #include "mapping/site/site.hpp"
+#include "sensors/lidar/registry.hpp"
 
 namespace madori::app {
 
-/// Where the reference vehicle carries its VLP-16: what the set-up proposes.
-inline const mapping::SensorRecord kReferenceLidar{"top", "vlp16", 0.3, 0.0, 1.2, 0.0};
+/// Where the reference vehicle carries the registry's first lidar: what the set-up proposes.
+inline mapping::SensorRecord reference_lidar() {
+  return {"top", sensors::lidar_rows().front().type, 0.3, 0.0, 1.2, 0.0};
+}
 
 }  // namespace madori::app

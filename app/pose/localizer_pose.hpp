@@ -1,12 +1,15 @@
 #pragma once
 
+#include <deque>
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "app/cycle/pose_source.hpp"
+#include "core/lidar_model.hpp"
 #include "localization/localizer/localizer.hpp"
 #include "localization/wall_extraction/wall_extraction.hpp"
 #include "mapping/wall_map/wall.hpp"
-#include "planning/obstacle_check/obstacle_field.hpp"
 
 namespace madori::app {
 
@@ -17,24 +20,17 @@ struct LocalizerPoseOptions {
   std::function<void(const localization::ScanPoints&, const PoseEstimate&)> onlooker;
 };
 
-/// The localizer as the cycle's pose source: revolutions become points on walls.
+/// The localizer as the cycle's pose source. A 3D lidar's revolutions become points on walls one by one.
+/// Without one, what all planar lidars saw in the last tenth of a second is one scan, merged in Base.
 class LocalizerPose final : public PoseSource {
  public:
-  LocalizerPose(const mapping::Walls& walls, const planning::SensorView& lidar,
-                const LocalizerPoseOptions& options = {})
-      : options_(options), lidar_{lidar.x_m, lidar.y_m}, localizer_(walls, std::nullopt, options.localizer) {
-    options_.walls.sensor_height_m = lidar.z_m;
-    options_.walls.max_elevation_rad = lidar.max_elevation_rad;
-  }
+  LocalizerPose(const mapping::Walls& walls, std::vector<LidarModel> lidars,
+                const LocalizerPoseOptions& options = {});
 
   PoseEstimate on_odometry(const OdometryReading& reading) override {
     return localizer_.on_odometry(reading);
   }
-  void on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& /*odom_from_base*/) override {
-    const auto points = localization::extract_walls(cloud, options_.walls);
-    const PoseEstimate pose = localizer_.on_scan(cloud.stamp, points, lidar_);
-    if (options_.onlooker) options_.onlooker(points, pose);
-  }
+  void on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base) override;
   void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) override {
     localizer_.set_pose(map_from_base, sigma);
   }
@@ -43,10 +39,25 @@ class LocalizerPose final : public PoseSource {
   [[nodiscard]] std::shared_ptr<const localization::BentDrawing> bent() const override {
     return localizer_.bent();
   }
+  /// From where the points on walls are seen: the lidar's place, the middle between several.
+  [[nodiscard]] static Point2<Base> eye(const std::vector<LidarModel>& lidars);
 
  private:
+  /// What one planar lidar saw last.
+  struct Look {
+    Stamp stamp{};
+    localization::ScanPoints points;  ///< Base frame at the stamp
+    Transform2<Odom, Base> odom_from_base;
+  };
+  void give(Stamp stamp, const localization::ScanPoints& points);
+  void give_merged(Stamp now, const Transform2<Odom, Base>& odom_from_base);
+
   LocalizerPoseOptions options_;
-  Point2<Base> lidar_;  ///< where it sits
+  std::vector<LidarModel> lidars_;
+  std::vector<bool> looks_;  ///< whether a lidar tells of the place
+  Point2<Base> eye_;
+  std::vector<std::optional<Look>> newest_;  ///< of each planar one
+  std::optional<Stamp> given_;
   localization::Localizer localizer_;
 };
 

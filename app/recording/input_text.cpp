@@ -100,9 +100,20 @@ json clouds_json(const CycleInput& input) {
   json clouds = json::array();
   for (std::size_t i = 0; i < input.clouds.size(); ++i) {
     clouds.push_back({input.clouds[i].stamp.time_since_epoch().count()});
-    if (has_packets(input)) clouds.back().push_back(input.firings_us[i]);
+    if (!has_packets(input) && input.clouds[i].lidar == 0) continue;
+    clouds.back().push_back(has_packets(input) ? json(input.firings_us[i]) : json());
+    if (input.clouds[i].lidar > 0) clouds.back().push_back(input.clouds[i].lidar);
   }
   return clouds;
+}
+
+/// All of a scan but its ranges, which stand in the bag: there an angle is a float.
+json scans_json(const CycleInput& input) {
+  json scans = json::array();
+  for (const LaserScan& scan : input.scans)
+    scans.push_back({scan.stamp.time_since_epoch().count(), scan.lidar, scan.beam_period.count(),
+                     bits(scan.angle_min_rad), bits(scan.angle_step_rad), bits(scan.range_max_m)});
+  return scans;
 }
 
 /// Sine and cosine are kept too: made again from the yaw they could differ in the last bit.
@@ -133,6 +144,7 @@ std::string input_text(const CycleInput& input, const PoseEstimate& pose) {
   json value{{"now", input.now.time_since_epoch().count()},
              {"clouds", clouds_json(input)},
              {"pose", pose_json(pose)}};
+  if (!input.scans.empty()) value["scans"] = scans_json(input);
   for (const auto& status : input.drive) value["drive"].push_back(status_json(status));
   if (input.protective_stop) value["protective_stop"] = true;
   for (const auto& command : input.commands) value["words"].push_back(word_json(command));
@@ -162,10 +174,31 @@ std::vector<RecordedCloud> clouds_of_text(const std::string& text) {
   try {
     std::vector<RecordedCloud> clouds;
     for (const json& cloud : value.at("clouds")) {
-      clouds.push_back({Stamp(Duration(cloud.at(0).get<std::int64_t>())), std::nullopt});
-      if (cloud.size() > 1) clouds.back().firing_us = cloud.at(1).get<std::int64_t>();
+      clouds.push_back({Stamp(Duration(cloud.at(0).get<std::int64_t>())), std::nullopt, 0});
+      if (cloud.size() > 1 && !cloud.at(1).is_null())
+        clouds.back().firing_us = cloud.at(1).get<std::int64_t>();
+      if (cloud.size() > 2) clouds.back().lidar = cloud.at(2).get<std::size_t>();
     }
     return clouds;
+  } catch (const json::exception& e) {
+    throw Error("recording", e.what(), "was it written by another Madori?");
+  }
+}
+
+std::vector<LaserScan> scans_of_text(const std::string& text) {
+  const json value = parsed(text);
+  try {
+    std::vector<LaserScan> scans;
+    for (const json& from : value.value("scans", json::array())) {
+      LaserScan& scan = scans.emplace_back();
+      scan.stamp = Stamp(Duration(from.at(0).get<std::int64_t>()));
+      scan.lidar = from.at(1).get<std::size_t>();
+      scan.beam_period = Duration(from.at(2).get<std::int64_t>());
+      scan.angle_min_rad = from_bits(from.at(3));
+      scan.angle_step_rad = from_bits(from.at(4));
+      scan.range_max_m = from_bits(from.at(5));
+    }
+    return scans;
   } catch (const json::exception& e) {
     throw Error("recording", e.what(), "was it written by another Madori?");
   }

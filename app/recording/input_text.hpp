@@ -14,6 +14,8 @@ namespace madori::app {
 /// One step's input without its revolutions, and the pose that localization gave in it, as a line of JSON;
 /// every number comes back to the last bit.
 [[nodiscard]] std::string input_text(const CycleInput& input, const PoseEstimate& pose = {});
+/// The scans of the step without their ranges, in the order of the bag's messages.
+[[nodiscard]] std::vector<LaserScan> scans_of_text(const std::string& text);
 /// That pose.
 [[nodiscard]] PoseEstimate pose_from_text(const std::string& text);
 /// The same back; `clouds` stays empty. Throws Error on what no recorder wrote.
@@ -22,6 +24,7 @@ namespace madori::app {
 struct RecordedCloud {
   Stamp stamp{};
   std::optional<std::int64_t> firing_us;  ///< the lidar's own time; absent where it is recorded as a cloud
+  std::size_t lidar = 0;
 };
 [[nodiscard]] std::vector<RecordedCloud> clouds_of_text(const std::string& text);
 

@@ -34,11 +34,16 @@ CycleInput without_clouds(const CycleInput& in) {
   input.now = in.now;
   input.drive = in.drive;
   input.packets = in.packets;
+  input.scans = in.scans;
   if (!has_packets(in)) input.clouds = in.clouds;
   return input;
 }
 
 }  // namespace
+
+std::string scan_topic(std::size_t lidar) {
+  return lidar == 0 ? kScanTopic : std::string(kScanTopic) + "/" + std::to_string(lidar);
+}
 
 Recorder::Recorder(fs::path folder, const RecorderOptions& options)
     : folder_(std::move(folder)), options_(options), thread_([this] { run(); }) {}
@@ -136,11 +141,13 @@ void Recorder::write_step(const Record& record) {
   if (!record.input.packets.empty()) bag_->write(kPacketTopic, record.input.packets, now);
   if (record.thinned) bag_->write(kThinTopic, *record.thinned);
   for (const auto& cloud : record.input.clouds) bag_->write(kCloudTopic, cloud);
+  for (const auto& scan : record.input.scans) bag_->write(scan_topic(scan.lidar), scan, now);
   if (!record.input.drive.empty()) bag_->write("/odom", record.odometry);
-  bag_->write("/pose", record.pose);
+  if (record.pose.stamp != Stamp{}) bag_->write("/pose", record.pose);  // before that there is none
   if (record.path) bag_->write("/path", *record.path, now);
   bag_->write(kInputTopic, record.text, now);
   bag_->write(kCommandTopic, command_text(record.output, now), now);
+  bag_->write(kTwistTopic, record.output.command, now);
   for (const std::string& event : record.output.events) bag_->write(kEventTopic, event, now);
   keep_ = keep_ || record.stop;
 }

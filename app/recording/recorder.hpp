@@ -27,10 +27,15 @@ inline constexpr const char* kEarlierTopic =
     "/velodyne_packets_before";  ///< of the bag before, to begin with
 inline constexpr const char* kThinTopic = "/velodyne_points_thin";
 inline constexpr const char* kCloudTopic = "/velodyne_points";
+inline constexpr const char* kScanTopic = "/scan";  ///< sensor_msgs/LaserScan; /scan/1 ... of further lidars
+inline constexpr const char* kTwistTopic = "/cmd_vel";  ///< geometry_msgs/Twist, what the drive was told
 inline constexpr const char* kInputTopic = "/madori/input";
 inline constexpr const char* kCommandTopic = "/madori/command";
 inline constexpr const char* kStateTopic = "/madori/state";  ///< at the beginning of a bag
 inline constexpr const char* kEventTopic = "/madori/event";
+
+/// Of the lidar at that place among the vehicle's.
+[[nodiscard]] std::string scan_topic(std::size_t lidar);
 
 struct RecorderOptions {
   double segment_s = 30.0;        ///< a new bag so often

@@ -11,9 +11,9 @@
 #include "app/recording/recorder.hpp"
 #include "app/recording/state_bytes.hpp"
 #include "core/result.hpp"
+#include "sensors/lidar/registry.hpp"
 #include "sensors/rosbag/bridge.hpp"
 #include "sensors/rosbag/cloud_fields.hpp"
-#include "sensors/vlp16/assembler.hpp"
 
 namespace madori::app {
 namespace {
@@ -38,6 +38,13 @@ int number_of(const fs::path& bag) {
   const bool digits =
       !stem.empty() && stem.size() < 9 && stem.find_first_not_of("0123456789") == std::string::npos;
   return digits ? std::stoi(stem) : -1;
+}
+
+std::vector<std::string> replayed_topics(const CycleConfig& config) {
+  std::vector<std::string> topics{kPacketTopic, kEarlierTopic, kCloudTopic,
+                                  kStateTopic,  kInputTopic,   kCommandTopic};
+  for (std::size_t i = 0; i < config.lidars.size(); ++i) topics.push_back(scan_topic(i));
+  return topics;
 }
 
 /// Gives the poses of a recording back.
@@ -65,8 +72,9 @@ class Player {
     finish();
     state_ = CycleState(config_, std::make_unique<RecordedPose>(pose_));
     clouds_.clear();
+    scans_.clear();
     revolutions_.clear();
-    assembler_ = assembler();
+    decoder_ = decoder();
     assembled_any_ = false;
     result_.recorded_poses = awaits_state_ = true;
   }
@@ -75,8 +83,13 @@ class Player {
     restore_state(state_, bytes, config_);
     awaits_state_ = false;
   }
+  void take_scan(const std::string& topic, const bridge::Scan& scan) {
+    for (std::size_t i = 0; i < config_.lidars.size(); ++i)
+      if (topic == scan_topic(i)) scans_[i].push_back(scan.ranges);
+  }
   void take_packets(const std::vector<bridge::Packet>& packets) {
-    for (const auto& packet : packets) assembler_.push(packet.bytes, Stamp(Duration(packet.received_ns)));
+    if (!decoder_) return;
+    for (const auto& packet : packets) decoder_->push(packet.bytes, Stamp(Duration(packet.received_ns)));
     assembled_any_ = assembled_any_ || !packets.empty();
   }
   /// The packets before the first bag's: the revolution that was under way when it began.
@@ -118,15 +131,31 @@ class Player {
   [[nodiscard]] const ReplayResult& result() const { return result_; }
 
  private:
-  sensors::vlp16::Assembler assembler() {
-    return sensors::vlp16::Assembler(
-        [this](sensors::vlp16::Frame& frame) { revolutions_.push_back(std::move(frame)); });
+  /// Of the lidar whose packets are recorded as they came; null where there is none.
+  std::unique_ptr<sensors::LidarDecoder> decoder() {
+    for (const LidarModel& lidar : config_.lidars) {
+      const auto* row = sensors::find_lidar(lidar.type);
+      if (row == nullptr || !row->keeps_bytes) continue;
+      sensors::LidarSettings settings;
+      settings.name = lidar.name;
+      settings.mounting = lidar.mounting;
+      return row->decoder(settings, [this](sensors::LidarSweep& s) { revolutions_.push_back(std::move(s)); });
+    }
+    return nullptr;
   }
   CycleInput next_input() {
     CycleInput input = input_from_text(input_);
     for (const RecordedCloud& recorded : clouds_of_text(input_)) {
       input.clouds.push_back(recorded.firing_us ? assembled(*recorded.firing_us) : cloud());
       input.clouds.back().stamp = recorded.stamp;
+      input.clouds.back().lidar = recorded.lidar;
+    }
+    for (LaserScan& scan : scans_of_text(input_)) {
+      auto& waiting = scans_[scan.lidar];
+      if (waiting.empty()) throw Error("recording", "misses a scan", "use another recording");
+      scan.ranges_m = std::move(waiting.front());
+      waiting.pop_front();
+      input.scans.push_back(std::move(scan));
     }
     return input;
   }
@@ -139,9 +168,10 @@ class Player {
   /// The revolution that began at this time of the lidar; those before it never reached the cycle.
   PointCloud<Lidar> assembled(std::int64_t firing_us) {
     while (!revolutions_.empty()) {
-      sensors::vlp16::Frame next = std::move(revolutions_.front());
+      sensors::LidarSweep next = std::move(revolutions_.front());
       revolutions_.pop_front();
-      if (next.first_firing_us == firing_us) return std::move(next.cloud);
+      auto* cloud = std::get_if<PointCloud<Lidar>>(&next.seen);
+      if (cloud != nullptr && next.device_us == firing_us) return std::move(*cloud);
     }
     throw Error("recording", "misses a revolution", "use another recording");
   }
@@ -149,8 +179,9 @@ class Player {
   const CycleConfig& config_;
   CycleState state_;
   std::deque<PointCloud<Lidar>> clouds_;
-  std::deque<sensors::vlp16::Frame> revolutions_;
-  sensors::vlp16::Assembler assembler_ = assembler();
+  std::map<std::size_t, std::deque<std::vector<float>>> scans_;  ///< ranges, by lidar
+  std::deque<sensors::LidarSweep> revolutions_;
+  std::unique_ptr<sensors::LidarDecoder> decoder_ = decoder();
   PoseEstimate pose_;  ///< of the step at hand, where poses are those of the recording
   bool awaits_state_ = false;
   bool assembled_any_ = false;
@@ -166,6 +197,7 @@ ReplayResult replay(const fs::path& run, const CycleConfig& config, std::unique_
   Player player(config, std::move(source));
   bridge::Input::Sinks sinks;
   sinks.cloud = [&](const std::string&, const bridge::Cloud& cloud) { player.take_cloud(cloud); };
+  sinks.scan = [&](const std::string& topic, const bridge::Scan& scan) { player.take_scan(topic, scan); };
   sinks.packets = [&](const std::string& topic, const std::vector<bridge::Packet>& packets) {
     if (topic == kPacketTopic) player.take_packets(packets);
     if (topic == kEarlierTopic) player.take_earlier(packets);
@@ -181,7 +213,7 @@ ReplayResult replay(const fs::path& run, const CycleConfig& config, std::unique_
     expected = number_of(bag) + 1;
     try {
       bridge::Input input(bag.string());
-      input.choose({kPacketTopic, kEarlierTopic, kCloudTopic, kStateTopic, kInputTopic, kCommandTopic});
+      input.choose(replayed_topics(config));
       while (input.next(sinks)) {
       }
     } catch (const Error& e) {

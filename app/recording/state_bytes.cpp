@@ -10,7 +10,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 6;
+constexpr std::uint32_t kFormat = 7;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -86,7 +86,8 @@ void each_of_way(Bytes& bytes, Way& w) {
   bytes(w.held), bytes(w.held_since), bytes(w.felt);
   bytes(w.backing), bytes(w.backing_held), bytes(w.back_outs);
   bytes(w.squeeze.share), bytes(w.squeeze.wall_slack_m), bytes(w.by_mover), bytes(w.unseen),
-      bytes(w.stirring), bytes(w.blocked_since), bytes(w.free_since), bytes(w.asked_detour);
+      bytes(w.height_unseen), bytes(w.doors_allowed), bytes(w.stirring), bytes(w.blocked_since),
+      bytes(w.free_since), bytes(w.asked_detour);
   bytes(w.detour_id), bytes(w.detour_pending), bytes(w.detour_failed), bytes(w.blocked_legs);
 }
 
@@ -98,7 +99,7 @@ void each_of_sight(Bytes& bytes, Sight& s) {
 template <class Bytes, class State>
 void each_of(Bytes& bytes, State& s) {
   bytes(s.mode), bytes(s.odometry), bytes(s.track), bytes(s.drive), bytes(s.drive_heard),
-      bytes(s.drive_clock), bytes(s.drive_us), bytes(s.lidar_heard);
+      bytes(s.drive_clock), bytes(s.drive_us), bytes(s.lidars_heard), bytes(s.lidar_heard), bytes(s.looked);
   bytes(s.previous), bytes(s.gap), bytes(s.protective_stop), bytes(s.jog), bytes(s.jog_heard),
       bytes(s.limits);
   bytes(s.unarmed_steps), bytes(s.effort), bytes(s.trail), bytes(s.trail_at);

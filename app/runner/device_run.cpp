@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/iso_time.hpp"
+#include "app/lidars.hpp"
 #include "app/panel/panel.hpp"
 #include "app/recording/recorder.hpp"
 #include "app/runner/real_time.hpp"
@@ -25,6 +26,17 @@ std::string run_name() {
   std::string name = iso_time_utc();
   std::replace(name.begin(), name.end(), ':', '-');
   return name;
+}
+
+/// What the site lists so far; nothing before there is one.
+std::vector<mapping::SensorRecord> sensors_of(const std::filesystem::path& site) {
+  try {
+    const auto sensors = mapping::load_site(site).sensors;
+    for (const auto& sensor : sensors) (void)lidar_model(sensor);
+    return sensors;
+  } catch (const std::exception&) {  // what is wrong is told by who loads the site to drive
+    return {};
+  }
 }
 
 /// The recording of each run, and the panel that looks on.
@@ -68,12 +80,13 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
   const SiteLock lock(options.site);
   Onlookers onlookers(options);
   Panel* looking_on = nullptr;
-  auto link = std::make_unique<SocketLink>(options.devices, WheelGeometry{});
+  auto link = std::make_unique<SocketLink>(options.devices, WheelGeometry{}, sensors_of(options.site));
   SocketLink& devices = *link;
   SiteRun vehicle(options.site, std::move(link),
                   {.opened =
                        [&](TransportRun& run) {
                          devices.set_wheels(run.config().odometry.wheels);
+                         devices.set_sensors(sensors_of(options.site));
                          onlookers.begin(run, looking_on);
                        },
                    .closing = [&] { onlookers.end(); },

@@ -47,14 +47,14 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
   Loaded loaded;
   try {
     loaded.site = load_for_driving(site);
-    const auto& lidar = loaded.site->config.lidar;
-    loaded.watch = std::make_shared<WallWatch>(loaded.site->walls, Point2<Base>{lidar.x_m, lidar.y_m},
-                                               site / kReliabilityFile);
+    const auto& lidars = loaded.site->config.lidars;
+    loaded.watch =
+        std::make_shared<WallWatch>(loaded.site->walls, LocalizerPose::eye(lidars), site / kReliabilityFile);
     LocalizerPoseOptions options;
     options.onlooker = [watch = loaded.watch](const auto& points, const auto& pose) {
       (void)watch->see(points, pose);
     };
-    loaded.pose = std::make_unique<LocalizerPose>(loaded.site->walls, lidar, options);
+    loaded.pose = std::make_unique<LocalizerPose>(loaded.site->walls, lidars, options);
     loaded.last = load_stored_pose(site, mapping::walls_fingerprint(loaded.site->walls));
     if (!loaded.last.message.empty()) spdlog::info("{}", loaded.last.message);
     loaded.keeper = std::make_unique<SiteKeeper>(site, loaded.site->walls, loaded.watch);
@@ -73,6 +73,8 @@ void SiteRun::take(Loaded loaded) {
   keeper_ = std::move(loaded.keeper);
   recall_ = PoseRecall(std::move(loaded.last.pose));
   std::unique_ptr<TransportRun> next;
+  std::vector<mapping::SensorRecord> sensors;
+  if (loaded.missing.empty()) sensors = loaded.site->site.sensors;
   if (loaded.missing.empty()) try {
       next =
           std::make_unique<TransportRun>(std::move(loaded.site->config), std::move(loaded.pose),
@@ -88,6 +90,7 @@ void SiteRun::take(Loaded loaded) {
     const std::scoped_lock lock(mutex_);
     missing_ = loaded.missing;
     watch_ = std::move(loaded.watch);
+    sensors_ = std::move(sensors);
     std::swap(run_, next);
   }
 }
@@ -192,6 +195,11 @@ std::vector<SeenWall> SiteRun::walls_seen() const {
     watch = watch_;
   }
   return watch ? watch->seen() : std::vector<SeenWall>();
+}
+
+std::vector<mapping::SensorRecord> SiteRun::sensors() const {
+  const std::scoped_lock lock(mutex_);
+  return sensors_;
 }
 
 std::string SiteRun::missing() const {

@@ -62,6 +62,8 @@ class SiteRun {
   [[nodiscard]] std::vector<SeenWall> walls_seen() const;
   /// Why there is no run, as the site's loader says it; empty while there is one.
   [[nodiscard]] std::string missing() const;
+  /// The sensors of the site that is driven; empty before.
+  [[nodiscard]] std::vector<mapping::SensorRecord> sensors() const;
   [[nodiscard]] std::string device_problem() const { return link_->problem(); }
 
  private:
@@ -84,6 +86,7 @@ class SiteRun {
   std::future<Loaded> loading_;
   mutable std::mutex mutex_;  ///< of what follows; the ticks hold it only to exchange the run
   bool wanted_ = true;
+  std::vector<mapping::SensorRecord> sensors_;
   std::string missing_ = "the site is being loaded";
   std::shared_ptr<WallWatch> watch_;
   std::unique_ptr<TransportRun> run_;

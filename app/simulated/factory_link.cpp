@@ -1,41 +1,61 @@
 #include "app/simulated/factory_link.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "app/lidars.hpp"
 #include "control/diff_drive/kinematics.hpp"
 
 namespace madori::app {
 
 FactoryLink::FactoryLink(std::shared_ptr<simulation::Factory> factory, const WheelGeometry& wheels,
                          Duration step)
-    : factory_(std::move(factory)),
-      wheels_(wheels),
-      step_(step),
-      scanner_([this](const sensors::s300::Telegram& telegram) {
-        if (telegram.content == sensors::s300::Content::Distances)
-          field_interrupted_ = sensors::s300::fields_of(telegram).must_stop();
-      }),
-      assembler_([this](sensors::vlp16::Frame& frame) {
-        clouds_.push_back(std::move(frame.cloud));
-        firings_us_.push_back(frame.first_firing_us);
-      }) {}
+    : factory_(std::move(factory)), wheels_(wheels), step_(step) {
+  for (const auto& sensor : factory_->sensors()) {
+    const auto& row = sensors::lidar_of(sensor.type, "sensor " + sensor.name);
+    const std::size_t lidar = lidars_.size();
+    const auto unit = std::ranges::count(lidars_, sensor.type, &Decoding::type);
+    auto decoder = row.decoder(lidar_settings(sensor),
+                               [this, lidar](sensors::LidarSweep& sweep) { take_sweep(lidar, sweep); });
+    lidars_.push_back(
+        {sensor.type, static_cast<std::size_t>(unit), row.keeps_bytes, false, std::move(decoder)});
+  }
+}
+
+void FactoryLink::take_sweep(std::size_t lidar, sensors::LidarSweep& sweep) {
+  lidars_[lidar].stops = !sweep.stop.empty();
+  if (auto* scan = std::get_if<LaserScan>(&sweep.seen)) {
+    scan->lidar = lidar;
+    scans_.push_back(std::move(*scan));
+    return;
+  }
+  clouds_.push_back(std::move(std::get<PointCloud<Lidar>>(sweep.seen)));
+  clouds_.back().lidar = lidar;
+  firings_us_.push_back(sweep.device_us);
+}
 
 void FactoryLink::collect(CycleInput& input) {
   factory_->step(step_);
   for (const auto& packet : factory_->take_packets()) take(packet, input);
   input.clouds = std::exchange(clouds_, {});
-  input.protective_stop = field_interrupted_;
+  input.scans = std::exchange(scans_, {});
+  input.protective_stop = std::ranges::any_of(lidars_, &Decoding::stops);
   input.firings_us = std::exchange(firings_us_, {});
 }
 
+FactoryLink::Decoding* FactoryLink::decoding_of(const simulation::DevicePacket& packet) {
+  for (Decoding& lidar : lidars_)
+    if (lidar.type == simulation::to_string(packet.device) && lidar.unit == packet.unit) return &lidar;
+  return nullptr;
+}
+
 void FactoryLink::take(const simulation::DevicePacket& packet, CycleInput& input) {
-  if (packet.device == simulation::Device::Vlp16) {
-    assembler_.push(packet.bytes, packet.sent);
-    input.packets.push_back({packet.sent, packet.bytes});
+  if (Decoding* lidar = decoding_of(packet)) {
+    lidar->decoder->push(packet.bytes, packet.sent);
+    if (lidar->keeps_bytes) input.packets.push_back({packet.sent, packet.bytes});
   }
-  if (packet.device == simulation::Device::S300) scanner_.push(packet.bytes);
   if (packet.device != simulation::Device::Drive) return;
   for (const std::uint8_t byte : packet.bytes) {
     control::wire::Status status;

@@ -5,8 +5,7 @@
 
 #include "app/runner/vehicle_link.hpp"
 #include "control/drive_link/wire.hpp"
-#include "sensors/s300/telegram.hpp"
-#include "sensors/vlp16/assembler.hpp"
+#include "sensors/lidar/lidar.hpp"
 #include "simulation/factory.hpp"
 
 namespace madori::app {
@@ -22,16 +21,26 @@ class FactoryLink final : public VehicleLink {
   [[nodiscard]] std::string problem() const override { return ""; }
 
  private:
+  /// A lidar of the factory, in the site's order.
+  struct Decoding {
+    std::string type;
+    std::size_t unit = 0;  ///< among those of its type
+    bool keeps_bytes = false;
+    bool stops = false;  ///< by its newest sweep
+    std::unique_ptr<sensors::LidarDecoder> decoder;
+  };
+
   void take(const simulation::DevicePacket& packet, CycleInput& input);
+  void take_sweep(std::size_t lidar, sensors::LidarSweep& sweep);
+  [[nodiscard]] Decoding* decoding_of(const simulation::DevicePacket& packet);
 
   std::shared_ptr<simulation::Factory> factory_;
   WheelGeometry wheels_;
   Duration step_;
   std::vector<PointCloud<Lidar>> clouds_;
   std::vector<std::int64_t> firings_us_;
-  sensors::s300::Stream scanner_;
-  bool field_interrupted_ = false;
-  sensors::vlp16::Assembler assembler_;
+  std::vector<LaserScan> scans_;
+  std::vector<Decoding> lidars_;
   control::wire::FrameCutter cutter_;
   std::uint16_t sequence_ = 0;
 };

@@ -16,12 +16,16 @@ namespace madori::app {
 /// The virtual factory in real time on a thread of its own, its devices on real sockets.
 class LiveFactory {
  public:
-  /// The lidar sends to `lidar_port` of this machine; the drive's serial port is `folder`/drive.
-  LiveFactory(const simulation::FactorySetup& setup, std::uint16_t lidar_port,
-              const std::filesystem::path& folder);
+  /// Serial ports stand in `folder`, the drive's is `folder`/drive.
+  LiveFactory(const simulation::FactorySetup& setup, const std::filesystem::path& folder);
   ~LiveFactory();
   LiveFactory(const LiveFactory&) = delete;
   LiveFactory& operator=(const LiveFactory&) = delete;
+
+  /// The sensors of the setup with the addresses where they are served; a lidar that sends by UDP has none.
+  [[nodiscard]] std::vector<mapping::SensorRecord> served() const;
+  /// To which port of this machine a lidar sends that sends by UDP.
+  void send_to(std::uint16_t port) { hub_.set_udp_port(port); }
 
   /// Where the vehicle really is: for figures and pictures, never for driving.
   [[nodiscard]] simulation::GroundTruth truth() const;

@@ -69,8 +69,11 @@ std::vector<mapping::SensorRecord> sensors_from(const json& wire,
                        s.at("x_m").get<double>(), s.at("y_m").get<double>(), s.at("z_m").get<double>(),
                        s.at("yaw_deg").get<double>()});
     for (const auto& old : before)
-      if (old.name == sensors.back().name && old.type == sensors.back().type)
+      if (old.name == sensors.back().name && old.type == sensors.back().type) {
         sensors.back().protective_m = old.protective_m;
+        sensors.back().address = old.address;
+        sensors.back().settings = old.settings;
+      }
   }
   return sensors;
 }

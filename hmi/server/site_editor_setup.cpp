@@ -38,9 +38,8 @@ Notice what_routes_miss(const std::filesystem::path& folder) {
 }
 
 Notice what_vehicle_misses(const mapping::Site& site) {
-  for (const auto& sensor : site.sensors)
-    if (sensor.type == "vlp16") return {};
-  return {"no-lidar", {}, "Enter the lidar (VLP-16) and its place on the vehicle."};
+  if (!site.sensors.empty()) return {};
+  return {"no-lidar", {}, "Enter a lidar and its place on the vehicle."};
 }
 
 Notice what_place_misses(const PoseEstimate& pose) {
@@ -63,7 +62,7 @@ json SiteEditor::setup_steps(const PoseEstimate& pose) const {
   const Notice drawing =
       has_site(folder_) ? Notice{} : Notice{"no-drawing", {}, "Choose the factory's layout drawing."};
   Notice scale{"no-scale", {}, "Tell the scale: measure one length, or lay the drawing over a photograph."};
-  Notice vehicle{"no-lidar", {}, "Enter the lidar (VLP-16) and its place on the vehicle."};
+  Notice vehicle{"no-lidar", {}, "Enter a lidar and its place on the vehicle."};
   if (drawing.code.empty()) {
     const mapping::Site site = mapping::load_site(folder_);
     if (site.scale) scale = {};

@@ -23,7 +23,7 @@ struct Notice {
 /// What a sensor or the drive is doing.
 struct DeviceStatus {
   std::string name;
-  std::string type;  ///< vlp16, lms1xx, s300, drive
+  std::string type;  ///< a kind of lidar, or drive
   bool healthy = false;
   double age_s = 0.0;             ///< of the newest data
   std::optional<double> rate_hz;  ///< revolutions or reports a second
@@ -32,7 +32,7 @@ struct DeviceStatus {
 
 /// Something connected that the site could use.
 struct FoundDevice {
-  std::string type;     ///< vlp16, s300, drive
+  std::string type;     ///< a kind of lidar, or drive
   std::string address;  ///< UDP port or serial port
   bool heard = false;
   Notice detail;

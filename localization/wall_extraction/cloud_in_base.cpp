@@ -4,9 +4,10 @@
 
 namespace madori::localization {
 
-PointCloud<Base> cloud_in_base(const PointCloud<Lidar>& cloud, const Transform2<Base, Lidar>& base_from_lidar,
-                               double height_m, const OdometryTrack& track) {
+PointCloud<Base> cloud_in_base(const PointCloud<Lidar>& cloud, const LidarModel& lidar,
+                               const OdometryTrack& track) {
   constexpr float kOneFiringS = 4e-4F;  // points this near in time share a motion: 0.4 mm at 1 m/s
+  const auto base_from_lidar = lidar.mounting.base_from_lidar();
   PointCloud<Base> result;
   const float last_s = cloud.points.empty() ? 0.0F : cloud.points.back().time_offset_s;
   result.stamp = cloud.stamp + duration_from_seconds(static_cast<double>(last_s));
@@ -24,7 +25,7 @@ PointCloud<Base> cloud_in_base(const PointCloud<Lidar>& cloud, const Transform2<
     CloudPoint q = p;
     q.x_m = static_cast<float>(at.x_m);
     q.y_m = static_cast<float>(at.y_m);
-    q.z_m = p.z_m + static_cast<float>(height_m);
+    q.z_m = p.z_m + static_cast<float>(lidar.mounting.z_m);
     q.time_offset_s = 0.0F;
     result.points.push_back(q);
   }

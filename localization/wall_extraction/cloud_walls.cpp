@@ -53,16 +53,22 @@ struct Sight {
   double to = INFINITY;
 };
 
-double rise_of(const Return& r, const CloudWallOptions& options) {
-  return (static_cast<double>(r.z_m) - options.sensor_height_m) / static_cast<double>(r.range_m);
+/// What the judgement of a wall rests on.
+struct Judge {
+  const LidarModel& lidar;
+  const CloudWallOptions& options;
+};
+
+double rise_of(const Return& r, const LidarModel& lidar) {
+  return (static_cast<double>(r.z_m) - lidar.mounting.z_m) / static_cast<double>(r.range_m);
 }
 
 /// Of a surface between two rises, past the returns begin..end of its sector.
 Sight sight_past(const std::vector<Return>& returns, std::size_t begin, std::size_t end, double low_rise,
-                 double high_rise, const CloudWallOptions& options) {
+                 double high_rise, const LidarModel& lidar) {
   Sight sight;
   for (std::size_t i = begin; i < end; ++i) {
-    const double rise = rise_of(returns[i], options);
+    const double rise = rise_of(returns[i], lidar);
     if (rise <= low_rise)
       sight.from = std::max(sight.from, rise);
     else if (rise >= high_rise)
@@ -73,17 +79,21 @@ Sight sight_past(const std::vector<Return>& returns, std::size_t begin, std::siz
 
 /// Height of the part of a wall at `range_m` that the lasers cover within the region of interest and in
 /// sight.
-double coverable_m(double range_m, const Sight& sight, const CloudWallOptions& o) {
-  const double rise = std::tan(o.max_elevation_rad);
-  const double top = std::min(o.max_height_m, o.sensor_height_m + range_m * std::min(rise, sight.to));
-  const double bottom = std::max(o.min_height_m, o.sensor_height_m + range_m * std::max(-rise, sight.from));
+double coverable_m(double range_m, const Sight& sight, const Judge& judge) {
+  const auto& [lidar, o] = judge;
+  const double rise = std::tan(lidar.max_elevation_rad);
+  const double fall = std::tan(lidar.min_elevation_rad);
+  const double z_m = lidar.mounting.z_m;
+  const double top = std::min(o.max_height_m, z_m + range_m * std::min(rise, sight.to));
+  const double bottom = std::max(o.min_height_m, z_m + range_m * std::max(fall, sight.from));
   return std::max(top - bottom, 0.0);
 }
 
 /// How surely returns first..last of the sector that begins at `begin`, all about as far away, are of a wall:
 /// 0 = not.
 double wall_weight(const std::vector<Return>& returns, std::size_t begin, std::size_t first, std::size_t last,
-                   const CloudWallOptions& options) {
+                   const Judge& judge) {
+  const auto& [lidar, options] = judge;
   float low = returns[first].z_m;
   float high = low;
   for (std::size_t i = first; i <= last; ++i) {
@@ -91,11 +101,11 @@ double wall_weight(const std::vector<Return>& returns, std::size_t begin, std::s
     high = std::max(high, returns[i].z_m);
   }
   const double range = returns[first].range_m;
-  const double ring_m = range * options.ring_step_rad;
-  const Sight sight = sight_past(returns, begin, first, (low - options.sensor_height_m) / range,
-                                 (high - options.sensor_height_m) / range, options);
+  const double ring_m = range * lidar.ring_step_rad;
+  const Sight sight = sight_past(returns, begin, first, (low - lidar.mounting.z_m) / range,
+                                 (high - lidar.mounting.z_m) / range, lidar);
   const double possible =
-      coverable_m(range, sight, options) - ring_m;  // the outer lasers miss up to a step in all
+      coverable_m(range, sight, judge) - ring_m;  // the outer lasers miss up to a step in all
   const double extent = high - low;
   if (possible <= ring_m) return last > first ? 0.5 : 0.25;  // no more than two lasers could have met it
   if (last == first) return 0.0;
@@ -153,9 +163,21 @@ void add_normals(ScanPoints& points) {
   }
 }
 
+ScanPoints all_returns(const PointCloud<Base>& cloud, const LidarModel& lidar,
+                       const CloudWallOptions& options) {
+  ScanPoints points;
+  for (const CloudPoint& p : cloud.points) {
+    const double x = p.x_m, y = p.y_m;
+    if (std::hypot(x - lidar.mounting.x_m, y - lidar.mounting.y_m) <= options.max_range_m) points.add(x, y);
+  }
+  return points;
+}
+
 }  // namespace
 
-ScanPoints extract_walls(const PointCloud<Base>& cloud, const CloudWallOptions& options) {
+ScanPoints extract_walls(const PointCloud<Base>& cloud, const LidarModel& lidar,
+                         const CloudWallOptions& options) {
+  if (lidar.kind == LidarKind::Planar) return all_returns(cloud, lidar, options);
   const std::vector<Return> returns = region_of_interest(cloud, options);
   ScanPoints points;
   std::size_t begin = 0;  // of the sector
@@ -165,7 +187,7 @@ ScanPoints extract_walls(const PointCloud<Base>& cloud, const CloudWallOptions& 
            returns[last + 1].range_m - returns[last].range_m <= options.surface_gap_m)
       ++last;
     if (returns[first].sector != returns[begin].sector) begin = first;
-    const double weight = wall_weight(returns, begin, first, last, options);
+    const double weight = wall_weight(returns, begin, first, last, {lidar, options});
     if (weight > 0.0) {
       double x = 0.0, y = 0.0;
       for (std::size_t i = first; i <= last; ++i) {

@@ -2,6 +2,7 @@
 
 #include "core/frames.hpp"
 #include "core/laser_scan.hpp"
+#include "core/lidar_model.hpp"
 #include "core/point_cloud.hpp"
 #include "core/transform2.hpp"
 #include "localization/scan_points.hpp"
@@ -18,9 +19,6 @@ struct CloudWallOptions {
   double max_range_m = 80.0;
   int sectors = 720;           ///< the fans, by azimuth
   double surface_gap_m = 0.2;  ///< returns of a sector farther apart than this are of two surfaces
-  double sensor_height_m = 1.2;
-  double ring_step_rad = 0.0349066;  ///< between two lasers: 2 degrees (VLP-16)
-  double max_elevation_rad = 0.261799;
   double least_extent =
       0.5;  ///< of the height that the lasers could have covered on the surface at its distance
   double voxel_m = 0.1;
@@ -29,7 +27,10 @@ struct CloudWallOptions {
 /// Points on walls of one revolution: in each sector the returns are split into surfaces by distance, each
 /// judged by its number of returns and its vertical extent; what stands like a wall is kept, far surfaces
 /// seen through gaps as well, thinned by a voxel grid. Weights tell how much of the possible height was seen.
-[[nodiscard]] ScanPoints extract_walls(const PointCloud<Base>& cloud, const CloudWallOptions& options = {});
+/// Height, elevations and the step between the lasers are those of `lidar`. Of a planar one, which sees every
+/// wall at one height only, all returns within `max_range_m` are kept, with full weight.
+[[nodiscard]] ScanPoints extract_walls(const PointCloud<Base>& cloud, const LidarModel& lidar,
+                                       const CloudWallOptions& options = {});
 
 /// From a 2D lidar, where a person's legs and a wall differ only in shape.
 struct ScanWallOptions {

@@ -69,13 +69,16 @@ SensorRecord read_sensor(StrictYaml& yaml) {
   SensorRecord record;
   record.name = yaml.text("name");
   record.type = yaml.text("type");
-  if (record.type != "vlp16" && record.type != "lms1xx" && record.type != "s300")
-    throw yaml.error("type", "\"" + record.type + "\" is no known sensor", "use vlp16, lms1xx or s300");
+  if (record.type.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+    throw yaml.error("type", "\"" + record.type + "\" is no kind of sensor", "use small letters and digits");
   record.x_m = yaml.number_or("x_m", 0.0, -20.0, 20.0);
   record.y_m = yaml.number_or("y_m", 0.0, -20.0, 20.0);
   record.z_m = yaml.number_or("z_m", 0.0, -5.0, 20.0);
   record.yaw_deg = yaml.number_or("yaw_deg", 0.0, -360.0, 360.0);
-  if (record.type == "s300") record.protective_m = yaml.number_or("protective_m", 0.0, 0.0, 5.0);
+  record.protective_m = yaml.number_or("protective_m", 0.0, 0.0, 5.0);
+  record.address = yaml.text_or("address", "");
+  if (const YAML::Node settings = yaml.raw("settings"))
+    record.settings = settings.as<std::map<std::string, std::string>>();
   yaml.refuse_unknown_keys();
   return record;
 }
@@ -112,6 +115,8 @@ void emit_sensor(YAML::Emitter& out, const SensorRecord& s) {
   out << YAML::Key << "x_m" << YAML::Value << s.x_m << YAML::Key << "y_m" << YAML::Value << s.y_m;
   out << YAML::Key << "z_m" << YAML::Value << s.z_m << YAML::Key << "yaw_deg" << YAML::Value << s.yaw_deg;
   if (s.protective_m > 0.0) out << YAML::Key << "protective_m" << YAML::Value << s.protective_m;
+  if (!s.address.empty()) out << YAML::Key << "address" << YAML::Value << s.address;
+  if (!s.settings.empty()) out << YAML::Key << "settings" << YAML::Value << YAML::Flow << s.settings;
   out << YAML::EndMap;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,13 +51,17 @@ struct VehicleRecord {
 /// A sensor and where it is mounted, Base frame.
 struct SensorRecord {
   std::string name;
-  std::string type;  ///< vlp16, lms1xx, s300
+  std::string type;  ///< a kind of lidar: docs/reference/sensors.md lists them
   double x_m = 0.0;
   double y_m = 0.0;
   double z_m = 0.0;
   double yaw_deg = 0.0;
   double protective_m =
-      0.0;  ///< of an s300: how far its protective field reaches ahead of the vehicle's front
+      0.0;  ///< of a safety scanner: how far its protective field reaches ahead of the vehicle's front
+  std::string address{};                          ///< HOST:PORT or serial port; empty: the kind's usual one
+  std::map<std::string, std::string> settings{};  ///< of its kind, e.g. rate_hz
+
+  friend bool operator==(const SensorRecord&, const SensorRecord&) = default;
 };
 
 /// site.yaml of a site folder (docs/reference/site-folder.md).

@@ -10,7 +10,26 @@ constexpr double kViewSlackM = 0.03;
 
 }  // namespace
 
+SensorView SensorView::of(const LidarModel& lidar) {
+  const auto& at = lidar.mounting;
+  return {at.x_m,
+          at.y_m,
+          at.z_m,
+          lidar.min_elevation_rad,
+          lidar.max_elevation_rad,
+          at.yaw_rad + 0.5 * (lidar.from_rad + lidar.to_rad),
+          0.5 * (lidar.to_rad - lidar.from_rad)};
+}
+
+bool SensorView::looks_at(double bearing_rad) const {
+  return half_view_rad >= kPi || std::abs(wrap_angle(bearing_rad - facing_rad)) <= half_view_rad;
+}
+
 bool SensorView::sees(const Point2<Base>& place, double low_m, double high_m) const {
+  if (half_view_rad < kPi && !looks_at(std::atan2(place.y_m - y_m, place.x_m - x_m))) return false;
+  // What a level lidar has seen lies in its plane, and is as high as the floor is uneven.
+  if (min_elevation_rad == max_elevation_rad)
+    return low_m <= z_m + kViewSlackM && high_m >= z_m - kViewSlackM;
   const double away_m = std::hypot(place.x_m - x_m, place.y_m - y_m);
   return high_m >= z_m + away_m * std::tan(min_elevation_rad) + kViewSlackM &&
          low_m <= z_m + away_m * std::tan(max_elevation_rad);

@@ -6,20 +6,28 @@
 #include <utility>
 #include <vector>
 
+#include "core/angle.hpp"
 #include "core/frames.hpp"
+#include "core/lidar_model.hpp"
 #include "core/stamp.hpp"
 #include "core/transform2.hpp"
 
 namespace madori::planning {
 
-/// Which heights a sensor can see, Base frame. A 2D lidar has both elevations zero.
+/// Which places and heights a sensor can see, Base frame. A 2D lidar has both elevations zero.
 struct SensorView {
   double x_m = 0.0;
   double y_m = 0.0;
   double z_m = 0.0;
   double min_elevation_rad = 0.0;
   double max_elevation_rad = 0.0;
+  double facing_rad = 0.0;     ///< the middle of its field of view
+  double half_view_rad = kPi;  ///< to each side of it
 
+  /// Of a lidar on the vehicle.
+  [[nodiscard]] static SensorView of(const LidarModel& lidar);
+  /// Whether the bearing from the sensor lies in its field of view.
+  [[nodiscard]] bool looks_at(double bearing_rad) const;
   /// Whether something from `low_m` to `high_m` above the floor would be hit by this sensor at that place.
   [[nodiscard]] bool sees(const Point2<Base>& place, double low_m, double high_m) const;
 };

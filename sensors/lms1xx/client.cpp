@@ -1,5 +1,7 @@
 #include "sensors/lms1xx/client.hpp"
 
+#include "core/clock.hpp"
+
 namespace madori::sensors::lms1xx {
 namespace {
 
@@ -43,7 +45,6 @@ void Client::opened() {
     const std::lock_guard lock(mutex_);
     state_ = ClientState::Starting;
     ++counters_.connections;
-    any_scan_ = false;
   }
   splitter_.clear();
   clock_.reset();
@@ -92,23 +93,20 @@ void Client::take_scan(std::span<const std::uint8_t> payload, Stamp received) {
   }
   LaserScan result = std::move(scan).value();
   const ScanData& d = data.value();
-  const auto step_us =
-      static_cast<std::int32_t>(d.transmit_time_us - static_cast<std::uint32_t>(transmit_us_));
-  if (any_scan_ && step_us < 0) clock_.reset();
-  transmit_us_ = any_scan_ && step_us >= 0 ? transmit_us_ + step_us : d.transmit_time_us;
-  clock_.observe(transmit_us_, received);
-  result.stamp =
-      clock_.stamp_of(transmit_us_ - static_cast<std::int32_t>(d.transmit_time_us - d.scan_time_us));
+  result.stamp = clock_.stamp_of(d, received);
   {
     const std::lock_guard lock(mutex_);
-    const auto missed = static_cast<std::uint16_t>(d.telegram_counter - last_telegram_ - 1U);
-    if (any_scan_ && missed < 0x8000U) counters_.lost += missed;
-    last_telegram_ = d.telegram_counter;
-    any_scan_ = true;
+    counters_.lost = clock_.lost();
+    heard_ = received;
     ++counters_.scans;
     if (state_ == ClientState::Measuring) problem_ = problem_of(d);
   }
   sink_(result, d);
+}
+
+Duration Client::silence() const {
+  const std::lock_guard lock(mutex_);
+  return clock_now() - heard_;
 }
 
 ClientState Client::state() const {

@@ -7,8 +7,8 @@
 
 #include "core/laser_scan.hpp"
 #include "io/stream_link.hpp"
-#include "sensors/device_clock.hpp"
 #include "sensors/lms1xx/cola.hpp"
+#include "sensors/lms1xx/scan_clock.hpp"
 #include "sensors/lms1xx/scan_data.hpp"
 
 namespace madori::sensors::lms1xx {
@@ -40,6 +40,8 @@ class Client {
   /// What is wrong, in words: no connection, a refused command, the device's own error; empty when nothing
   /// is.
   [[nodiscard]] std::string problem() const;
+  /// Since the last good scan; a large number before the first.
+  [[nodiscard]] Duration silence() const;
 
  private:
   void opened();
@@ -53,14 +55,12 @@ class Client {
   std::vector<Message> dialogue_;
   std::size_t step_ = 0;  ///< the command whose answer is awaited
   Splitter splitter_;
-  DeviceClock clock_;
-  std::int64_t transmit_us_ = 0;  ///< unwrapped
+  ScanClock clock_;
   mutable std::mutex mutex_;
   ClientState state_ = ClientState::Disconnected;
   ClientCounters counters_;
   std::string problem_ = "not connected yet";
-  std::uint16_t last_telegram_ = 0;
-  bool any_scan_ = false;
+  Stamp heard_{};
   std::unique_ptr<io::StreamLink> link_;  ///< last: its thread uses all of the above
 };
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/Twist.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <rosbag/bag.h>
@@ -191,7 +192,15 @@ Output::~Output() {
   if (!diverted || !closes(state_->bag)) (void)state_.release();
 }
 
-void Output::write(const std::string& topic, const Scan& scan) {
+void Output::write_twist(const std::string& topic, std::int64_t stamp_ns, double linear_mps,
+                         double angular_radps) {
+  geometry_msgs::Twist message;
+  message.linear.x = linear_mps;
+  message.angular.z = angular_radps;
+  state_->bag.write(topic, to_time(stamp_ns), message);
+}
+
+void Output::write(const std::string& topic, std::int64_t stamp_ns, const Scan& scan) {
   sensor_msgs::LaserScan message;
   message.header.stamp = to_time(scan.stamp_ns);
   message.header.frame_id = scan.frame;
@@ -203,7 +212,7 @@ void Output::write(const std::string& topic, const Scan& scan) {
   message.range_max = scan.range_max;
   message.ranges = scan.ranges;
   message.intensities = scan.intensities;
-  state_->bag.write(topic, message.header.stamp, message);
+  state_->bag.write(topic, to_time(stamp_ns), message);
 }
 
 void Output::write(const std::string& topic, const Cloud& cloud) {

@@ -87,7 +87,8 @@ class Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  void write(const std::string& topic, const Scan& scan);
+  void write(const std::string& topic, std::int64_t stamp_ns, const Scan& scan);
+  void write_twist(const std::string& topic, std::int64_t stamp_ns, double linear_mps, double angular_radps);
   void write(const std::string& topic, const Cloud& cloud);
   void write(const std::string& topic, std::int64_t stamp_ns,
              const std::vector<Packet>& packets);  ///< velodyne_msgs/VelodyneScan

@@ -49,6 +49,16 @@ BagWriter::BagWriter(const std::filesystem::path& file) : file_(file) {
 BagWriter::~BagWriter() = default;
 
 void BagWriter::write(const std::string& topic, const LaserScan& scan) {
+  write(topic, scan, scan.stamp);
+}
+
+void BagWriter::write(const std::string& topic, const VelocityCommand& command, Stamp stamp) {
+  guarded([&] {
+    output_->write_twist(topic, stamp.time_since_epoch().count(), command.linear_mps, command.angular_radps);
+  });
+}
+
+void BagWriter::write(const std::string& topic, const LaserScan& scan, Stamp recorded) {
   rosbag_bridge::Scan out;
   out.stamp_ns = scan.stamp.time_since_epoch().count();
   out.frame = "laser";
@@ -58,7 +68,7 @@ void BagWriter::write(const std::string& topic, const LaserScan& scan) {
   out.range_max = static_cast<float>(scan.range_max_m);
   out.ranges = scan.ranges_m;
   out.intensities = scan.intensities;
-  guarded([&] { output_->write(topic, out); });
+  guarded([&] { output_->write(topic, recorded.time_since_epoch().count(), out); });
 }
 
 void BagWriter::write(const std::string& topic, const PointCloud<Lidar>& cloud) {

@@ -10,6 +10,7 @@
 #include "core/path.hpp"
 #include "core/point_cloud.hpp"
 #include "core/pose_estimate.hpp"
+#include "core/velocity_command.hpp"
 #include "sensors/raw_packet.hpp"
 
 namespace madori::sensors::rosbag_bridge {
@@ -27,7 +28,10 @@ class BagWriter {
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
-  void write(const std::string& topic, const LaserScan& scan);           ///< sensor_msgs/LaserScan
+  void write(const std::string& topic, const LaserScan& scan);  ///< sensor_msgs/LaserScan
+  /// The same, as a message of another time than the scan's own, which stands in its header.
+  void write(const std::string& topic, const LaserScan& scan, Stamp recorded);
+  void write(const std::string& topic, const VelocityCommand& command, Stamp stamp);  ///< geometry_msgs/Twist
   void write(const std::string& topic, const PointCloud<Lidar>& cloud);  ///< sensor_msgs/PointCloud2
   /// velodyne_msgs/VelodyneScan: data packets of a VLP-16 as they came.
   void write(const std::string& topic, const std::vector<RawPacket>& packets, Stamp stamp);

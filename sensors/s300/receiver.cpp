@@ -1,24 +1,13 @@
 #include "sensors/s300/receiver.hpp"
 
-#include <cmath>
-
 #include "core/clock.hpp"
 
 namespace madori::sensors::s300 {
-namespace {
-
-/// From the first beam to the last byte: the 270 deg that are seen, then 1108 bytes of ten bits.
-std::int64_t delay_us(const Telegram& telegram) {
-  const auto values = static_cast<double>(telegram.values.size());
-  const double sweep_s = kScanPeriodS * values * 0.5 / 360.0;
-  return std::llround((sweep_s + (26.0 + 2.0 * values) * 10.0 / kBitsPerSecond) * 1e6);
-}
-
-}  // namespace
 
 Receiver::Receiver(const ReceiverOptions& options, Sink sink)
     : options_(options),
       sink_(std::move(sink)),
+      clock_(options.baud),
       stream_([this](const Telegram& telegram) { take(telegram); }) {
   io::LinkEvents events;
   events.bytes = [this](std::span<const std::uint8_t> bytes, Stamp received) {
@@ -42,9 +31,7 @@ void Receiver::take(const Telegram& telegram) {
   const Fields fields = fields_of(telegram);
   {
     const std::lock_guard lock(mutex_);
-    const std::int64_t scan_us = std::int64_t{telegram.scan_number} * std::llround(kScanPeriodS * 1e6);
-    clock_.observe(scan_us + delay_us(telegram), received_);
-    scan.stamp = clock_.stamp_of(scan_us);
+    scan.stamp = clock_.stamp_of(telegram, received_);
     fields_ = fields;
     heard_ = clock_now();
     any_ = true;
@@ -63,6 +50,11 @@ std::string Receiver::stop_reason() const {
 
 bool Receiver::must_stop() const {
   return !stop_reason().empty();
+}
+
+Duration Receiver::silence() const {
+  const std::lock_guard lock(mutex_);
+  return clock_now() - heard_;
 }
 
 StreamCounters Receiver::counters() const {

@@ -7,7 +7,7 @@
 
 #include "core/laser_scan.hpp"
 #include "io/stream_link.hpp"
-#include "sensors/device_clock.hpp"
+#include "sensors/s300/scan_clock.hpp"
 #include "sensors/s300/telegram.hpp"
 
 namespace madori::sensors::s300 {
@@ -30,6 +30,8 @@ class Receiver {
   /// Why the vehicle must stop, in an operator's words; empty when it need not.
   [[nodiscard]] std::string stop_reason() const;
   [[nodiscard]] StreamCounters counters() const;
+  /// Since the last telegram of distances; a large number before the first.
+  [[nodiscard]] Duration silence() const;
 
  private:
   void take(const Telegram& telegram);
@@ -37,8 +39,8 @@ class Receiver {
   ReceiverOptions options_;
   Sink sink_;
   mutable std::mutex mutex_;
+  ScanClock clock_;
   Stream stream_;
-  DeviceClock clock_;
   Stamp received_{};
   Fields fields_;
   StreamCounters counters_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mapping/site/site.hpp"
 #include "simulation/mailbox.hpp"
 
 namespace madori::simulation {
@@ -16,6 +17,9 @@ struct DeviceHubOptions {
   std::uint16_t lms_port = 0;             ///< TCP; 0: any free one
   bool binary_lms = true;                 ///< CoLa B
   std::filesystem::path folder = "/tmp";  ///< for the links of the serial ports, `s300` and `drive`
+  /// Whose units there are: further ones of a kind get the next VLP-16 port, any TCP port, `s300_2` ...
+  /// Empty: one of each kind, and the LMS1xx speaks as `binary_lms` says.
+  std::vector<mapping::SensorRecord> sensors;
 };
 
 /// What went over the wires.
@@ -36,11 +40,15 @@ class DeviceHub {
   DeviceHub& operator=(const DeviceHub&) = delete;
 
   void send(const DevicePacket& packet);
+  /// Another receiver's port for the VLP-16; from any thread.
+  void set_udp_port(std::uint16_t port);
   /// Serves clients; returns what the PC has written to the drive.
   [[nodiscard]] std::vector<std::uint8_t> poll();
 
-  [[nodiscard]] std::uint16_t lms_port() const;
-  [[nodiscard]] const std::filesystem::path& s300_link() const;
+  [[nodiscard]] std::uint16_t lms_port(std::size_t unit = 0) const;
+  [[nodiscard]] const std::filesystem::path& s300_link(std::size_t unit = 0) const;
+  /// Where each of `sensors` is to be found, in their order, as site.yaml writes it.
+  [[nodiscard]] std::vector<std::string> addresses() const;
   [[nodiscard]] const std::filesystem::path& drive_link() const;
   [[nodiscard]] const HubCounters& counters() const;
 

@@ -22,6 +22,7 @@
 #include "localization/wall_extraction/cloud_in_base.hpp"
 #include "sensors/vlp16/encode.hpp"
 #include "simulation/lidar/vlp16_model.hpp"
+#include "tests/support/lidar_models.hpp"
 #include "tests/support/localization_trial.hpp"
 
 namespace madori::bench {
@@ -147,7 +148,8 @@ Times play(const Drive& drive, const PoseSource& source) {
   std::vector<PointCloud<Lidar>> clouds;
   sensors::vlp16::Assembler assembler(
       [&](sensors::vlp16::Frame& f) { clouds.push_back(std::move(f.cloud)); });
-  const Transform2<Base, Lidar> mounting(drive.lidar.x_m, drive.lidar.y_m, to_rad(drive.lidar.yaw_deg));
+  const auto& at = drive.lidar;
+  const LidarModel lidar = test::spinning_lidar({at.x_m, at.y_m, at.z_m, to_rad(at.yaw_deg)});
   double processor = 0.0, clock = 0.0;
   for (const Event& event : drive.events) {
     const double processor0 = seconds_of(CLOCK_THREAD_CPUTIME_ID), clock0 = seconds_of(CLOCK_MONOTONIC);
@@ -160,8 +162,8 @@ Times play(const Drive& drive, const PoseSource& source) {
       const Packet& packet = std::get<Packet>(event);
       (void)assembler.push(packet.bytes, packet.stamp);
       for (const auto& cloud : clouds) {
-        const PointCloud<Base> base = cloud_in_base(cloud, mounting, drive.lidar.z_m, track);
-        const ScanPoints walls = extract_walls(base);
+        const PointCloud<Base> base = cloud_in_base(cloud, lidar, track);
+        const ScanPoints walls = extract_walls(base, lidar);
         times.points += static_cast<double>(walls.size());
         pose = source.on_scan(stamp = base.stamp, walls);
       }

@@ -8,6 +8,7 @@
 #include "mapping/drawing/raster/detect_walls.hpp"
 #include "mapping/drawing/raster/load_image.hpp"
 #include "sensors/carmen/reader.hpp"
+#include "tests/support/lidar_models.hpp"
 
 namespace madori::app {
 namespace {
@@ -36,7 +37,7 @@ LocalizedRun localize(const char* drawing, const Transform2<Map, Base>& start) {
   localization::Localizer localizer(drawn_walls(drawing), localization::InitialPose{start});
   sensors::carmen::CarmenReader log(kIntel / "intel.log");
   LocalizedRun run;
-  (void)play_log(log, localizer, [&](const PoseEstimate& e) {
+  (void)play_log(log, test::planar_lidar({0.0, 0.0, 0.3, 0.0}), localizer, [&](const PoseEstimate& e) {
     run.trajectory.push_back({e.stamp, e.map_from_base});
     run.estimates.push_back(e);
   });

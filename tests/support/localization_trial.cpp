@@ -6,6 +6,7 @@
 #include "localization/wall_extraction/cloud_in_base.hpp"
 #include "planning/route_graph/route_csv.hpp"
 #include "simulation/scenario/scenario.hpp"
+#include "tests/support/lidar_models.hpp"
 
 namespace madori::test {
 namespace {
@@ -84,9 +85,9 @@ void LocalizationTrial::step(bool drives) {
   }
   for (const auto& cloud : input.clouds) {
     const mapping::SensorRecord& lidar = floor_.lidar();
-    const auto base =
-        localization::cloud_in_base(cloud, {lidar.x_m, lidar.y_m, to_rad(lidar.yaw_deg)}, lidar.z_m, track_);
-    const auto points = localization::extract_walls(base, walls);
+    const LidarModel model = spinning_lidar({lidar.x_m, lidar.y_m, lidar.z_m, to_rad(lidar.yaw_deg)});
+    const auto base = localization::cloud_in_base(cloud, model, track_);
+    const auto points = localization::extract_walls(base, model, walls);
     const PoseEstimate at_scan = localizer_.on_scan(base.stamp, points, {lidar.x_m, lidar.y_m});
     if (learner != nullptr) learner->observe(points, {lidar.x_m, lidar.y_m}, at_scan);
     pose_ = localizer_.on_odometry(odometry_.reading());

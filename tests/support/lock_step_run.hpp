@@ -33,7 +33,7 @@ class LockStepRun {
     run = std::make_unique<app::TransportRun>(
         site.config,
         make_source ? make_source(*factory)
-                    : std::make_unique<app::LocalizerPose>(site.walls, site.config.lidar),
+                    : std::make_unique<app::LocalizerPose>(site.walls, site.config.lidars),
         std::make_unique<app::FactoryLink>(factory, site.config.odometry.wheels, kStep), options);
     run->say({app::OperatorWord::Resume, {}});
   }

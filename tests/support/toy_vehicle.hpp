@@ -11,6 +11,7 @@
 #include "control/diff_drive/kinematics.hpp"
 #include "control/drive_link/controller.hpp"
 #include "core/segment_distance.hpp"
+#include "tests/support/lidar_models.hpp"
 #include "tests/support/rolling_vehicle.hpp"
 #include "tests/support/toy_lidar.hpp"
 
@@ -44,7 +45,7 @@ class ToyVehicle {
 
   ToyVehicle(app::CycleConfig cycle_config, Transform2<Map, Base> start, std::uint32_t seed = 1)
       : config(std::move(cycle_config)), rolling(start), random_(seed), state_(make_state()) {
-    lidar.height_m = config.lidar.z_m;
+    lidar.height_m = config.lidars.front().mounting.z_m;
   }
 
   /// One step of 20 ms. Orders are worked off as the order store would.
@@ -155,7 +156,7 @@ class ToyVehicle {
   PointCloud<Lidar> cloud(Stamp now) {
     const PointCloud<Base> base = lidar.scan(rolling.pose(), now, random_);
     PointCloud<Lidar> result{now, base.points};
-    for (CloudPoint& p : result.points) p.z_m -= static_cast<float>(config.lidar.z_m);
+    for (CloudPoint& p : result.points) p.z_m -= static_cast<float>(config.lidars.front().mounting.z_m);
     return result;
   }
   void answer(std::uint32_t micros) {
@@ -194,7 +195,7 @@ class ToyVehicle {
 inline app::CycleConfig toy_config(planning::RouteGraph routes) {
   app::CycleConfig config;
   config.routes = std::move(routes);
-  config.lidar = {0.0, 0.0, 0.9, to_rad(-15.0), to_rad(15.0)};
+  config.lidars = {spinning_lidar({0.0, 0.0, 0.9, 0.0})};
   return config;
 }
 

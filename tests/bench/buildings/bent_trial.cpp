@@ -12,6 +12,7 @@
 #include "tests/bench/buildings/drive_figures.hpp"
 #include "tests/bench/buildings/trial_localizer.hpp"
 #include "tests/bench/buildings/wall_scanner.hpp"
+#include "tests/support/lidar_models.hpp"
 
 namespace madori::bench {
 namespace {
@@ -104,9 +105,9 @@ void BentTrial::take_scans(const test::FloorInput& input) {
   for (const auto& cloud : input.clouds) {
     if (looks_with_scanner()) break;
     const auto& lidar = floor_.lidar();
-    const auto base =
-        localization::cloud_in_base(cloud, {lidar.x_m, lidar.y_m, to_rad(lidar.yaw_deg)}, lidar.z_m, track_);
-    localizer_->on_scan(base.stamp, localization::extract_walls(base), {lidar.x_m, lidar.y_m});
+    const LidarModel model = test::spinning_lidar({lidar.x_m, lidar.y_m, lidar.z_m, to_rad(lidar.yaw_deg)});
+    const auto base = localization::cloud_in_base(cloud, model, track_);
+    localizer_->on_scan(base.stamp, localization::extract_walls(base, model), {lidar.x_m, lidar.y_m});
   }
   for (const auto& [stamp, points] : scans_of_floor()) localizer_->on_scan(stamp, points, scanner_.place());
   pose_ = localizer_->on_odometry(odometry_.reading());

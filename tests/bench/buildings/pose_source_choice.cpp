@@ -16,7 +16,7 @@ class ChosenSource final : public app::PoseSource {
                const simulation::Factory& factory)
       : localizer_(std::move(localizer)),
         scans_(scans),
-        lidar_{site.config.lidar.x_m, site.config.lidar.y_m},
+        lidar_(site.config.lidars.front()),
         factory_(factory),
         scanner_(site.walls.size()) {}
 
@@ -30,7 +30,9 @@ class ChosenSource final : public app::PoseSource {
     return scans.empty() ? pose : localizer_->on_odometry(reading);
   }
   void on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& /*odom_from_base*/) override {
-    if (!scans_) localizer_->on_scan(cloud.stamp, localization::extract_walls(cloud), lidar_);
+    if (!scans_)
+      localizer_->on_scan(cloud.stamp, localization::extract_walls(cloud, lidar_),
+                          {lidar_.mounting.x_m, lidar_.mounting.y_m});
   }
   void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) override {
     localizer_->set_pose(map_from_base, sigma);
@@ -44,7 +46,7 @@ class ChosenSource final : public app::PoseSource {
  private:
   std::unique_ptr<TrialLocalizer> localizer_;
   bool scans_;
-  Point2<Base> lidar_;
+  LidarModel lidar_;
   const simulation::Factory& factory_;
   WallScanner scanner_;
   Stamp seen_{};

@@ -51,7 +51,7 @@ WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int numb
   transport.detours_in_step = true;
   transport.store_poll_s = 0.5;
   run_ = std::make_unique<app::TransportRun>(
-      loaded_.config, std::make_unique<app::LocalizerPose>(loaded_.walls, loaded_.config.lidar),
+      loaded_.config, std::make_unique<app::LocalizerPose>(loaded_.walls, loaded_.config.lidars),
       std::make_unique<app::FactoryLink>(factory_, loaded_.config.odometry.wheels, kStep), transport);
   surprises_ = std::make_unique<Surprises>(*factory_, setup.scenario, run_->config());
   witness_ = std::make_unique<Witness>(*factory_, figures_, options.verbose, options.trace_s);
@@ -151,6 +151,9 @@ void WorkingDay::look_after(const Delivery& delivery) {
     if (pressed_) surprises_->carry_away(chance_, true);  // "free the vehicle, then confirm"
     run_->say({app::OperatorWord::Confirm, {}, {}});
     help(delivery, because, false);
+  } else if (state.mode == app::Mode::Waiting && state.way.height_unseen && stood_s > kLooksAfterS) {
+    run_->say({app::OperatorWord::GoOn, {}, {}});  // a planar lidar's vehicle asks before every door
+    stands_since_ = factory_->now();
   } else if (state.mode == app::Mode::Waiting && (state.way.unseen || state.way.felt) &&
              stood_s > kLooksAfterS) {
     // "look, clear the way, then press Resume": who cannot clear it does not press.

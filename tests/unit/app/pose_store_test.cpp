@@ -12,6 +12,7 @@
 #include "app/pose/localizer_pose.hpp"
 #include "app/recording/input_text.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
+#include "tests/support/lidar_models.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/toy_lidar.hpp"
 
@@ -69,8 +70,8 @@ Start switch_on(bool block, const Transform2<Map, Base>& truth, const std::optio
   test::ToyLidar lidar;
   lidar.bodies = hall(block);
   CycleConfig config;
-  config.lidar.z_m = lidar.height_m;
-  CycleState state(config, std::make_unique<LocalizerPose>(drawing(lidar.bodies), config.lidar));
+  config.lidars = {test::spinning_lidar({0.0, 0.0, lidar.height_m, 0.0})};
+  CycleState state(config, std::make_unique<LocalizerPose>(drawing(lidar.bodies), config.lidars));
   std::mt19937 random(3);
   Start result{{}, -1, "", {}};
   PoseRecall recall(stored);
@@ -185,7 +186,8 @@ TEST(SiteKeeper, KeepsThePoseAtMostEverySecondAndAtAStandstill) {
   const test::TemporaryFolder folder;
   const mapping::Walls walls = drawing(hall(true));
   SiteKeeper keeper(folder.path(), walls, nullptr);
-  CycleState state(CycleConfig{}, std::make_unique<LocalizerPose>(walls, planning::SensorView{}));
+  CycleState state(CycleConfig{}, std::make_unique<LocalizerPose>(
+                                      walls, std::vector{test::spinning_lidar({0.0, 0.0, 1.2, 0.0})}));
   state.pose.health = {LocalizationState::Localized, ""};
   const auto at = [&](double t, double x, std::uint16_t angle) {
     state.drive_heard = stamp_from_seconds(3000.0 + t);

@@ -42,7 +42,7 @@ class SiteRunTest : public testing::Test {
   }
   void mount_lidar() const {
     mapping::Site site = mapping::load_site(site_);
-    site.sensors = {kReferenceLidar};
+    site.sensors = {reference_lidar()};
     mapping::save_site(site_, site);
   }
   void tick_until(const std::function<bool()>& done) {
@@ -92,7 +92,7 @@ TEST_F(SiteRunTest, ItDrivesAsSoonAsNothingIsMissing) {
   tick_until(told("path.csv"));
   draw_routes();
   run_.reload();
-  tick_until(told("VLP-16"));
+  tick_until(told("names no lidar"));
   mount_lidar();
   run_.reload();
   tick_until([this] { return run_.view().has_value(); });

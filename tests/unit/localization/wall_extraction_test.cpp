@@ -6,10 +6,13 @@
 #include <cmath>
 
 #include "localization/registration/segment_icp.hpp"
+#include "tests/support/lidar_models.hpp"
 #include "tests/support/made_up_buildings.hpp"
 
 namespace madori::localization {
 namespace {
+
+const LidarModel kLidar = test::spinning_lidar({0.0, 0.0, 1.2, 0.0});
 
 using Pose = Transform2<Map, Base>;
 
@@ -49,7 +52,7 @@ class CloudWalls : public testing::Test {
 };
 
 TEST_F(CloudWalls, LieOnTheWallsWithNormalsTowardsTheSensor) {
-  const ScanPoints points = extract_walls(revolution(hall_, {}, 0.0, pose_, 1.2, engine_));
+  const ScanPoints points = extract_walls(revolution(hall_, {}, 0.0, pose_, 1.2, engine_), kLidar);
   ASSERT_GT(points.size(), 300U);
   const SegmentGrid grid(hall_);
   const RegistrationResult fit = segment_fit(points, grid, pose_);
@@ -69,7 +72,7 @@ TEST_F(CloudWalls, SeeOverMachinesAndThroughGaps) {
   mapping::Walls machines;  // 1.5 m high on three sides, the lidar looks over them
   test::add_box(machines, 3.0, 3.0, 6.5, 12.0);
   test::add_box(machines, 9.5, 3.0, 14.0, 12.0);
-  const ScanPoints points = extract_walls(revolution(hall_, machines, 1.5, pose_, 1.2, engine_));
+  const ScanPoints points = extract_walls(revolution(hall_, machines, 1.5, pose_, 1.2, engine_), kLidar);
   const RegistrationResult fit = segment_fit(points, SegmentGrid(hall_), pose_);
   EXPECT_GT(fit.inlier_fraction, 0.9);
   int behind = 0;  // points on the hall's own walls that a 2D lidar would not see
@@ -81,13 +84,13 @@ TEST_F(CloudWalls, LeaveOutWhatIsNotAsTallAsItCouldBe) {
   mapping::Walls people;  // 1.8 m tall, 2 m away: the upper lasers pass above
   test::add_box(people, 10.0, 7.5, 10.4, 7.9);
   test::add_box(people, 6.0, 6.0, 6.4, 6.4);
-  const ScanPoints points = extract_walls(revolution(hall_, people, 1.25, pose_, 1.2, engine_));
+  const ScanPoints points = extract_walls(revolution(hall_, people, 1.25, pose_, 1.2, engine_), kLidar);
   for (std::size_t i = 0; i < points.size(); ++i)
     EXPECT_GT(distance_m(pose_ * points.point(i), pose_.translation()), 4.0);
 }
 
 TEST_F(CloudWalls, NothingInNothingOut) {
-  EXPECT_TRUE(extract_walls(PointCloud<Base>{}).empty());
+  EXPECT_TRUE(extract_walls(PointCloud<Base>{}, kLidar).empty());
 }
 
 TEST(ScanWalls, LongLinesCountAndLegsDoNot) {

@@ -341,6 +341,7 @@ export const en = {
   "cause.something-in-the-way": "Something stands in the way",
   "cause.unseen-in-the-way": "Something low stands in the way, too near for the lidar to see",
   "cause.held-back": "Something that the lidar does not see holds the vehicle: it drives and does not get on",
+  "cause.height-unseen": "No lidar sees whether the door or lift ahead is open high enough",
   "cause.time-gap": "The program stood still, or the computer's clock jumped",
 
   "remedy.give-order": "Give an order",
@@ -355,6 +356,7 @@ export const en = {
   "remedy.wait-for-place": "Wait, drive it by hand, or show its place: Where am I?",
   "remedy.check-lidar": "Check the lidar's power and network cable",
   "remedy.clear-field": "Clear the field",
+  "remedy.look-and-go-on": "Look whether it is open, then press Go on",
   "remedy.go-on": "Goes on by itself, or press Go on",
   "remedy.by-itself": "Goes on by itself",
   "remedy.clear-or-draw": "Clear the way, or draw a route",

@@ -342,6 +342,7 @@ export const ja: Record<TextKey, string> = {
   "cause.something-in-the-way": "前方に障害物があります",
   "cause.unseen-in-the-way": "近すぎてライダーに見えない低い障害物があります",
   "cause.held-back": "ライダーに見えない何かに引っかかり、走行しても進めません",
+  "cause.height-unseen": "前方の扉または昇降機が十分な高さまで開いているか、ライダーでは見えません",
   "cause.time-gap": "プログラムが停止していたか、コンピュータの時計が飛びました",
 
   "remedy.give-order": "指示を出してください",
@@ -356,6 +357,7 @@ export const ja: Record<TextKey, string> = {
   "remedy.wait-for-place": "待つか、手動で動かすか、「現在地は?」で位置を示してください",
   "remedy.check-lidar": "ライダーの電源と通信ケーブルを調べてください",
   "remedy.clear-field": "領域を空けてください",
+  "remedy.look-and-go-on": "開いていることを確かめて「先へ進む」を押してください",
   "remedy.go-on": "自動で続きます（「再開」でも続きます）",
   "remedy.by-itself": "自動で続きます",
   "remedy.clear-or-draw": "道を空けるか、経路を描いてください",

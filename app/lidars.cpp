@@ -1,0 +1,82 @@
+#include "app/lidars.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/angle.hpp"
+#include "core/result.hpp"
+#include "planning/obstacle_check/sight_history.hpp"
+
+namespace madori::app {
+namespace {
+
+/// A bracket may stand out so far.
+constexpr double kBracketM = 0.3;
+constexpr double kMastM = 4.0;
+
+void check_mounting(const mapping::SensorRecord& s, const mapping::VehicleRecord& v,
+                    const std::string& where) {
+  const double front_m = v.length_m - v.base_to_rear_m;
+  if (s.x_m > front_m + kBracketM || s.x_m < -v.base_to_rear_m - kBracketM ||
+      std::abs(s.y_m) > v.width_m / 2.0 + kBracketM)
+    throw Error(where, "sensor " + s.name + " is mounted outside the vehicle",
+                "give x_m and y_m from the middle between the driven wheels, in metres");
+  if (!(s.z_m > 0.0 && s.z_m < v.height_m + kMastM))
+    throw Error(where,
+                "sensor " + s.name + " hangs " + (s.z_m > 0.0 ? "far above the vehicle" : "in the floor"),
+                "give z_m, its height above the floor in metres");
+}
+
+/// One device cannot be two sensors.
+void check_apart(const std::vector<mapping::SensorRecord>& sensors, const std::string& where) {
+  std::set<std::string> names, addresses;
+  for (const auto& s : sensors) {
+    if (!names.insert(s.name).second)
+      throw Error(where, "two sensors are named " + s.name, "give each its own name");
+    const std::string address = s.address.empty() ? sensors::lidar_of(s.type, where).address : s.address;
+    if (!addresses.insert(address).second)
+      throw Error(where, "two sensors have the address " + address,
+                  "give each its own below sensors, as address:");
+  }
+}
+
+}  // namespace
+
+sensors::LidarSettings lidar_settings(const mapping::SensorRecord& sensor) {
+  return {sensor.name,
+          sensor.address,
+          {sensor.x_m, sensor.y_m, sensor.z_m, to_rad(sensor.yaw_deg)},
+          sensor.settings};
+}
+
+LidarModel lidar_model(const mapping::SensorRecord& sensor) {
+  return sensors::lidar_of(sensor.type, "sensor " + sensor.name).model(lidar_settings(sensor));
+}
+
+double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m) {
+  double best_m = 0.0;
+  for (const LidarModel& lidar : lidars)
+    if (planning::SensorView::of(lidar).looks_at(0.0))
+      best_m = std::max(best_m, lidar.mounting.x_m + lidar.sure_range_m(kLegM) - front_m);
+  return best_m;
+}
+
+std::vector<LidarModel> lidars_of(const mapping::Site& site, const std::filesystem::path& folder) {
+  const std::string where = (folder / "site.yaml").string();
+  if (site.sensors.empty())
+    throw Error(where, "names no lidar, which the vehicle needs to drive",
+                "add one below sensors: with its place on the vehicle");
+  std::vector<LidarModel> lidars;
+  for (const auto& sensor : site.sensors) {
+    (void)sensors::lidar_of(sensor.type, where + ": sensor " + sensor.name);
+    check_mounting(sensor, site.vehicle, where);
+    if (sensor.protective_m > 0.0 && !sensors::lidar_of(sensor.type, where).has_field)
+      throw Error(where, "sensor " + sensor.name + " has no protective field", "take protective_m away");
+    lidars.push_back(lidar_model(sensor));
+  }
+  check_apart(site.sensors, where);
+  return lidars;
+}
+
+}  // namespace madori::app

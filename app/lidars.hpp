@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/lidar_model.hpp"
+#include "mapping/site/site.hpp"
+#include "sensors/lidar/registry.hpp"
+
+namespace madori::app {
+
+/// A sensor of site.yaml as its driver wants it.
+[[nodiscard]] sensors::LidarSettings lidar_settings(const mapping::SensorRecord& sensor);
+/// What that sensor sees, by its kind and its mounting. Throws Error on an unknown kind or setting.
+[[nodiscard]] LidarModel lidar_model(const mapping::SensorRecord& sensor);
+/// The lidars of a site in its order. Throws an Error that names `folder`/site.yaml: none at all, an unknown
+/// kind, two of one name or address, one that is mounted outside the vehicle.
+[[nodiscard]] std::vector<LidarModel> lidars_of(const mapping::Site& site,
+                                                const std::filesystem::path& folder);
+
+/// The narrowest standing body that must be seen: a leg (test body of IEC 61496-3).
+inline constexpr double kLegM = 0.07;
+/// How far before the vehicle's front a leg is sure to be seen: by the lidar that does it best straight
+/// ahead.
+[[nodiscard]] double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m);
+
+}  // namespace madori::app

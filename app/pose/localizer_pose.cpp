@@ -1,0 +1,66 @@
+#include "app/pose/localizer_pose.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/cycle/stages.hpp"
+
+namespace madori::app {
+namespace {
+
+constexpr double kMergeS = 0.095;  ///< between two merged scans: no lidar here turns evenly at 10 Hz
+constexpr double kStillTrueS = 0.3;
+
+}  // namespace
+
+Point2<Base> LocalizerPose::eye(const std::vector<LidarModel>& lidars) {
+  const auto looking = place_lidars(lidars);
+  Point2<Base> middle;
+  for (const std::size_t i : looking) {
+    middle.x_m += lidars[i].mounting.x_m / static_cast<double>(looking.size());
+    middle.y_m += lidars[i].mounting.y_m / static_cast<double>(looking.size());
+  }
+  return middle;
+}
+
+LocalizerPose::LocalizerPose(const mapping::Walls& walls, std::vector<LidarModel> lidars,
+                             const LocalizerPoseOptions& options)
+    : options_(options),
+      lidars_(std::move(lidars)),
+      looks_(lidars_.size(), false),
+      eye_(eye(lidars_)),
+      newest_(lidars_.size()),
+      localizer_(walls, std::nullopt, options.localizer) {
+  for (const std::size_t i : place_lidars(lidars_)) looks_[i] = true;
+}
+
+void LocalizerPose::give(Stamp stamp, const localization::ScanPoints& points) {
+  const PoseEstimate pose = localizer_.on_scan(stamp, points, eye_);
+  if (options_.onlooker) options_.onlooker(points, pose);
+}
+
+void LocalizerPose::give_merged(Stamp now, const Transform2<Odom, Base>& odom_from_base) {
+  localization::ScanPoints merged;
+  for (const auto& look : newest_) {
+    if (!look || to_seconds(now - look->stamp) > kStillTrueS) continue;
+    const auto moved = odom_from_base.inverse() * look->odom_from_base;
+    for (std::size_t k = 0; k < look->points.size(); ++k) {
+      const Point2<Base> at = moved * look->points.point(k);
+      merged.add(at.x_m, at.y_m);
+    }
+  }
+  given_ = now;
+  give(now, merged);
+}
+
+void LocalizerPose::on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base) {
+  if (!looks_[cloud.lidar]) return;
+  const LidarModel& lidar = lidars_[cloud.lidar];
+  auto points = localization::extract_walls(cloud, lidar, options_.walls);
+  if (lidar.kind == LidarKind::Spinning) return give(cloud.stamp, points);
+  newest_[cloud.lidar] = Look{cloud.stamp, std::move(points), odom_from_base};
+  const double since_s = given_ ? to_seconds(cloud.stamp - *given_) : kMergeS;
+  if (since_s >= kMergeS || since_s < -kStillTrueS) give_merged(cloud.stamp, odom_from_base);
+}
+
+}  // namespace madori::app

@@ -1,0 +1,58 @@
+// Which files may name a model of lidar: its own folder, the registry and the simulation.
+// docs/explanation/lidars.md.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kRooms{"core",    "io",         "mapping",      "sensors", "planning",
+                                      "control", "hmi/server", "localization", "app"};
+
+/// Logs name the formats that others write; a capture is one lidar's by its nature. The command `sim` is the
+/// simulation's.
+bool may_name(const std::string& file) {
+  for (const char* place :
+       {"sensors/vlp16/", "sensors/lms1xx/", "sensors/s300/", "sensors/lidar/registry.cpp",
+        "sensors/open_log.", "sensors/pcap/", "sensors/rosbag/", "app/commands/sim.cpp"})
+    if (file.starts_with(place)) return true;
+  return false;
+}
+
+std::vector<int> lines_that_name(std::istream& source) {
+  static const std::regex model(R"rx(vlp-?16|lms-?1(xx|\d\d)|\bs-?300\b)rx", std::regex::icase);
+  std::vector<int> found;
+  std::string line;
+  for (int number = 1; std::getline(source, line); ++number)
+    if (std::regex_search(line, model)) found.push_back(number);
+  return found;
+}
+
+TEST(LidarNames, StandInTheRegistryAndTheirOwnFolders) {
+  int files = 0;
+  for (const std::string& room : kRooms)
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(MADORI_SOURCE_DIR) / room)) {
+      const auto extension = entry.path().extension();
+      if (extension != ".hpp" && extension != ".cpp") continue;
+      ++files;
+      const std::string file = fs::relative(entry.path(), MADORI_SOURCE_DIR).string();
+      if (may_name(file)) continue;
+      std::ifstream source(entry.path());
+      for (const int line : lines_that_name(source))
+        ADD_FAILURE() << file << ':' << line << " names a model of lidar: ask the registry instead";
+    }
+  EXPECT_GT(files, 300) << "the sources were not found";
+}
+
+TEST(LidarNames, AreFound) {
+  std::istringstream source("auto a = Vlp16();\nint rows300 = 1;\n// an LMS111\nuse(\"s300\");\n");
+  EXPECT_EQ(lines_that_name(source), (std::vector<int>{1, 3, 4}));
+}
+
+}  // namespace
