@@ -70,8 +70,8 @@ bool passes(const CycleState& state, const std::vector<Point2<Map>>& obstacles,
 }
 
 /// What is kept of the ordinary margins. Where no way with all of them has shown itself for a while, because
-/// the place is narrow or the vehicle has come to stand within them, it goes with less, the slower the less,
-/// until the next metres allow all of them again.
+/// the place is narrow or the vehicle has come to stand within them, it goes with less and slowly, until the
+/// next metres allow all of them again.
 planning::Squeeze squeeze_here(const CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
                                const CycleConfig& config) {
   constexpr double kHalf = 0.5;
@@ -82,12 +82,13 @@ planning::Squeeze squeeze_here(const CycleState& state, const std::vector<Point2
     return passes(state, obstacles, planning::with_margins(config.check, squeeze), config);
   };
   const bool squeezes = way.squeeze.share < 1.0;
-  if (passes_with({squeezes ? kAllAgain : 1.0, 0.0})) return {};
   const bool stands = state.mode == Mode::Waiting && way.blocked_since && !way.by_mover &&
                       to_seconds(now - *way.blocked_since) > config.squeeze_after_s;
+  if (!squeezes && !stands) return {};
+  if (passes_with({squeezes ? kAllAgain : 1.0, 0.0})) return {};
   if (!stands) return way.squeeze;
-  const planning::Squeeze least{kLeast, wall_slack_m(state, config, kLeast)};
   if (passes_with({kHalf, 0.0})) return {kHalf, 0.0};
+  const planning::Squeeze least{kLeast, wall_slack_m(state, config, kLeast)};
   if (passes_with(least)) return least;
   const bool long_since = to_seconds(now - *way.blocked_since) > 2.0 * config.squeeze_after_s;
   return long_since ? least : planning::Squeeze{kHalf, 0.0};  // a way around may do with so much

@@ -1,6 +1,7 @@
 #include "app/cycle/site_in_building.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "core/angle.hpp"
@@ -44,11 +45,10 @@ SiteInBuilding SiteInBuilding::carried(std::shared_ptr<const localization::BentD
 bool SiteInBuilding::differs(const std::shared_ptr<const localization::BentDrawing>& bent) const {
   if (bent == bent_) return false;
   if (!bent || !bent_ || bent->stands.walls.size() != bent_->stands.walls.size()) return true;
-  const auto& nodes = drawn_->nodes();
-  const bool node_moved = std::any_of(nodes.begin(), nodes.end(), [&](const planning::RouteNode& node) {
-    return distance_m(bent->by_walls(node.position), bent_->by_walls(node.position)) > kFollowedToM;
-  });
-  if (node_moved) return true;
+  const auto moved = [&](const planning::RouteNode& drawn, const planning::RouteNode& carried) {
+    return distance_m(bent->by_walls(drawn.position), carried.position) > kFollowedToM;
+  };
+  if (!std::ranges::equal(drawn_->nodes(), routes_.nodes(), std::not_fn(moved))) return true;
   const auto& before = bent_->stands.walls;
   const auto& after = bent->stands.walls;
   for (std::size_t i = 0; i < after.size(); ++i)

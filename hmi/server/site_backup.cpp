@@ -113,7 +113,8 @@ void write_backup(const fs::path& site, const fs::path& file) {
 bool is_backup(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   TarBlock block{};
-  return stream.read(block.data(), kTarBlock) && is_sound(block) && text_of(block, 0, 100).starts_with(kFolder);
+  return stream.read(block.data(), kTarBlock) && is_sound(block) &&
+         text_of(block, 0, 100).starts_with(kFolder);
 }
 
 std::size_t read_backup(const fs::path& file, const fs::path& site, bool replace) {

@@ -221,19 +221,20 @@ void PlaceBelief::moved(const Transform2<Map, Map>& by) {
     if (!p.mirrored) p.correction = p.correction * by.inverse();
 }
 
-double PlaceBelief::probability_here(const Transform2<Map, Base>& at) const {
+double PlaceBelief::probability_within(const Transform2<Map, Base>& at, double m, double rad,
+                                       double Placement::*share) const {
   double sum = 0.0;
   for (const Placement& p : placements_)
-    if (!p.mirrored && same_place(p.correction * at, at, kNearM, kNearRad)) sum += p.probability * p.near;
+    if (!p.mirrored && same_place(p.correction * at, at, m, rad)) sum += p.probability * p.*share;
   return sum;
 }
 
+double PlaceBelief::probability_here(const Transform2<Map, Base>& at) const {
+  return probability_within(at, kNearM, kNearRad, &Placement::near);
+}
+
 double PlaceBelief::probability_around(const Transform2<Map, Base>& at) const {
-  double sum = 0.0;
-  for (const Placement& p : placements_)
-    if (!p.mirrored && same_place(p.correction * at, at, kAroundM, kAroundRad))
-      sum += p.probability * p.around;
-  return sum;
+  return probability_within(at, kAroundM, kAroundRad, &Placement::around);
 }
 
 std::optional<Placement> PlaceBelief::best() const {

@@ -70,6 +70,9 @@ class PlaceBelief {
   struct Seen;
   void judge(const DrawingFit& fit, const Seen& seen, const std::optional<StartPrior>& prior,
              Placement& placement) const;
+  /// Of the places within m and rad of `at`, each by its share that is so near to it.
+  [[nodiscard]] double probability_within(const Transform2<Map, Base>& at, double m, double rad,
+                                          double Placement::*share) const;
   void share_out(std::vector<Placement> found, const Seen& seen, const Seen& mirrored);
 
   std::shared_ptr<const mapping::DistanceField> walls_;

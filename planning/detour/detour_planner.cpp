@@ -31,6 +31,12 @@ Transform2<Map, Base> pose_at(const PathPoint& point) {
   return {point.position.x_m, point.position.y_m, point.facing_rad()};
 }
 
+/// What comes on the route after the point at which it was come back to.
+void append_rest(Path& way, const Path& route, std::size_t point) {
+  way.points.insert(way.points.end(), route.points.begin() + static_cast<std::ptrdiff_t>(point) + 1,
+                    route.points.end());
+}
+
 /// Beside the vehicle, more than what it is checked with while it drives: no curve is followed exactly.
 CheckOptions with_room(CheckOptions check, double room_m) {
   check.sides_margin_m += room_m;
@@ -63,9 +69,7 @@ DetourAnswer plan_within(const DetourRequest& request, const CheckOptions& check
     }
     Path whole = around.value();
     const std::size_t joined = whole.points.size();
-    whole.points.insert(whole.points.end(),
-                        request.path.points.begin() + static_cast<std::ptrdiff_t>(rejoin) + 1,
-                        request.path.points.end());
+    append_rest(whole, request.path, rejoin);
     const PathCheck free = check_path(whole, 0, 1e3, request.obstacles, walls, check);
     if (free.blocked() && free.first_blocked < joined) continue;
     answer.rejoin = joined;
@@ -132,8 +136,7 @@ DetourAnswer manoeuvre_within(const DetourRequest& request, const CheckOptions& 
   turn.curvature_per_m = 0.0;
   whole.points.push_back(turn);
   answer.rejoin = whole.points.size() - 1;
-  whole.points.insert(whole.points.end(), path.begin() + static_cast<std::ptrdiff_t>(joins.point) + 1,
-                      path.end());
+  append_rest(whole, request.path, joins.point);
   answer.path = std::move(whole);
   return answer;
 }
