@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sensors/lidar/lidar.hpp"
@@ -24,6 +25,14 @@ struct LidarRow {
   /// Throws Error where its port is taken or a setting is wrong; a device that is not there may come later.
   std::function<std::unique_ptr<LidarDriver>(const LidarSettings&, SweepSink, BytesTap)> open;
 };
+
+/// How a row makes its decoder or driver: a class that is constructed from what the row is asked with.
+template <class Made>
+[[nodiscard]] auto made() {
+  return [](const LidarSettings& settings, SweepSink sink, auto... more) {
+    return std::make_unique<Made>(settings, std::move(sink), std::move(more)...);
+  };
+}
 
 /// All kinds of lidar, in the order in which they are offered. Registered before main() and by tests; read
 /// by everybody.

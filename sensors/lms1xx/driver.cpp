@@ -107,7 +107,7 @@ class Decoder final : public LidarDecoder {
 
 class Driver final : public LidarDriver {
  public:
-  Driver(const LidarSettings& settings, SweepSink sink)
+  Driver(const LidarSettings& settings, SweepSink sink, const BytesTap& /*tap*/)
       : model_(model(settings)),
         sink_(std::move(sink)),
         client_(options(settings), [this](auto& s, auto& d) { take(s, d); }) {}
@@ -161,18 +161,8 @@ class Driver final : public LidarDriver {
 }  // namespace
 
 LidarRow row() {
-  return {
-      "lms1xx",
-      "LMS1xx",
-      LidarLink::Tcp,
-      "192.168.0.1:2112",
-      false,
-      false,
-      model,
-      [](const LidarSettings& s, SweepSink sink) { return std::make_unique<Decoder>(s, std::move(sink)); },
-      [](const LidarSettings& s, SweepSink sink, const BytesTap& /*tap*/) {
-        return std::make_unique<Driver>(s, std::move(sink));
-      }};
+  return {"lms1xx", "LMS1xx", LidarLink::Tcp,  "192.168.0.1:2112", false,
+          false,    model,    made<Decoder>(), made<Driver>()};
 }
 
 }  // namespace madori::sensors::lms1xx

@@ -75,7 +75,7 @@ class Decoder final : public LidarDecoder {
 
 class Driver final : public LidarDriver {
  public:
-  Driver(const LidarSettings& settings, SweepSink sink)
+  Driver(const LidarSettings& settings, SweepSink sink, const BytesTap& /*tap*/)
       : device_(settings.address.empty() ? row().address : settings.address),
         sink_(std::move(sink)),
         receiver_({.device = device_, .baud = baud_of(settings), .stale_after = stale_after(settings)},
@@ -105,18 +105,8 @@ class Driver final : public LidarDriver {
 }  // namespace
 
 LidarRow row() {
-  return {
-      "s300",
-      "S300",
-      LidarLink::Serial,
-      "/dev/ttyUSB1",
-      true,
-      false,
-      model,
-      [](const LidarSettings& s, SweepSink sink) { return std::make_unique<Decoder>(s, std::move(sink)); },
-      [](const LidarSettings& s, SweepSink sink, const BytesTap& /*tap*/) {
-        return std::make_unique<Driver>(s, std::move(sink));
-      }};
+  return {"s300", "S300", LidarLink::Serial, "/dev/ttyUSB1", true,
+          false,  model,  made<Decoder>(),   made<Driver>()};
 }
 
 }  // namespace madori::sensors::s300

@@ -38,7 +38,7 @@ LidarSweep sweep_of(Frame& frame) {
 
 class Decoder final : public LidarDecoder {
  public:
-  explicit Decoder(SweepSink sink)
+  Decoder(const LidarSettings& /*settings*/, SweepSink sink)
       : sink_(std::move(sink)), assembler_([this](Frame& frame) {
           LidarSweep sweep = sweep_of(frame);
           sink_(sweep);
@@ -97,17 +97,8 @@ class Driver final : public LidarDriver {
 }  // namespace
 
 LidarRow row() {
-  return {"vlp16",
-          "VLP-16",
-          LidarLink::Udp,
-          "0.0.0.0:2368",
-          false,
-          true,
-          model,
-          [](const LidarSettings&, SweepSink sink) { return std::make_unique<Decoder>(std::move(sink)); },
-          [](const LidarSettings& s, SweepSink sink, BytesTap tap) {
-            return std::make_unique<Driver>(s, std::move(sink), std::move(tap));
-          }};
+  return {"vlp16", "VLP-16", LidarLink::Udp,  "0.0.0.0:2368", false,
+          true,    model,    made<Decoder>(), made<Driver>()};
 }
 
 }  // namespace madori::sensors::vlp16
