@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/angle.hpp"
 
@@ -29,7 +30,13 @@ double surprise(const FullPose& expected, const Displacement& found, const Matri
 
 LandmarkAgent::LandmarkAgent(LandmarkHub& hub, const std::optional<FullPose>& rough_start,
                              const AgentOptions& options)
-    : hub_(&hub), options_(options), rough_start_(rough_start) {}
+    : hub_(&hub), options_(options) {
+  if (!rough_start || hub.map().size() == 0) return;
+  last_ = 0;
+  left_last_ = true;
+  since_ = *rough_start;
+  path_m_ = std::numeric_limits<double>::infinity();
+}
 
 void LandmarkAgent::move(const FullPose& step) {
   since_ = added(since_, step);
@@ -41,8 +48,7 @@ void LandmarkAgent::move(const FullPose& step) {
 }
 
 FullPose LandmarkAgent::pose() const {
-  if (last_ >= 0) return added(hub_->landmark(last_), since_);
-  return rough_start_ ? added(*rough_start_, since_) : since_;
+  return last_ >= 0 ? added(hub_->landmark(last_), since_) : since_;
 }
 
 /// A turning point, or a crossing: more ways lead on than before, and more than a corridor's two.
@@ -60,8 +66,7 @@ bool LandmarkAgent::at_a_place(const Surroundings& seen) {
 
 std::optional<LandmarkAgent::Recognised> LandmarkAgent::recognise(const Surroundings& seen, bool is_place,
                                                                   bool& near_known) const {
-  const std::vector<FullPose> landmarks = hub_->seen_from(std::max(last_, 0));
-  const FullPose here = last_ >= 0 ? since_ : pose();
+  const std::vector<FullPose> landmarks = hub_->seen_from(last_);
   const double reach_m = (is_place ? 1.0 : 0.5) * seen.corridor_width_m;
   std::optional<Recognised> best;
   near_known = false;
@@ -71,7 +76,7 @@ std::optional<LandmarkAgent::Recognised> LandmarkAgent::recognise(const Surround
       near_known = true;
       continue;
     }
-    const FullPose expected = added(negated(landmarks[k]), here);
+    const FullPose expected = added(negated(landmarks[k]), since_);
     const double sigma_m = widest_sigma_m(expected.uncertainty.covariance);
     const double away_m = distance_m(expected.motion);
     if (away_m > reach_m + 3.0 * sigma_m) continue;
@@ -122,23 +127,26 @@ Sighting LandmarkAgent::arrive(Stamp stamp, int landmark, bool known, const Full
   return sightings_.back();
 }
 
+Sighting LandmarkAgent::arrive(Stamp stamp, const Recognised& found) {
+  return arrive(stamp, found.landmark, true, {found.match.landmark_from_scan, found.match.uncertainty},
+                found.match.quality);
+}
+
 std::optional<Sighting> LandmarkAgent::look(Stamp stamp, const Surroundings& seen) {
   const bool is_place = at_a_place(seen);
-  const bool first = last_ < 0;
   left_last_ = left_last_ || distance_m(since_.motion) > 1.5 * seen.corridor_width_m;
-  if (seen.descriptor.size() == 0 || (!first && path_m_ < seen.corridor_width_m)) return std::nullopt;
+  if (seen.descriptor.size() == 0) return std::nullopt;
   if (hub_->map().size() == 0) return arrive(stamp, hub_->add(seen.descriptor), false, {}, 1.0);
-  if (!knows_its_place()) {  // another look after half a corridor's width
+  if (last_ < 0) {
     if (driven_m_ - looked_at_m_ < 0.5 * seen.corridor_width_m) return std::nullopt;
     looked_at_m_ = driven_m_;
+    const auto found = recognise_alone(seen);
+    return found ? std::optional(arrive(stamp, *found)) : std::nullopt;
   }
+  if (path_m_ < seen.corridor_width_m) return std::nullopt;
   bool near_known = false;
-  const auto found =
-      knows_its_place() ? recognise(seen, is_place || first, near_known) : recognise_alone(seen);
-  if (found)
-    return arrive(stamp, found->landmark, true, {found->match.landmark_from_scan, found->match.uncertainty},
-                  found->match.quality);
-  if (first || !is_place || near_known || hub_->full()) return std::nullopt;
+  if (const auto found = recognise(seen, is_place, near_known)) return arrive(stamp, *found);
+  if (!is_place || near_known || hub_->full()) return std::nullopt;
   return arrive(stamp, hub_->add(seen.descriptor), false, {}, 1.0);
 }
 

@@ -23,15 +23,19 @@ struct AgentOptions {
       1.0471975511965976;      ///< 60 degrees, within half a corridor's width (sheet of the paper)
   double least_quality = 0.6;  ///< of a match: set beforehand, see docs/explanation/landmarks.md
   double rival_quality = 0.9;  ///< share of the best at which another place is as good: no answer
-  double gate = 16.27;  ///< squared sigmas, 99.9 % of three: how far a match may lie from the expected pose
+  /// Squared sigmas between a match and the expected pose, 95 % of three. An alias lies anywhere in the
+  /// window of three sigmas: if one match in twenty is one, then at this distance one in seven is, at 99.9 %
+  /// nine in ten.
+  double gate = 7.81;
 };
 
 /// One vehicle that maps: dead reckoning between landmarks, a scan match at each. Deterministic.
 class LandmarkAgent {
  public:
   /// The first agent starts the map: its first scan becomes landmark 0. A further agent has a rough pose,
-  /// seen from landmark 0; without one it compares what it sees with all landmarks until two of them, one
-  /// after the other, put it in the same place.
+  /// seen from landmark 0: as if it had driven from there, with that much uncertainty. Without one it
+  /// compares what it sees with all landmarks until two of them, one after the other, put it in the same
+  /// place.
   explicit LandmarkAgent(LandmarkHub& hub, const std::optional<FullPose>& rough_start = {},
                          const AgentOptions& options = {});
 
@@ -51,11 +55,11 @@ class LandmarkAgent {
     DescriptorMatch match;
   };
   [[nodiscard]] bool at_a_place(const Surroundings& seen);
-  [[nodiscard]] bool knows_its_place() const { return last_ >= 0 || rough_start_; }
   [[nodiscard]] std::optional<Recognised> recognise(const Surroundings& seen, bool is_place,
                                                     bool& near_known) const;
   [[nodiscard]] std::optional<Recognised> recognise_alone(const Surroundings& seen);
   Sighting arrive(Stamp stamp, int landmark, bool known, const FullPose& landmark_from_agent, double quality);
+  Sighting arrive(Stamp stamp, const Recognised& found);
 
   /// A place that a scan suggested while nothing was known, and the way since.
   struct Guess {
@@ -65,7 +69,6 @@ class LandmarkAgent {
 
   LandmarkHub* hub_;
   AgentOptions options_;
-  std::optional<FullPose> rough_start_;
   int last_ = -1;           ///< landmark of the last sighting
   bool left_last_ = false;  ///< far enough from it to come back to it
   FullPose since_;          ///< the agent seen from it

@@ -101,6 +101,27 @@ TEST_F(AgentInAnEll, ARoughStartIsEnoughButAWrongOneIsNotBelieved) {
   EXPECT_FALSE(wrong.look({}, seen(truth_)));
 }
 
+TEST_F(AgentInAnEll, ARoughlyPlacedAgentAddsPlacesAtOnceAndTheFirstKnownOneCorrectsThem) {
+  LandmarkAgent first(hub_);
+  (void)first.look({}, seen(truth_));
+  truth_ = {0.0, 6.5, 0.5 * kPi};  // where the first agent never was, told 0.3 m and 5 degrees wrong
+  const auto off = Transform2<madori::Map, Base>(8.0, 0.0, kPi).inverse() * truth_;
+  const Matrix3 rough = Matrix3::diagonal(0.25, 0.25, 0.03);
+  LandmarkAgent second(hub_,
+                       FullPose{{off.x_m() + 0.3, off.y_m() - 0.1, off.yaw_rad() + to_rad(5.0)}, {rough}});
+  turn(second, kPi);
+  drive(second, 6.5);
+  turn(second, 0.5 * kPi);
+  ASSERT_GE(hub_.map().size(), 2) << "a place of its own";
+  const double sigma_m = position_sigma_m(hub_.landmark(1).uncertainty);
+  drive(second, 8.0);
+  ASSERT_TRUE(second.sightings().back().known);
+  EXPECT_LT(position_sigma_m(hub_.landmark(1).uncertainty), 0.7 * sigma_m);
+  const auto now = Transform2<madori::Map, Base>(8.0, 0.0, kPi).inverse() * truth_;
+  EXPECT_NEAR(second.pose().motion.x_m, now.x_m(), 0.1);
+  EXPECT_NEAR(second.pose().motion.y_m, now.y_m(), 0.1);
+}
+
 TEST_F(AgentInAnEll, TheStrategyLeadsToTheSurestLandmark) {
   const FullPose leg{{5.0, 0.0, 0.0}, {Matrix3::diagonal(0.01, 0.01, 0.001)}};
   for (int i = 0; i < 4; ++i) (void)hub_.add({});
