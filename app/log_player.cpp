@@ -15,31 +15,29 @@ struct Seen {
   Point2<Base> sensor;
 };
 
-Seen seen(const sensors::ScanRecord& record, const LidarModel& /*lidar*/,
-          localization::Localizer& localizer) {
+Seen seen(const sensors::ScanRecord& record, const LidarModel& /*lidar*/, const PoseMaker& maker) {
   if (record.odom_from_base) {
-    (void)localizer.on_odometry({record.scan.stamp, *record.odom_from_base});
+    (void)maker.on_odometry({record.scan.stamp, *record.odom_from_base});
   }
   return {record.scan.stamp, localization::scan_points(record.scan, record.base_from_lidar),
           record.base_from_lidar.translation()};
 }
 
-Seen seen(const sensors::CloudRecord& record, const LidarModel& lidar,
-          localization::Localizer& /*localizer*/) {
+Seen seen(const sensors::CloudRecord& record, const LidarModel& lidar, const PoseMaker& /*maker*/) {
   return {record.cloud.stamp, localization::extract_walls(sensors::cloud_in_base(record), lidar),
           record.base_from_lidar.translation()};
 }
 
 }  // namespace
 
-PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localization::Localizer& localizer,
+PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, const PoseMaker& maker,
                    const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans) {
   PlayedLog played;
   const auto timed = [&](const auto& record) {
     ++played.scans;
     const auto before = std::chrono::steady_clock::now();
-    const Seen scan = seen(record, lidar, localizer);
-    const PoseEstimate estimate = localizer.on_scan(scan.stamp, scan.points, scan.sensor);
+    const Seen scan = seen(record, lidar, maker);
+    const PoseEstimate estimate = maker.on_scan(scan.stamp, scan.points, scan.sensor);
     sink(estimate);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
     played.scan_ms.push_back(took.count());
@@ -48,7 +46,7 @@ PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localizatio
   while (const auto record = log.next()) {
     if (const auto* odometry = std::get_if<OdometryReading>(&*record)) {
       ++played.odometry_records;
-      sink(localizer.on_odometry(*odometry));
+      sink(maker.on_odometry(*odometry));
     } else if (const auto* scan = std::get_if<sensors::ScanRecord>(&*record)) {
       timed(*scan);
     } else {
@@ -56,6 +54,15 @@ PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localizatio
     }
   }
   return played;
+}
+
+PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localization::Localizer& localizer,
+                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans) {
+  const PoseMaker maker{[&](const OdometryReading& reading) { return localizer.on_odometry(reading); },
+                        [&](Stamp stamp, const localization::ScanPoints& points, const Point2<Base>& sensor) {
+                          return localizer.on_scan(stamp, points, sensor);
+                        }};
+  return play_log(log, lidar, maker, sink, scans);
 }
 
 }  // namespace madori::app

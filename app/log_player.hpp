@@ -20,8 +20,16 @@ struct PlayedLog {
 using ScanSink =
     std::function<void(const localization::ScanPoints&, const Point2<Base>&, const PoseEstimate&)>;
 
-/// Runs a log through the localizer in the order of its records, and hands out the pose of every record.
-/// `lidar` is the one whose clouds the log holds.
+/// Whoever makes poses of odometry and scans (Base frame; where the lidar sits).
+struct PoseMaker {
+  std::function<PoseEstimate(const OdometryReading&)> on_odometry;
+  std::function<PoseEstimate(Stamp, const localization::ScanPoints&, const Point2<Base>&)> on_scan;
+};
+
+/// Runs a log through it in the order of its records, and hands out the pose of every record. `lidar` is the
+/// one whose clouds the log holds.
+PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, const PoseMaker& maker,
+                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans = {});
 PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localization::Localizer& localizer,
                    const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans = {});
 

@@ -15,4 +15,11 @@ template <class T>
   return *middle;
 }
 
+/// The value of rank `share` (0..1) of the others, rounded down; 0 of none.
+[[nodiscard]] inline double percentile_of(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
 }  // namespace madori

@@ -18,6 +18,7 @@
 #include "app/plot/reliability_plot.hpp"
 #include "app/trajectory_file.hpp"
 #include "app/trajectory_plot.hpp"
+#include "core/median.hpp"
 #include "core/result.hpp"
 #include "localization/drawing_learner/drawing_learner.hpp"
 #include "localization/memory/memory_file.hpp"
@@ -84,12 +85,6 @@ Transform2<Map, Base> parse_pose(const std::string& text) {
     throw CLI::ValidationError("--initial", "'" + text + "' is not \"x y yaw_deg\"");
   }
   return {x, y, to_rad(yaw_deg)};
-}
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 /// From the localizer's own memory, whose keyframes the lidar has tied together, where there is one.
@@ -176,8 +171,8 @@ void localize(const LocalizeArguments& arguments) {
                                  {"health", health.json()},
                                  {"self_calibration", calibration ? to_json(*calibration) : nlohmann::json()},
                                  {"walls", to_json(learner.reliability())},
-                                 {"scan_ms_median", percentile(played.scan_ms, 0.5)},
-                                 {"scan_ms_p99", percentile(played.scan_ms, 0.99)},
+                                 {"scan_ms_median", percentile_of(played.scan_ms, 0.5)},
+                                 {"scan_ms_p99", percentile_of(played.scan_ms, 0.99)},
                                  {"seed", arguments.seed}};
   write_json(arguments.json_file, result);
   std::fprintf(arguments.json_file == "-" ? stderr : stdout,

@@ -8,7 +8,13 @@
 #include "app/log_options.hpp"
 #include "app/log_player.hpp"
 #include "app/mapped_site.hpp"
+#include "app/mapping_run.hpp"
+#include "app/trajectory_plot.hpp"
+#include "core/median.hpp"
 #include "core/result.hpp"
+#include "localization/slam/graph_mapper.hpp"
+#include "mapping/site/atomic_file.hpp"
+#include "sensors/open_log.hpp"
 
 namespace madori::app {
 namespace {
@@ -18,6 +24,9 @@ struct MapArguments {
   std::string wheels;
   std::filesystem::path out;
   std::string name;
+  std::string trajectory;
+  std::string at_last;
+  std::string plot;
   std::string json_file;
   bool force = false;
 };
@@ -26,32 +35,51 @@ nlohmann::json pose_json(const Transform2<Map, Base>& pose) {
   return {{"x_m", pose.x_m()}, {"y_m", pose.y_m()}, {"yaw_deg", to_deg(pose.yaw_rad())}};
 }
 
+std::vector<std::uint8_t> final_plot(const MappingRun& run, const MappedSite& mapped) {
+  std::vector<PoseEstimate> way;
+  for (const localization::MomentPose& pose : run.at_last)
+    way.push_back({pose.stamp,
+                   mapped.map_from_memory * pose.map_from_base,
+                   Eigen::Matrix3d::Zero(),
+                   {LocalizationState::Localized, {}}});
+  return trajectory_plot(mapped.walls, way);
+}
+
 void map_log(const MapArguments& arguments) {
   if (!arguments.force && std::filesystem::exists(arguments.out / "site.yaml")) {
     throw Error(arguments.out.string(), "is a site already",
                 "choose another --out, or give --force to replace it");
   }
-  localization::Localizer localizer({}, localization::InitialPose{});
+  localization::GraphMapper mapper;
   const auto log = sensors::open_log(arguments.log, log_options({}, arguments.wheels));
-  const PlayedLog played = play_log(*log, log_lidar({}), localizer, [](const PoseEstimate&) {});
-  const localization::Memory memory = localizer.finished_memory();
+  const MappingRun run = run_mapper(*log, log_lidar({}), mapper);
+  const localization::Memory& memory = run.map.memory;
   const MappedSite mapped = map_site(localization::memory_cloud(memory), arguments.log);
   const std::string name =
       arguments.name.empty() ? std::filesystem::path(arguments.log).stem().string() : arguments.name;
   save_mapped_site(mapped, arguments.out, name, arguments.log);
+  if (!arguments.trajectory.empty())
+    mapping::write_file_atomically(arguments.trajectory, tum_text(run.causal, mapped.map_from_memory));
+  if (!arguments.at_last.empty())
+    mapping::write_file_atomically(arguments.at_last, tum_text(run.at_last, mapped.map_from_memory));
+  if (!arguments.plot.empty()) mapping::write_file_atomically(arguments.plot, final_plot(run, mapped));
   const Transform2<Map, Base> start = mapped.map_from_memory * memory.poses().front();
   double length_m = 0.0;
   for (const mapping::Wall& wall : mapped.walls) length_m += wall.segment.length_m();
-  write_json(arguments.json_file, {{"scans", played.scans},
+  write_json(arguments.json_file, {{"scans", run.played.scans},
                                    {"keyframes", memory.size()},
                                    {"loop_closures", memory.loops()},
                                    {"walls", mapped.walls.size()},
                                    {"wall_length_m", length_m},
-                                   {"start", pose_json(start)}});
+                                   {"start", pose_json(start)},
+                                   {"lost_scans", run.map.lost_scans},
+                                   {"scan_ms_median", percentile_of(run.played.scan_ms, 0.5)},
+                                   {"scan_ms_p99", percentile_of(run.played.scan_ms, 0.99)},
+                                   {"finish_s", run.finish_s}});
   std::fprintf(arguments.json_file == "-" ? stderr : stdout,
                "%d scans, %d loops closed: %zu walls, %.0f m; the log starts at \"%.3f %.3f %.2f\" (for "
                "localize --initial)\n%s written; look at import.png there\n",
-               played.scans, memory.loops(), mapped.walls.size(), length_m, start.x_m(), start.y_m(),
+               run.played.scans, memory.loops(), mapped.walls.size(), length_m, start.x_m(), start.y_m(),
                to_deg(start.yaw_rad()), arguments.out.c_str());
 }
 
@@ -68,6 +96,9 @@ void add_map(CLI::App& app) {
   command->add_option("--out", arguments->out, "site folder to write")->required();
   command->add_option("--name", arguments->name, "of the site; the log's where not given");
   command->add_flag("--force", arguments->force, "replace an existing site's walls and drawing");
+  command->add_option("--trajectory", arguments->trajectory, "TUM file of the poses as they were known");
+  command->add_option("--final", arguments->at_last, "TUM file of the poses after all loops");
+  command->add_option("--plot", arguments->plot, "PNG of the walls and the final way");
   command->add_option("--json", arguments->json_file, "figures; - for stdout");
   command->callback([arguments] { map_log(*arguments); });
 }
