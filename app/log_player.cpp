@@ -28,10 +28,19 @@ Seen seen(const sensors::CloudRecord& record, const LidarModel& lidar, const Pos
           record.base_from_lidar.translation()};
 }
 
+localization::Beams beams(const sensors::ScanRecord& /*record*/, const Seen& scan, const LidarModel& lidar) {
+  return localization::beams_of(scan.points, scan.sensor, lidar.mounting.z_m);
+}
+
+localization::Beams beams(const sensors::CloudRecord& record, const Seen& /*scan*/, const LidarModel& lidar) {
+  return localization::beams_of(sensors::cloud_in_base(record), lidar);
+}
+
 }  // namespace
 
 PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, const PoseMaker& maker,
-                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans) {
+                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans,
+                   localization::MapLearner* learner) {
   PlayedLog played;
   const auto timed = [&](const auto& record) {
     ++played.scans;
@@ -42,6 +51,7 @@ PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, const PoseM
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
     played.scan_ms.push_back(took.count());
     if (scans) scans(scan.points, scan.sensor, estimate);
+    if (learner != nullptr && learner->is_due(estimate)) learner->look(beams(record, scan, lidar), estimate);
   };
   while (const auto record = log.next()) {
     if (const auto* odometry = std::get_if<OdometryReading>(&*record)) {
@@ -57,12 +67,13 @@ PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, const PoseM
 }
 
 PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localization::Localizer& localizer,
-                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans) {
+                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans,
+                   localization::MapLearner* learner) {
   const PoseMaker maker{[&](const OdometryReading& reading) { return localizer.on_odometry(reading); },
                         [&](Stamp stamp, const localization::ScanPoints& points, const Point2<Base>& sensor) {
                           return localizer.on_scan(stamp, points, sensor);
                         }};
-  return play_log(log, lidar, maker, sink, scans);
+  return play_log(log, lidar, maker, sink, scans, learner);
 }
 
 }  // namespace madori::app

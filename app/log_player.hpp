@@ -5,6 +5,7 @@
 #include "core/lidar_model.hpp"
 #include "core/pose_estimate.hpp"
 #include "localization/localizer/localizer.hpp"
+#include "localization/ndt_map/map_learner.hpp"
 #include "sensors/log_record.hpp"
 
 namespace madori::app {
@@ -27,10 +28,12 @@ struct PoseMaker {
 };
 
 /// Runs a log through it in the order of its records, and hands out the pose of every record. `lidar` is the
-/// one whose clouds the log holds.
+/// one whose clouds the log holds. `learner`, where there is one, looks at every scan that is due.
 PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, const PoseMaker& maker,
-                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans = {});
+                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans = {},
+                   localization::MapLearner* learner = nullptr);
 PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localization::Localizer& localizer,
-                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans = {});
+                   const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans = {},
+                   localization::MapLearner* learner = nullptr);
 
 }  // namespace madori::app

@@ -6,6 +6,8 @@
 #include "app/commands.hpp"
 #include "app/learned/deviations.hpp"
 #include "app/learned/learned_drawing.hpp"
+#include "app/learned/living_map_file.hpp"
+#include "app/learned/map_layers.hpp"
 #include "app/plot/reliability_plot.hpp"
 #include "core/result.hpp"
 #include "hmi/server/site_backup.hpp"
@@ -36,6 +38,7 @@ struct ExportArguments {
   std::string reliability;
   std::string deviations;
   std::string backup;
+  std::string map_layers;
 };
 
 void write_geojson(const ExportArguments& arguments) {
@@ -75,6 +78,16 @@ void write_deviations(const ExportArguments& arguments) {
   mapping::write_file_atomically(stem + ".geojson", deviations_geojson(site, rows));
 }
 
+/// What was seen of the building, drawn or not.
+void write_map_layers(const ExportArguments& arguments) {
+  const std::filesystem::path folder(arguments.site);
+  (void)mapping::load_scaled_site(folder);
+  if (!std::filesystem::exists(folder / kLivingMapFile)) (void)load_living_map(folder / kLivingMapFile);
+  const LivingMap kept = begin_living_map(folder, mapping::load_walls(folder / "walls.csv"));
+  if (!kept.message.empty()) throw Error(kept.message);
+  save_map_layers(kept.map, arguments.map_layers);
+}
+
 }  // namespace
 
 void add_export(CLI::App& app) {
@@ -91,12 +104,17 @@ void add_export(CLI::App& app) {
   deviations->expected(0, 1);
   command->add_option("--backup", arguments->backup,
                       "the whole site as one file, with its versions; madori import FILE makes it again");
+  command->add_option(
+      "--map-layers", arguments->map_layers,
+      "folder for what was seen, drawn or not: static, semi_static and free in the format of ROS "
+      "map_server");
   command->callback([arguments, deviations] {
     if (deviations->count() > 0 && arguments->deviations.empty())
       arguments->deviations = (std::filesystem::path(arguments->site) / "deviations").string();
     if (arguments->geojson.empty() && arguments->reliability.empty() && arguments->deviations.empty() &&
-        arguments->backup.empty())
-      throw CLI::RequiredError("--geojson, --reliability, --deviations or --backup");
+        arguments->backup.empty() && arguments->map_layers.empty())
+      throw CLI::RequiredError("--geojson, --reliability, --deviations, --map-layers or --backup");
+    if (!arguments->map_layers.empty()) write_map_layers(*arguments);
     if (!arguments->backup.empty()) hmi::write_backup(arguments->site, arguments->backup);
     if (!arguments->deviations.empty()) write_deviations(*arguments);
     if (!arguments->geojson.empty()) write_geojson(*arguments);

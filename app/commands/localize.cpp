@@ -5,7 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
+#include <utility>
 
 #include "app/commands.hpp"
 #include "app/health_log.hpp"
@@ -13,9 +13,12 @@
 #include "app/learned/calibration_file.hpp"
 #include "app/learned/deviations.hpp"
 #include "app/learned/learned_drawing.hpp"
+#include "app/learned/living_map_file.hpp"
+#include "app/learned/map_layers.hpp"
 #include "app/log_options.hpp"
 #include "app/log_player.hpp"
 #include "app/plot/reliability_plot.hpp"
+#include "app/pose_argument.hpp"
 #include "app/trajectory_file.hpp"
 #include "app/trajectory_plot.hpp"
 #include "core/median.hpp"
@@ -74,19 +77,6 @@ void keep(localization::Localizer& localizer, const PoseEstimate& last, const st
       file, localization::memory_bytes(localizer.finished_memory(), mapping::walls_checksum(walls)));
 }
 
-/// "x y yaw_deg", metres and degrees.
-Transform2<Map, Base> parse_pose(const std::string& text) {
-  std::istringstream words(text);
-  double x = 0.0;
-  double y = 0.0;
-  double yaw_deg = 0.0;
-  std::string rest;
-  if (!(words >> x >> y >> yaw_deg) || words >> rest || !std::isfinite(x + y + yaw_deg)) {
-    throw CLI::ValidationError("--initial", "'" + text + "' is not \"x y yaw_deg\"");
-  }
-  return {x, y, to_rad(yaw_deg)};
-}
-
 /// From the localizer's own memory, whose keyframes the lidar has tied together, where there is one.
 localization::SelfCalibration calibrate(const localization::DrawingLearner& learner,
                                         const localization::Localizer& localizer,
@@ -119,12 +109,15 @@ void localize(const LocalizeArguments& arguments) {
   const mapping::Site site = mapping::load_scaled_site(folder);
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
   std::optional<localization::InitialPose> initial;
-  if (!arguments.global) initial = localization::InitialPose{parse_pose(arguments.initial)};
+  if (!arguments.global) initial = localization::InitialPose{parse_pose("--initial", arguments.initial)};
   const LearnedDrawing learned = load_learned_drawing(folder, walls);
   for (const std::string& message : learned.messages) std::fprintf(stderr, "%s\n", message.c_str());
   localization::Localizer localizer(learned.drawing.walls, initial);
   localization::DrawingLearner learner(walls);
   learner.reliability() = learned.reliability;
+  LivingMap begun = begin_living_map(folder, walls);
+  if (!begun.message.empty()) std::fprintf(stderr, "%s\n", begun.message.c_str());
+  localization::MapLearner map_learner(std::move(begun.map));
   if (arguments.memory) recall(localizer, folder / kMemoryFile, walls);
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   std::string trajectory = "# timestamp x y z qx qy qz qw, Map frame\n";
@@ -139,12 +132,14 @@ void localize(const LocalizeArguments& arguments) {
       },
       [&](const localization::ScanPoints& points, const Point2<Base>& sensor, const PoseEstimate& e) {
         learner.observe(points, sensor, e);
-      });
+      },
+      arguments.learn ? &map_learner : nullptr);
   std::optional<localization::SelfCalibration> calibration;  // takes a fifth of the time: where asked
   if (arguments.learn || !arguments.json_file.empty()) calibration = calibrate(learner, localizer, walls);
   if (arguments.learn) {
     localization::save_reliability(folder / kReliabilityFile, learner.reliability());
     (void)keep_calibration(folder, walls, *calibration);
+    save_living_map(folder, map_learner.map(), walls);
     // A memory that lies in a wrong place would bend the drawing to it.
     if (!estimates.empty() && estimates.back().health.state <= LocalizationState::Degraded)
       keep_warp(folder, walls, localizer);
@@ -160,20 +155,22 @@ void localize(const LocalizeArguments& arguments) {
   if (!arguments.walls_plot.empty()) {
     mapping::write_file_atomically(arguments.walls_plot, reliability_plot(walls, learner.reliability()));
   }
-  const nlohmann::json result = {{"scans", played.scans},
-                                 {"odometry_records", played.odometry_records},
-                                 {"keyframes", localizer.memory().size()},
-                                 {"loop_closures", localizer.memory().loops()},
-                                 {"memory_bytes", localizer.memory().bytes()},
-                                 {"memory_recalled", localizer.has_recalled()},
-                                 {"drawing_sigma_m", localizer.evidence().sigma_m},
-                                 {"drawing_inliers", localizer.evidence().inliers},
-                                 {"health", health.json()},
-                                 {"self_calibration", calibration ? to_json(*calibration) : nlohmann::json()},
-                                 {"walls", to_json(learner.reliability())},
-                                 {"scan_ms_median", percentile_of(played.scan_ms, 0.5)},
-                                 {"scan_ms_p99", percentile_of(played.scan_ms, 0.99)},
-                                 {"seed", arguments.seed}};
+  const nlohmann::json result = {
+      {"scans", played.scans},
+      {"odometry_records", played.odometry_records},
+      {"keyframes", localizer.memory().size()},
+      {"loop_closures", localizer.memory().loops()},
+      {"memory_bytes", localizer.memory().bytes()},
+      {"memory_recalled", localizer.has_recalled()},
+      {"drawing_sigma_m", localizer.evidence().sigma_m},
+      {"drawing_inliers", localizer.evidence().inliers},
+      {"health", health.json()},
+      {"self_calibration", calibration ? to_json(*calibration) : nlohmann::json()},
+      {"walls", to_json(learner.reliability())},
+      {"scan_ms_median", percentile_of(played.scan_ms, 0.5)},
+      {"scan_ms_p99", percentile_of(played.scan_ms, 0.99)},
+      {"living_map", arguments.learn ? to_json(map_learner.map()) : nlohmann::json()},
+      {"seed", arguments.seed}};
   write_json(arguments.json_file, result);
   std::fprintf(arguments.json_file == "-" ? stderr : stdout,
                "%d scans, %d odometry records; %s written\n%s\n%s%s", played.scans, played.odometry_records,

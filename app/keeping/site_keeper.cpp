@@ -5,6 +5,7 @@
 #include "app/learned/calibration_file.hpp"
 #include "app/learned/deviations.hpp"
 #include "app/learned/learned_drawing.hpp"
+#include "app/learned/living_map_file.hpp"
 #include "core/clock.hpp"
 #include "localization/self_calibration/self_calibration.hpp"
 #include "localization/warp/warp_file.hpp"
@@ -20,11 +21,12 @@ constexpr double kLearnedEveryS = 60.0;
 }  // namespace
 
 SiteKeeper::SiteKeeper(std::filesystem::path site, const mapping::Walls& walls,
-                       std::shared_ptr<const WallWatch> watch)
+                       std::shared_ptr<const WallWatch> watch, std::shared_ptr<const MapWatch> map_watch)
     : site_(std::move(site)),
       walls_(walls),
       fingerprint_(mapping::walls_fingerprint(walls)),
-      watch_(std::move(watch)) {}
+      watch_(std::move(watch)),
+      map_watch_(std::move(map_watch)) {}
 
 SiteKeeper::~SiteKeeper() {
   if (watch_) keep_learned();
@@ -66,7 +68,8 @@ void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
 }
 
 void SiteKeeper::keep_learned() {
-  jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, bent = bent_] {
+  jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, map = map_watch_, bent = bent_] {
+    if (map) save_living_map(site, map->map(), walls);
     if (bent) localization::save_warp(site / kWarpFile, bent->fit, walls);
     mapping::write_file_atomically(site / kReliabilityFile, watch->reliability_text());
     const auto found = localization::self_calibrate(localization::WallIndex(walls), watch->keyframes());

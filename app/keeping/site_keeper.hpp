@@ -6,6 +6,7 @@
 
 #include "app/cycle/cycle.hpp"
 #include "app/keeping/background_jobs.hpp"
+#include "app/learned/map_watch.hpp"
 #include "app/learned/wall_watch.hpp"
 #include "app/pose/pose_store.hpp"
 #include "mapping/wall_map/wall.hpp"
@@ -13,12 +14,13 @@
 namespace madori::app {
 
 /// Keeps with the site what the next start wants to know: the pose (at most every second, and when the
-/// vehicle comes to stand), and what was learned of the drawing, its walls and how they stand in the building
-/// (when it stands, at most every minute, and at the end). Files are written on a thread of its own,
-/// atomically.
+/// vehicle comes to stand), and what was learned of the drawing, its walls, how they stand in the building,
+/// and the living map (when it stands, at most every minute, and at the end). Files are written on a thread
+/// of its own, atomically.
 class SiteKeeper {
  public:
-  SiteKeeper(std::filesystem::path site, const mapping::Walls& walls, std::shared_ptr<const WallWatch> watch);
+  SiteKeeper(std::filesystem::path site, const mapping::Walls& walls, std::shared_ptr<const WallWatch> watch,
+             std::shared_ptr<const MapWatch> map_watch = nullptr);
   /// Keeps everything once more.
   ~SiteKeeper();
   SiteKeeper(const SiteKeeper&) = delete;
@@ -38,6 +40,7 @@ class SiteKeeper {
   mapping::Walls walls_;
   std::string fingerprint_;
   std::shared_ptr<const WallWatch> watch_;
+  std::shared_ptr<const MapWatch> map_watch_;
   Stamp pose_kept_{};
   Stamp learned_kept_{};
   WheelCounters kept_wheels_;

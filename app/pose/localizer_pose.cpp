@@ -34,9 +34,20 @@ LocalizerPose::LocalizerPose(const mapping::Walls& walls, std::vector<LidarModel
   for (const std::size_t i : place_lidars(lidars_)) looks_[i] = true;
 }
 
-void LocalizerPose::give(Stamp stamp, const localization::ScanPoints& points) {
-  const PoseEstimate pose = localizer_.on_scan(stamp, points, eye_);
-  if (options_.onlooker) options_.onlooker(points, pose);
+void LocalizerPose::give(Stamp stamp, const localization::ScanPoints& points,
+                         const Transform2<Odom, Base>& odom_from_base) {
+  pose_ = localizer_.on_scan(stamp, points, eye_);
+  pose_odometry_ = odom_from_base;
+  if (options_.onlooker) options_.onlooker(points, pose_);
+}
+
+/// At the pose of the last scan, and what the wheels did since.
+void LocalizerPose::show(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base) {
+  if (!options_.sweep_onlooker) return;
+  PoseEstimate pose = pose_;
+  pose.stamp = cloud.stamp;
+  pose.map_from_base = pose_.map_from_base * (pose_odometry_.inverse() * odom_from_base);
+  options_.sweep_onlooker(cloud, lidars_[cloud.lidar], pose);
 }
 
 void LocalizerPose::give_merged(Stamp now, const Transform2<Odom, Base>& odom_from_base) {
@@ -50,17 +61,21 @@ void LocalizerPose::give_merged(Stamp now, const Transform2<Odom, Base>& odom_fr
     }
   }
   given_ = now;
-  give(now, merged);
+  give(now, merged, odom_from_base);
 }
 
 void LocalizerPose::on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base) {
   if (!looks_[cloud.lidar]) return;
   const LidarModel& lidar = lidars_[cloud.lidar];
   auto points = localization::extract_walls(cloud, lidar, options_.walls);
-  if (lidar.kind == LidarKind::Spinning) return give(cloud.stamp, points);
+  if (lidar.kind == LidarKind::Spinning) {
+    give(cloud.stamp, points, odom_from_base);
+    return show(cloud, odom_from_base);
+  }
   newest_[cloud.lidar] = Look{cloud.stamp, std::move(points), odom_from_base};
   const double since_s = given_ ? to_seconds(cloud.stamp - *given_) : kMergeS;
   if (since_s >= kMergeS || since_s < -kStillTrueS) give_merged(cloud.stamp, odom_from_base);
+  show(cloud, odom_from_base);
 }
 
 }  // namespace madori::app

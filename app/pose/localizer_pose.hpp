@@ -18,6 +18,8 @@ struct LocalizerPoseOptions {
   localization::LocalizerOptions localizer = localization::driving_options();
   /// Sees the points on walls of every revolution (Base frame) and the pose there; nothing comes back.
   std::function<void(const localization::ScanPoints&, const PoseEstimate&)> onlooker;
+  /// Sees every sweep whole, with its lidar and the pose there; nothing comes back.
+  std::function<void(const PointCloud<Base>&, const LidarModel&, const PoseEstimate&)> sweep_onlooker;
 };
 
 /// The localizer as the cycle's pose source. A 3D lidar's revolutions become points on walls one by one.
@@ -49,7 +51,9 @@ class LocalizerPose final : public PoseSource {
     localization::ScanPoints points;  ///< Base frame at the stamp
     Transform2<Odom, Base> odom_from_base;
   };
-  void give(Stamp stamp, const localization::ScanPoints& points);
+  void give(Stamp stamp, const localization::ScanPoints& points,
+            const Transform2<Odom, Base>& odom_from_base);
+  void show(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base);
   void give_merged(Stamp now, const Transform2<Odom, Base>& odom_from_base);
 
   LocalizerPoseOptions options_;
@@ -58,6 +62,8 @@ class LocalizerPose final : public PoseSource {
   Point2<Base> eye_;
   std::vector<std::optional<Look>> newest_;  ///< of each planar one
   std::optional<Stamp> given_;
+  PoseEstimate pose_;                     ///< at the last scan that was given
+  Transform2<Odom, Base> pose_odometry_;  ///< odom_from_base there
   localization::Localizer localizer_;
 };
 

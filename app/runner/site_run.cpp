@@ -7,6 +7,7 @@
 
 #include "app/cycle/stages.hpp"
 #include "app/learned/learned_drawing.hpp"
+#include "app/learned/living_map_file.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/route_tools.hpp"
 #include "core/clock.hpp"
@@ -54,10 +55,16 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
     options.onlooker = [watch = loaded.watch](const auto& points, const auto& pose) {
       (void)watch->see(points, pose);
     };
+    LivingMap begun = begin_living_map(site, loaded.site->walls);
+    if (!begun.message.empty()) spdlog::warn("{}", begun.message);
+    const auto map_watch = std::make_shared<MapWatch>(std::move(begun.map));
+    options.sweep_onlooker = [map_watch](const auto& sweep, const auto& lidar, const auto& pose) {
+      (void)map_watch->see(sweep, lidar, pose);
+    };
     loaded.pose = std::make_unique<LocalizerPose>(loaded.site->walls, lidars, options);
     loaded.last = load_stored_pose(site, mapping::walls_fingerprint(loaded.site->walls));
     if (!loaded.last.message.empty()) spdlog::info("{}", loaded.last.message);
-    loaded.keeper = std::make_unique<SiteKeeper>(site, loaded.site->walls, loaded.watch);
+    loaded.keeper = std::make_unique<SiteKeeper>(site, loaded.site->walls, loaded.watch, map_watch);
   } catch (const std::exception& e) {
     loaded.missing = e.what();
   }

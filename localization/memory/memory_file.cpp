@@ -1,81 +1,19 @@
 #include "localization/memory/memory_file.hpp"
 
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstring>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "core/fnv1a.hpp"
+#include "localization/byte_stream.hpp"
 
 namespace madori::localization {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the file is little-endian");
-
 constexpr std::string_view kMagic = "MADORIMM";
 constexpr std::uint32_t kVersion = 1;
 
-class Writer {
- public:
-  template <class T>
-  void put(T value) {
-    std::array<char, sizeof(T)> raw;
-    std::memcpy(raw.data(), &value, sizeof(T));
-    bytes_.append(raw.data(), raw.size());
-  }
-  void put(std::string_view text) { bytes_ += text; }
-  template <class A, class B>
-  void put(const Transform2<A, B>& t) {
-    for (const double v : {t.x_m(), t.y_m(), t.yaw_rad()}) put(v);
-  }
-  [[nodiscard]] std::string take() {
-    put(fnv1a(bytes_));
-    return std::move(bytes_);
-  }
-
- private:
-  std::string bytes_;
-};
-
-/// Never reads beyond its bytes: what is missing reads as zero and ok() becomes false.
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-  template <class T>
-  T get() {
-    T value{};
-    if (bytes_.size() < sizeof(T)) {
-      ok_ = false;
-      bytes_ = {};
-      return value;
-    }
-    std::memcpy(&value, bytes_.data(), sizeof(T));
-    bytes_.remove_prefix(sizeof(T));
-    if constexpr (std::is_floating_point_v<T>) ok_ = ok_ && std::isfinite(value);
-    return value;
-  }
-  template <class A, class B>
-  Transform2<A, B> transform() {
-    const double x = get<double>();
-    const double y = get<double>();
-    return {x, y, get<double>()};
-  }
-  /// A number of items of at least `item_bytes` each.
-  std::uint32_t count(std::size_t item_bytes) {
-    const auto n = get<std::uint32_t>();
-    ok_ = ok_ && n <= bytes_.size() / item_bytes;
-    return ok_ ? n : 0;
-  }
-  [[nodiscard]] bool ok() const { return ok_; }
-  [[nodiscard]] bool at_end() const { return ok_ && bytes_.empty(); }
-
- private:
-  std::string_view bytes_;
-  bool ok_ = true;
-};
+using Writer = ByteWriter;
+using Reader = ByteReader;
 
 void put_scan(Writer& out, const SurfaceScan& scan) {
   out.put(static_cast<std::int64_t>(scan.stamp.time_since_epoch().count()));

@@ -135,9 +135,18 @@ def main():
         demand(confirmed > 20 and missing <= confirmed / 10,
                f"of {len(pieces)} pieces of exact walls {confirmed} are confirmed and {missing} missing")
 
+        first_map = (site / "learned" / "living_map.bin").read_bytes()
+        demand(len(first_map) > 100_000, f"the living map holds {len(first_map)} bytes")
+
         second = Life(folder, site, devices, port, "second")
         second.deliver(15)
         said = second.end()
+        second_map = (site / "learned" / "living_map.bin").read_bytes()
+        demand(len(second_map) >= 0.9 * len(first_map) and "living_map.bin is not used" not in said,
+               f"the living map was begun anew: {len(first_map)} bytes, then {len(second_map)}")
+        subprocess.run([arguments.madori, "export", site, "--map-layers", folder / "layers"], check=True)
+        for layer in ("static", "semi_static", "free"):
+            demand((folder / "layers" / f"{layer}.yaml").exists(), f"no layer {layer}")
         demand("nothing has moved since the last run" in said, f"the pose was not restored:\n{said}")
 
         text = (site / "last_pose.yaml").read_text()

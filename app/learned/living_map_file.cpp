@@ -1,0 +1,60 @@
+#include "app/learned/living_map_file.hpp"
+
+#include <utility>
+
+#include "core/result.hpp"
+#include "localization/ndt_map/hybrid_map_file.hpp"
+#include "mapping/site/atomic_file.hpp"
+#include "mapping/wall_map/wall_fingerprint.hpp"
+
+namespace madori::app {
+
+using localization::CellState;
+using localization::HybridMap;
+
+HybridMap load_living_map(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file))
+    throw Error(file.string(), "there is no living map",
+                "drive, or learn from a log: madori localize DIR --log LOG --learn");
+  auto kept = localization::parse_hybrid_map(mapping::file_content(file));
+  if (!kept.ok())
+    throw Error(file.string(), "cannot be used: " + kept.reason(), "remove it; a new one is begun");
+  return std::move(kept).value().map;
+}
+
+LivingMap begin_living_map(const std::filesystem::path& site, const mapping::Walls& walls) {
+  const auto file = site / kLivingMapFile;
+  LivingMap begun;
+  if (std::filesystem::exists(file)) {
+    auto kept = localization::parse_hybrid_map(mapping::file_content(file));
+    std::string reason = kept.ok() ? "" : kept.reason();
+    if (kept.ok() && kept.value().walls != mapping::walls_checksum(walls))
+      reason = "the walls have changed since";
+    if (reason.empty())
+      begun.map = std::move(kept).value().map;
+    else
+      begun.message = file.string() + " is not used: " + reason + "; a new one is begun";
+  }
+  begun.map.draw(walls);
+  return begun;
+}
+
+void save_living_map(const std::filesystem::path& site, const HybridMap& map, const mapping::Walls& walls) {
+  const auto file = site / kLivingMapFile;
+  std::filesystem::create_directories(file.parent_path());
+  mapping::write_file_atomically(file, localization::hybrid_map_bytes(map, mapping::walls_checksum(walls)));
+}
+
+std::vector<Point2<Map>> standing_places(const HybridMap& map) {
+  std::vector<Point2<Map>> places;
+  const auto& cells = map.cells();
+  for (localization::CellTree::Index i = 0; i < cells.size(); ++i) {
+    const CellState state = map.state(i);
+    const bool stands = state == CellState::Static || state == CellState::SemiStatic;
+    if (stands && !cells[i].gaussian.empty())
+      places.push_back({cells[i].gaussian.x_m, cells[i].gaussian.y_m});
+  }
+  return places;
+}
+
+}  // namespace madori::app

@@ -1,0 +1,103 @@
+#include "app/learned/map_layers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "core/result.hpp"
+
+namespace madori::app {
+namespace {
+
+using localization::CellPlace;
+using localization::CellState;
+using localization::CellTree;
+using localization::HybridMap;
+
+constexpr std::uint8_t kOccupied = 0;
+constexpr std::uint8_t kUnknown = 205;
+constexpr std::uint8_t kFree = 254;
+
+std::uint8_t value_of(CellState state, MapLayer layer) {
+  if (state == CellState::Unseen) return kUnknown;
+  if (layer == MapLayer::Static) return state == CellState::Static ? kOccupied : kFree;
+  if (layer == MapLayer::SemiStatic) return state == CellState::SemiStatic ? kOccupied : kFree;
+  return state == CellState::Free || state == CellState::TakenAway ? kFree : kOccupied;
+}
+
+/// Lowest and highest column and row of what was seen.
+struct Box {
+  CellPlace low{0, 0}, high{-1, -1};
+};
+
+Box box_of(const HybridMap& map) {
+  Box box;
+  const CellTree& cells = map.cells();
+  for (CellTree::Index i = 0; i < cells.size(); ++i) {
+    if (!cells[i].layers.was_seen()) continue;
+    const CellPlace& p = cells.place(i);
+    if (box.high.column < box.low.column) box = {p, p};
+    box.low = {std::min(box.low.column, p.column), std::min(box.low.row, p.row)};
+    box.high = {std::max(box.high.column, p.column), std::max(box.high.row, p.row)};
+  }
+  return box;
+}
+
+}  // namespace
+
+const char* to_string(MapLayer layer) {
+  switch (layer) {
+    case MapLayer::Static:
+      return "static";
+    case MapLayer::SemiStatic:
+      return "semi_static";
+    case MapLayer::Free:
+      return "free";
+  }
+  return "";
+}
+
+GridMap layer_of(const HybridMap& map, MapLayer layer) {
+  constexpr std::int64_t kMostPixels = 100'000'000;
+  const Box box = box_of(map);
+  GridMap grid;
+  grid.cell_m = map.options().cell_m;
+  grid.origin = {box.low.column * grid.cell_m, box.low.row * grid.cell_m};
+  grid.width = box.high.column - box.low.column + 1;
+  grid.height = box.high.row - box.low.row + 1;
+  if (std::int64_t{grid.width} * grid.height > kMostPixels)
+    throw Error("the living map", "is wider than 100 million cells",
+                "the vehicle has believed wrong places: remove it");
+  grid.pixels.assign(static_cast<std::size_t>(grid.width) * grid.height, kUnknown);
+  const CellTree& cells = map.cells();
+  for (CellTree::Index i = 0; i < cells.size(); ++i) {
+    if (!cells[i].layers.was_seen()) continue;
+    const CellPlace& p = cells.place(i);
+    const auto row = static_cast<std::size_t>(box.high.row - p.row);
+    grid.pixels[row * grid.width + (p.column - box.low.column)] = value_of(map.state(i), layer);
+  }
+  return grid;
+}
+
+void save_map_layers(const HybridMap& map, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  for (const MapLayer layer : {MapLayer::Static, MapLayer::SemiStatic, MapLayer::Free})
+    save_grid_map(folder / to_string(layer), layer_of(map, layer));
+}
+
+nlohmann::json to_json(const HybridMap& map) {
+  std::array<std::size_t, 6> counts{};
+  const CellTree& cells = map.cells();
+  for (CellTree::Index i = 0; i < cells.size(); ++i) ++counts[static_cast<std::size_t>(map.state(i))];
+  const auto count = [&](CellState state) { return counts[static_cast<std::size_t>(state)]; };
+  return {{"cells", cells.size()},
+          {"bytes", cells.bytes()},
+          {"free", count(CellState::Free)},
+          {"moving", count(CellState::Moving)},
+          {"semi_static", count(CellState::SemiStatic)},
+          {"static", count(CellState::Static)},
+          {"taken_away", count(CellState::TakenAway)},
+          {"unseen", count(CellState::Unseen)}};
+}
+
+}  // namespace madori::app

@@ -1,0 +1,59 @@
+#include "localization/ndt_map/cell_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace madori::localization {
+namespace {
+
+void add(float& layer, double evidence, double most) {
+  layer = static_cast<float>(std::clamp(static_cast<double>(layer) + evidence, -most, most));
+}
+
+float between(float from, float to, double share) {
+  return static_cast<float>(from + share * (static_cast<double>(to) - from));
+}
+
+/// How independent two looks are, 0..1.
+double apart(double seconds, double tau_s) {
+  return seconds > 0.0 ? -std::expm1(-seconds / tau_s) : 0.0;
+}
+
+}  // namespace
+
+CellLayers CellLayers::at(Stamp stamp, const LayerOptions& options) const {
+  if (!was_seen()) return *this;
+  const double since_s = to_seconds(stamp - seen);
+  CellLayers then = *this;
+  then.stands = between(stands, permanent, apart(since_s, options.permanent_tau_s));
+  then.now = between(now, then.stands, apart(since_s, options.stands_tau_s));
+  return then;
+}
+
+void CellLayers::take(double evidence, Stamp stamp, const LayerOptions& options) {
+  const double look = std::clamp(evidence, -options.look_most, options.look_most);
+  const double since_s = was_seen() ? to_seconds(stamp - seen) : 0.0;
+  const bool same = (now > 0.0F) == (look > 0.0) && now != 0.0F;  // as at the look before
+  *this = at(stamp, options);
+  if (same) {
+    add(stands, apart(since_s, options.stands_tau_s) * look, options.stands_most);
+    add(permanent, apart(since_s, options.permanent_tau_s) * look, options.permanent_most);
+  }
+  add(now, look, options.now_most);
+  seen = std::max(seen, stamp);
+}
+
+CellState CellLayers::state(Stamp stamp, const LayerOptions& options) const {
+  if (!was_seen()) return CellState::Unseen;
+  const CellLayers then = at(stamp, options);
+  const bool stays = then.permanent > options.permanent;
+  if (then.now > options.known) {
+    if (stays || drawn) return CellState::Static;
+    return then.stands > options.stands ? CellState::SemiStatic : CellState::Moving;
+  }
+  if (then.now < -options.known)
+    return stays || then.stands > options.gone ? CellState::TakenAway : CellState::Free;
+  return CellState::Unseen;
+}
+
+}  // namespace madori::localization

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/stamp.hpp"
+
+namespace madori::localization {
+
+/// What a cell is, as it is read.
+enum class CellState : std::uint8_t { Unseen, Free, Moving, SemiStatic, Static, TakenAway };
+
+/// Constants of the layers; docs/explanation/living-map.md says why. Evidence in nats.
+struct LayerOptions {
+  double look_most = 1.4;  ///< of one look
+  double now_most = 2.8;   ///< two looks say all, one does not turn it over
+  double stands_most = 1.4;
+  double permanent_most = 2.0;
+  double stands_tau_s = 30.0;             ///< looks closer in time are not independent of each other ...
+  double permanent_tau_s = 6.0 * 3600.0;  ///< ... nor of each other's day
+  double known = 0.2;                     ///< below it nothing is known
+  double stands = 0.05;                   ///< about a second of standing
+  double gone = 0.2;                      ///< what stood so surely and is not there was taken away
+  double permanent = 0.5;
+};
+
+/// Occupancy at three speeds, log odds.
+struct CellLayers {
+  float now = 0.0F;
+  float stands = 0.0F;
+  float permanent = 0.0F;
+  bool drawn = false;  ///< a wall is drawn here: what stands here is it
+  Stamp seen{};        ///< of the last look; the epoch: never
+
+  [[nodiscard]] bool was_seen() const { return seen != Stamp{}; }
+  /// One look's evidence, at `stamp`. A look that is not later than the last one tells of *now* only.
+  void take(double evidence, Stamp stamp, const LayerOptions& options);
+  /// As they count at `stamp`: out of view, each falls back to the slower one.
+  [[nodiscard]] CellLayers at(Stamp stamp, const LayerOptions& options) const;
+  [[nodiscard]] CellState state(Stamp stamp, const LayerOptions& options) const;
+};
+
+}  // namespace madori::localization

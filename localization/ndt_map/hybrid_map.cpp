@@ -1,0 +1,200 @@
+#include "localization/ndt_map/hybrid_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "localization/ndt_map/beam_in_cell.hpp"
+
+namespace madori::localization {
+namespace {
+
+/// The part of its way on which a beam is between two heights.
+struct Way {
+  double from = 0.0;
+  double to = 1.0;
+};
+
+Way between_heights(const MapBeam& beam, double low_m, double high_m) {
+  Way way;
+  if (beam.dz_m == 0.0) {
+    if (beam.z_m < low_m || beam.z_m > high_m) way.to = -1.0;
+    return way;
+  }
+  const double a = (low_m - beam.z_m) / beam.dz_m;
+  const double b = (high_m - beam.z_m) / beam.dz_m;
+  return {std::max(0.0, std::min(a, b)), std::min(1.0, std::max(a, b))};
+}
+
+/// Goes through the cells that a straight way crosses (Amanatides and Woo 1987), and tells the part of the
+/// way in each.
+template <class Visit>
+void walk(const MapBeam& beam, const Way& way, double cell_m, Visit&& visit) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double x = (beam.x_m + way.from * beam.dx_m) / cell_m;
+  const double y = (beam.y_m + way.from * beam.dy_m) / cell_m;
+  CellPlace at{static_cast<std::int32_t>(std::floor(x)), static_cast<std::int32_t>(std::floor(y))};
+  const double dx = beam.dx_m / cell_m;
+  const double dy = beam.dy_m / cell_m;
+  const std::int32_t right = dx > 0.0 ? 1 : -1;
+  const std::int32_t up = dy > 0.0 ? 1 : -1;
+  const auto first = [&](double at_m, std::int32_t cell, double d) {
+    if (d == 0.0) return kNever;
+    return way.from + ((d > 0.0 ? cell + 1.0 : static_cast<double>(cell)) - at_m) / d;
+  };
+  double next_x = first(x, at.column, dx);
+  double next_y = first(y, at.row, dy);
+  const double step_x = dx == 0.0 ? kNever : std::abs(1.0 / dx);
+  const double step_y = dy == 0.0 ? kNever : std::abs(1.0 / dy);
+  for (double from = way.from; from < way.to;) {
+    const double to = std::min({next_x, next_y, way.to});
+    visit(at, from, to);
+    from = to;
+    if (next_x < next_y) {
+      at.column += right;
+      next_x += step_x;
+    } else {
+      at.row += up;
+      next_y += step_y;
+    }
+  }
+}
+
+}  // namespace
+
+/// A beam with what of it counts.
+struct HybridMap::Ray {
+  MapBeam beam;
+  Way way;         ///< within the heights and the range
+  bool ends_here;  ///< its end is of something that stands there
+  CellPlace end;
+};
+
+CellPlace HybridMap::place_of(const Point2<Map>& p) const {
+  return {static_cast<std::int32_t>(std::floor(p.x_m / options_.cell_m)),
+          static_cast<std::int32_t>(std::floor(p.y_m / options_.cell_m))};
+}
+
+Point2<Map> HybridMap::centre(const CellPlace& place) const {
+  return {(place.column + 0.5) * options_.cell_m, (place.row + 0.5) * options_.cell_m};
+}
+
+CellState HybridMap::state_at(const Point2<Map>& p) const {
+  const CellPlace place = place_of(p);
+  const CellTree::Index cell = CellTree::holds(place) ? cells_.find(place) : CellTree::kNone;
+  return cell == CellTree::kNone ? CellState::Unseen : state(cell);
+}
+
+void HybridMap::weigh(CellTree::Index cell, double evidence) {
+  if (cell >= evidence_.size()) {
+    evidence_.resize(cells_.size(), 0.0);
+    is_touched_.resize(cells_.size(), 0);
+  }
+  if (is_touched_[cell] == 0) touched_.push_back(cell);
+  is_touched_[cell] = 1;
+  evidence_[cell] += evidence;
+}
+
+void HybridMap::hit(const Ray& ray) {
+  if (!ray.ends_here) return;
+  const auto& b = ray.beam;
+  const auto cell = cells_.at(ray.end);
+  cells_[cell].gaussian.add(b.x_m + b.dx_m, b.y_m + b.dy_m, b.z_m + b.dz_m, options_.most_samples);
+  weigh(cell, options_.hit);
+}
+
+void HybridMap::pass(const Ray& ray) {
+  walk(ray.beam, ray.way, options_.cell_m, [&](const CellPlace& place, double from, double to) {
+    if (ray.ends_here && place == ray.end) return;
+    const auto cell = cells_.at(place);
+    const CellGaussian& gaussian = cells_[cell].gaussian;
+    const double surely = gaussian.empty() ? 1.0 : refutes(ray.beam, from, to, gaussian, options_.surface_m);
+    weigh(cell, -options_.pass * surely);
+  });
+}
+
+void HybridMap::look(const Beams& beams, const Transform2<Map, Base>& map_from_base, Stamp stamp) {
+  const Point2<Map> eye = map_from_base * beams.sensor;
+  const double reach_m = (CellTree::kHalf - 2) * options_.cell_m - options_.range_max_m;
+  if (!map_from_base.is_finite() || !(std::abs(eye.x_m) < reach_m && std::abs(eye.y_m) < reach_m)) return;
+  std::vector<Ray> rays;
+  rays.reserve(beams.ends.size());
+  for (const Beams::End& end : beams.ends) {
+    const Point2<Map> at = map_from_base * Point2<Base>{end.x_m, end.y_m};
+    Ray ray{
+        {eye.x_m, eye.y_m, beams.sensor_z_m, at.x_m - eye.x_m, at.y_m - eye.y_m, end.z_m - beams.sensor_z_m},
+        {},
+        false,
+        {}};
+    const double range_m = std::hypot(ray.beam.dx_m, ray.beam.dy_m);
+    if (!(range_m > options_.range_min_m) || !std::isfinite(range_m + ray.beam.dz_m)) continue;
+    ray.way = between_heights(ray.beam, options_.low_m, options_.high_m);
+    ray.ends_here = range_m < options_.range_max_m && ray.way.to == 1.0;
+    ray.way.to = std::min(ray.way.to, options_.range_max_m / range_m);
+    if (ray.ends_here) ray.end = place_of(at);
+    rays.push_back(ray);
+  }
+  for (const Ray& ray : rays) hit(ray);
+  for (const Ray& ray : rays) pass(ray);
+  settle(stamp);
+}
+
+/// The look's evidence goes into the layers. Where nothing is left of what stood there, its shape goes, too.
+void HybridMap::settle(Stamp stamp) {
+  newest_ = std::max(newest_, stamp);
+  for (const auto i : touched_) {
+    MapCell& cell = cells_[i];
+    cell.layers.take(evidence_[i], stamp, options_.layers);
+    if (cell.layers.now <= -options_.layers.now_most && cell.layers.stands < 0.0F) cell.gaussian = {};
+    evidence_[i] = 0.0;
+    is_touched_[i] = 0;
+  }
+  touched_.clear();
+  if (cells_.size() > options_.most_cells) forget_oldest();
+}
+
+void HybridMap::forget_oldest() {
+  std::vector<CellTree::Index> order(cells_.size());
+  for (CellTree::Index i = 0; i < order.size(); ++i) order[i] = i;
+  const auto older = [&](CellTree::Index a, CellTree::Index b) {
+    return cells_[a].layers.seen != cells_[b].layers.seen ? cells_[a].layers.seen > cells_[b].layers.seen
+                                                          : a < b;
+  };
+  std::sort(order.begin(), order.end(), older);
+  order.resize(options_.most_cells - options_.most_cells / 8);
+  CellTree kept;
+  for (const auto i : order) kept[kept.at(cells_.place(i))] = cells_[i];
+  cells_ = std::move(kept);
+  evidence_.assign(cells_.size(), 0.0);
+  is_touched_.assign(cells_.size(), 0);
+}
+
+void HybridMap::draw(const mapping::Walls& walls) {
+  constexpr double kBesideM = 0.1;  // as exactly as a drawing and a pose are
+  for (CellTree::Index i = 0; i < cells_.size(); ++i) cells_[i].layers.drawn = false;
+  const auto mark = [&](const Point2<Map>& p) {
+    const CellPlace at = place_of(p);
+    if (CellTree::holds(at)) cells_[cells_.at(at)].layers.drawn = true;
+  };
+  for (const mapping::Wall& wall : walls) {
+    const auto& [a, b] = wall.segment;
+    const double length_m = wall.segment.length_m();
+    const int pieces = std::max(1, static_cast<int>(std::ceil(4.0 * length_m / options_.cell_m)));
+    for (int i = 0; i <= pieces; ++i) {
+      const double t = static_cast<double>(i) / pieces;
+      const Point2<Map> p{a.x_m + t * (b.x_m - a.x_m), a.y_m + t * (b.y_m - a.y_m)};
+      for (const double side : {-kBesideM, 0.0, kBesideM}) {
+        mark({p.x_m + side, p.y_m});
+        mark({p.x_m, p.y_m + side});
+      }
+    }
+  }
+}
+
+void HybridMap::restore(const CellPlace& place, const MapCell& cell) {
+  if (!CellTree::holds(place)) return;
+  cells_[cells_.at(place)] = cell;
+  newest_ = std::max(newest_, cell.layers.seen);
+}
+
+}  // namespace madori::localization

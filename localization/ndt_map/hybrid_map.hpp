@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/frames.hpp"
+#include "core/transform2.hpp"
+#include "localization/ndt_map/beams.hpp"
+#include "localization/ndt_map/cell_tree.hpp"
+#include "mapping/wall_map/wall.hpp"
+
+namespace madori::localization {
+
+/// What enters the map, and how it is weighed; evidence in nats.
+struct HybridMapOptions {
+  double cell_m = 0.25;
+  double hit = 0.85;            ///< a beam that ends in a cell: log(0.7 / 0.3)
+  double pass = 0.4;            ///< a beam through it: log(0.6 / 0.4)
+  double range_max_m = 30.0;    ///< farther returns only free what lies before that
+  double range_min_m = 0.4;     ///< nearer returns are the vehicle itself
+  double low_m = 0.15;          ///< above the floor: what is lower is driven over ...
+  double high_m = 1.9;          ///< ... and higher than a person stands nothing in the way
+  double surface_m = 0.05;      ///< ends within it of a surface, one sigma: noise of range and pose
+  double most_samples = 500.0;  ///< of a Gaussian: older ones fade
+  std::size_t most_cells = 250'000;
+  LayerOptions layers;
+};
+
+/// The hybrid NDT-occupancy map (docs/explanation/living-map.md; Einhorn and Gross 2015 after the
+/// lifelong-localization source, 4.2.1). Map frame. Deterministic: the same looks give the same map bit for
+/// bit. Memory is bounded by most_cells.
+class HybridMap {
+ public:
+  explicit HybridMap(const HybridMapOptions& options = {}) : options_(options) {}
+
+  /// One scan from `map_from_base`, at `stamp`. Points that are not finite are left out.
+  void look(const Beams& beams, const Transform2<Map, Base>& map_from_base, Stamp stamp);
+  /// What stands where these are drawn is static from its first look on. Takes the place of earlier ones.
+  void draw(const mapping::Walls& walls);
+
+  [[nodiscard]] const HybridMapOptions& options() const { return options_; }
+  [[nodiscard]] const CellTree& cells() const { return cells_; }
+  [[nodiscard]] Stamp newest() const { return newest_; }
+  [[nodiscard]] CellPlace place_of(const Point2<Map>& p) const;
+  [[nodiscard]] Point2<Map> centre(const CellPlace& place) const;
+  /// As it is read at the newest look.
+  [[nodiscard]] CellState state(CellTree::Index cell) const {
+    return cells_[cell].layers.state(newest_, options_.layers);
+  }
+  [[nodiscard]] CellState state_at(const Point2<Map>& p) const;
+  /// A cell as it was kept.
+  void restore(const CellPlace& place, const MapCell& cell);
+
+ private:
+  struct Ray;
+  void hit(const Ray& ray);
+  void pass(const Ray& ray);
+  void weigh(CellTree::Index cell, double evidence);
+  void settle(Stamp stamp);
+  void forget_oldest();
+
+  HybridMapOptions options_;
+  CellTree cells_;
+  Stamp newest_{};
+  std::vector<double> evidence_;  ///< of the look at hand, by cell
+  std::vector<char> is_touched_;
+  std::vector<CellTree::Index> touched_;
+};
+
+}  // namespace madori::localization

@@ -1,0 +1,196 @@
+#include "localization/ndt_map/hybrid_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "localization/ndt_map/hybrid_map_file.hpp"
+#include "localization/ndt_map/map_registration.hpp"
+#include "tests/support/made_up_buildings.hpp"
+
+namespace madori::localization {
+namespace {
+
+/// A vehicle that stands in a bare room of 8 m x 6 m, and looks ten times a second.
+class Room {
+ public:
+  Room() { test::add_box(walls_, 0.0, 0.0, 8.0, 6.0); }
+
+  void look_for(double seconds, const mapping::Walls& things = {}) {
+    mapping::Walls all = walls_;
+    all.insert(all.end(), things.begin(), things.end());
+    for (int i = 0; i < static_cast<int>(seconds * 10.0); ++i, now_s_ += 0.1) {
+      const LaserScan scan = test::simulate_scan(all, kPose, settings_, engine_);
+      map.look(beams_of(scan_points(scan, {}), {}, 0.5), kPose, stamp_from_seconds(now_s_));
+    }
+  }
+  void next_day() { now_s_ += 86'400.0; }
+  [[nodiscard]] const mapping::Walls& walls() const { return walls_; }
+
+  HybridMap map;
+
+ private:
+  static inline const Transform2<Map, Base> kPose{2.0, 3.03, 0.2};
+  mapping::Walls walls_;
+  test::ScanSettings settings_ = [] {
+    auto s = test::full_turn(720, 30.0);
+    s.range_sigma_m = 0.015;
+    return s;
+  }();
+  std::mt19937 engine_{5};
+  double now_s_ = 1e6;
+};
+
+mapping::Walls box_at(double x_m, double y_m, double half_m = 0.4) {
+  mapping::Walls box;
+  test::add_box(box, x_m - half_m, y_m - half_m, x_m + half_m, y_m + half_m);
+  return box;
+}
+
+constexpr Point2<Map> kBeforeTheWall{7.9, 3.1};
+constexpr Point2<Map> kFaceOfTheBox{4.61, 3.1};  // of a box at (5, 3.03)
+constexpr Point2<Map> kFloor{4.0, 3.1};
+
+TEST(HybridMap, WhatIsDrawnIsStaticAtOnceAndTheRestOnAnotherDay) {
+  Room drawn, undrawn;
+  drawn.map.draw(drawn.walls());
+  drawn.look_for(3.0);
+  undrawn.look_for(3.0);
+  EXPECT_EQ(drawn.map.state_at(kBeforeTheWall), CellState::Static);
+  EXPECT_EQ(undrawn.map.state_at(kBeforeTheWall), CellState::SemiStatic);
+  EXPECT_EQ(drawn.map.state_at(kFloor), CellState::Free);
+  EXPECT_EQ(drawn.map.state_at({9.0, 3.0}), CellState::Unseen);
+  undrawn.next_day();
+  undrawn.look_for(3.0);
+  EXPECT_EQ(undrawn.map.state_at(kBeforeTheWall), CellState::Static);
+}
+
+TEST(HybridMap, AThingThatIsPutDownMovesFirstAndStandsLater) {
+  Room room;
+  room.look_for(20.0);
+  room.look_for(1.0, box_at(5.0, 3.03));
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Moving);
+  room.look_for(60.0, box_at(5.0, 3.03));
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::SemiStatic);
+  room.look_for(1.0);
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::TakenAway);
+  room.look_for(60.0);
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Free);
+}
+
+TEST(HybridMap, WhoWalksThroughLeavesNothingBehind) {
+  Room room;
+  room.look_for(5.0);
+  for (double x = 3.0; x < 7.0; x += 0.12) room.look_for(0.1, box_at(x, 3.03, 0.2));
+  room.look_for(0.5);
+  for (double x = 3.0; x < 7.0; x += 0.25) EXPECT_EQ(room.map.state_at({x, 3.1}), CellState::Free) << x;
+}
+
+TEST(HybridMap, WhoWalksOutOfSightIsForgotten) {
+  Room room;
+  room.look_for(10.0);
+  room.look_for(0.3, box_at(5.0, 3.03));  // and then a wall before it
+  mapping::Walls screen = box_at(5.0, 3.03);
+  test::add_wall(screen, 3.5, 0.0, 3.5, 6.0);
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Moving);
+  room.look_for(60.0, screen);
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Free);
+}
+
+TEST(HybridMap, AWallThatIsGoneIsMissedForDays) {
+  Room room;
+  const mapping::Walls screen{{7, {{4.6, 1.0}, {4.6, 5.0}}}};
+  for (int day = 0; day < 4; ++day) {
+    room.look_for(3.0, screen);
+    room.next_day();
+  }
+  room.look_for(3.0);
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::TakenAway);
+  EXPECT_EQ(room.map.state_at(kBeforeTheWall), CellState::SemiStatic);  // behind the screen until today
+  for (int day = 0; day < 4; ++day) {
+    room.next_day();
+    room.look_for(3.0);
+  }
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Free);
+}
+
+TEST(HybridMap, AManySightingsAtOnceAreOne) {
+  Room room;
+  room.look_for(30.0);
+  const auto cell = room.map.cells().find(room.map.place_of(kBeforeTheWall));
+  EXPECT_LT(room.map.cells()[cell].layers.permanent, 0.01F);
+}
+
+/// A pallet of 0.3 m is passed above by the upper lasers: they say nothing of it.
+TEST(HybridMap, BeamsAboveAPalletDoNotTakeItAway) {
+  HybridMap map;
+  Beams beams{{}, 0.6, {}};
+  for (int i = -20; i <= 20; ++i) {
+    const auto side = 0.01F * static_cast<float>(i);
+    beams.ends.push_back({4.1F, side, 0.22F});
+    for (const float z : {0.5F, 0.8F, 1.2F, 1.6F}) beams.ends.push_back({8.1F, 2.0F * side, z});
+  }
+  for (int i = 0; i < 50; ++i) map.look(beams, {0.0, 0.1, 0.0}, stamp_from_seconds(100.0 + i));
+  EXPECT_EQ(map.state_at({4.1, 0.1}), CellState::SemiStatic);
+  EXPECT_EQ(map.state_at({3.0, 0.1}), CellState::Free);
+  EXPECT_EQ(map.state_at({8.1, 0.1}), CellState::SemiStatic);
+}
+
+TEST(HybridMap, IsReadBackAsItWasAndRefusedWhenDamaged) {
+  Room room;
+  room.look_for(2.0, box_at(5.0, 3.03));
+  const std::string bytes = hybrid_map_bytes(room.map, 77);
+  const auto back = parse_hybrid_map(bytes);
+  ASSERT_TRUE(back.ok()) << back.reason();
+  EXPECT_EQ(back.value().walls, 77U);
+  EXPECT_EQ(hybrid_map_bytes(back.value().map, 77), bytes);
+  EXPECT_EQ(back.value().map.state_at(kFaceOfTheBox), room.map.state_at(kFaceOfTheBox));
+  for (std::size_t at = 0; at < bytes.size(); at += 997) {
+    std::string bad = bytes;
+    bad[at] = static_cast<char>(bad[at] ^ 0x20);
+    EXPECT_FALSE(parse_hybrid_map(bad).ok()) << "byte " << at;
+    EXPECT_FALSE(parse_hybrid_map(std::string_view(bytes).substr(0, at)).ok()) << "cut at " << at;
+  }
+}
+
+TEST(HybridMap, TheSameLooksGiveTheSameBytes) {
+  Room a, b;
+  a.look_for(3.0, box_at(5.0, 3.03));
+  b.look_for(3.0, box_at(5.0, 3.03));
+  EXPECT_EQ(hybrid_map_bytes(a.map, 1), hybrid_map_bytes(b.map, 1));
+}
+
+TEST(MapRegistration, LaysAScanOnTheMapOfAHall) {
+  std::mt19937 engine(3);
+  auto settings = test::full_turn(360, 30.0);
+  settings.range_sigma_m = 0.02;
+  const mapping::Walls walls = test::laboratory_hall();
+  HybridMap map;
+  const auto scan_at = [&](const Transform2<Map, Base>& pose) {
+    return scan_points(test::simulate_scan(walls, pose, settings, engine), {});
+  };
+  for (int i = 0; i < 60; ++i) {
+    const Transform2<Map, Base> pose(1.5 + 0.25 * i, 5.3 - 0.05 * i, 0.1 * i);
+    map.look(beams_of(scan_at(pose), {}, 0.3), pose, stamp_from_seconds(2.0 * i + 1.0));
+  }
+  const GaussianPyramid target(map);
+  for (int k = 0; k < 12; ++k) {
+    const Transform2<Map, Base> truth(2.0 + 1.2 * k, 5.0 - 0.2 * k, 0.5 * k);
+    const Transform2<Map, Map> guess(truth.x_m() + 0.5 * std::cos(k), truth.y_m() + 0.5 * std::sin(k),
+                                     truth.yaw_rad() + to_rad(k % 2 == 0 ? 10.0 : -10.0));
+    const MapRegistration found = lay_on(target, GaussianPyramid(scan_at(truth), 0.25), guess);
+    EXPECT_TRUE(found.converged);
+    EXPECT_LT(std::hypot(found.x_m - truth.x_m(), found.y_m - truth.y_m()), 0.03) << k;
+    EXPECT_LT(std::abs(wrap_angle(found.yaw_rad - truth.yaw_rad())), to_rad(0.5)) << k;
+  }
+}
+
+TEST(MapRegistration, OfNothingAnswersTheGuess) {
+  const GaussianPyramid nothing(0.25);
+  const MapRegistration found = lay_on(nothing, nothing, {1.0, 2.0, 0.3});
+  EXPECT_FALSE(found.converged);
+  EXPECT_EQ(found.x_m, 1.0);
+}
+
+}  // namespace
+}  // namespace madori::localization
