@@ -28,7 +28,7 @@ struct RouteArguments {
   std::string site;
   std::string from;
   std::string to;
-  std::string metric = "hops";
+  std::string metric;
   double spacing_m = 0.1;
   std::string out;
   std::string json_file;
@@ -118,12 +118,18 @@ json forecast(const RouteArguments& arguments, const Path& path) {
   return to_json(map);
 }
 
+/// Routes may stand in a folder that is no site yet.
+bool site_wants_shortest(const fs::path& folder) {
+  return fs::exists(folder / "site.yaml") && mapping::load_site(folder).shortest_routes;
+}
+
 void search(const RouteArguments& arguments, const planning::RouteGraph& graph) {
   const std::size_t from = node_named(graph, arguments.from);
   const std::size_t to = node_named(graph, arguments.to);
-  const auto metric =
-      arguments.metric == "hops" ? planning::RouteMetric::Hops : planning::RouteMetric::Metres;
-  const auto route = planning::find_route(graph, from, to, metric);
+  const bool shortest =
+      arguments.metric.empty() ? site_wants_shortest(arguments.site) : arguments.metric == "metres";
+  const auto route = planning::find_route(
+      graph, from, to, shortest ? planning::RouteMetric::Metres : planning::RouteMetric::Hops);
   if (!route) {
     const auto one_way =
         planning::one_way_warnings(graph, (fs::path(arguments.site) / "routes/tree.csv").string());
@@ -150,7 +156,7 @@ void search(const RouteArguments& arguments, const planning::RouteGraph& graph) 
   json answer = {{"nodes", ids},
                  {"legs", route.value().nodes.size() - 1},
                  {"length_m", route.value().length_m},
-                 {"metric", arguments.metric},
+                 {"metric", shortest ? "metres" : "hops"},
                  {"waypoints", points}};
   if (!arguments.localizability.empty())
     answer["localizability"] = forecast(arguments, path ? path.value() : Path{});
@@ -177,9 +183,10 @@ void add_route(CLI::App& app) {
   command->add_option("DIR", arguments->site, "site folder")->required();
   command->add_option("--from", arguments->from, "node ID or name");
   command->add_option("--to", arguments->to, "node ID or name");
-  command->add_option("--metric", arguments->metric, "hops: fewest legs; metres: shortest way")
-      ->check(CLI::IsMember({"hops", "metres"}))
-      ->capture_default_str();
+  command
+      ->add_option("--metric", arguments->metric,
+                   "hops: fewest legs; metres: shortest way; default: the site's route_metric")
+      ->check(CLI::IsMember({"hops", "metres"}));
   command->add_option("--spacing", arguments->spacing_m, "metres between waypoints")
       ->check(CLI::Range(0.01, 10.0))
       ->capture_default_str();

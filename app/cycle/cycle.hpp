@@ -45,7 +45,7 @@ struct CycleConfig {
   planning::MoverOptions movers;
   planning::WaypointOptions waypoints;
   std::vector<LidarModel> lidars;  ///< clouds and scans name theirs by its place here
-  planning::RouteMetric metric = planning::RouteMetric::Metres;
+  planning::RouteMetric metric = planning::RouteMetric::Hops;
   double look_ahead_m = 7.0;           ///< of the path, checked for obstacles
   double care_speed_mps = 0.4;         ///< beside something near
   double narrow_speed_mps = 0.2;       ///< with less than the ordinary margins

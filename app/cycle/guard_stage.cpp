@@ -83,11 +83,8 @@ void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig&
 
 double share_to_go(const CycleState& state, const VelocityCommand& wanted,
                    const std::vector<Point2<Map>>& obstacles, const CycleConfig& config) {
-  constexpr double kStandsAgainstM = 0.15;
-  planning::VehicleOutline outline = config.check.vehicle;
-  if (state.way.backing) outline.front_m -= kStandsAgainstM;  // it leaves what it stands against
-  return planning::guarded_share(state.pose.map_from_base, wanted, obstacles, *state.site->walls(), outline,
-                                 config.braking, config.guard);
+  return planning::guarded_share(state.pose.map_from_base, wanted, obstacles, *state.site->walls(),
+                                 config.check.vehicle, config.braking, config.guard);
 }
 
 VelocityCommand guarded(const CycleState& state, const VelocityCommand& wanted, const CycleConfig& config) {

@@ -16,22 +16,32 @@ void take_lidars(std::vector<LidarModel> lidars, CycleConfig& config) {
     config.lidar_silent_s = std::max(config.lidar_silent_s, kPatienceSweeps * lidar.period_s);
     config.braking.scan_period_s = std::max(config.braking.scan_period_s, lidar.period_s);
   }
+  config.check.before_braking_s = config.braking.reaction_s + config.braking.scan_period_s;
   config.sure_range_m = sure_ahead_m(lidars, config.check.vehicle.front_m);
   config.lidars = std::move(lidars);
 }
 
 void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
+  constexpr double kComfort = 0.5;  ///< share of the brakes that an ordinary stop uses
+  constexpr double kTurnComfort = 2.0 / 3.0;
   config.odometry.wheels = {v.wheel_radius_m, v.wheel_radius_m, v.half_wheel_separation_m};
   config.check.vehicle = {v.length_m - v.base_to_rear_m, v.base_to_rear_m, v.width_m / 2.0, v.height_m};
   config.field.top_m = v.height_m + 0.1;
   config.pursuit.speed.max_speed_mps = v.max_speed_mps;
   config.pursuit.speed.max_turn_rate_radps = v.max_turn_rate_radps;
+  config.pursuit.speed.deceleration_mps2 = kComfort * v.max_deceleration_mps2;
+  config.pursuit.speed.reaction_s = v.reaction_s;
+  config.pursuit.turn_acceleration_radps2 = kTurnComfort * v.max_turn_acceleration_radps2;
   config.limits.max_speed_mps = v.max_speed_mps;
   config.limits.max_turn_rate_radps = v.max_turn_rate_radps;
   config.limits.max_wheel_speed_mps =
       v.max_speed_mps + 0.5 * v.max_turn_rate_radps * v.half_wheel_separation_m;
   config.limits.half_wheel_separation_m = v.half_wheel_separation_m;
   config.limits.acceleration_mps2 = v.max_acceleration_mps2;
+  config.limits.turn_acceleration_radps2 = v.max_turn_acceleration_radps2;
+  config.braking.deceleration_mps2 = v.max_deceleration_mps2;
+  config.braking.turn_deceleration_radps2 = v.max_turn_acceleration_radps2;
+  config.braking.reaction_s = v.reaction_s;
   config.movers.gain_mps2 = v.max_acceleration_mps2;
   config.movers.top_speed_mps = v.max_speed_mps;
 }
@@ -42,6 +52,7 @@ SiteForDriving load_for_driving(const std::filesystem::path& folder) {
   SiteForDriving loaded{mapping::load_scaled_site(folder), mapping::load_walls(folder / "walls.csv"), {}};
   CycleConfig& config = loaded.config;
   config.routes = planning::load_routes(folder / "routes");
+  config.metric = loaded.site.shortest_routes ? planning::RouteMetric::Metres : planning::RouteMetric::Hops;
   take_vehicle(loaded.site.vehicle, config);
   take_lidars(lidars_of(loaded.site, folder), config);
   for (const auto& sensor : loaded.site.sensors)

@@ -18,12 +18,6 @@ double already(double previous, double requested) {
 
 }  // namespace
 
-bool LimitOptions::is_valid() const {
-  return max_speed_mps > 0.0 && max_turn_rate_radps > 0.0 && max_wheel_speed_mps > 0.0 &&
-         half_wheel_separation_m > 0.0 && acceleration_mps2 > 0.0 && turn_acceleration_radps2 > 0.0 &&
-         jerk_mps3 > 0.0;
-}
-
 LimitOutput limit(const LimitState& state, const LimitInput& input, const LimitOptions& options) {
   const auto& [linear, angular] = input.requested;
   const bool finite = std::isfinite(linear) && std::isfinite(angular) && std::isfinite(input.step_s);

@@ -15,8 +15,6 @@ struct LimitOptions {
   double acceleration_mps2 = 0.5;
   double turn_acceleration_radps2 = 1.5;
   double jerk_mps3 = 2.0;  ///< how fast the acceleration itself may grow
-
-  [[nodiscard]] bool is_valid() const;
 };
 
 /// What is remembered between two steps.

@@ -64,14 +64,6 @@ VelocityCommand aim(const TrackedPath& path, const PathPiece& piece, const PathP
 
 }  // namespace
 
-bool PursuitOptions::is_valid() const {
-  return speed.max_speed_mps > 0.0 && speed.max_turn_rate_radps > 0.0 && speed.deceleration_mps2 > 0.0 &&
-         speed.lateral_acceleration_mps2 > 0.0 && speed.reaction_s >= 0.0 && look_ahead_s >= 0.0 &&
-         min_look_ahead_m > 0.0 && max_look_ahead_m >= min_look_ahead_m && turn_acceleration_radps2 > 0.0 &&
-         heading_tolerance_rad > 0.0 && goal_tolerance_m > 0.0 && creep_mps > 0.0 && creep_radps > 0.0 &&
-         off_path_m > 0.0 && unsure_sigma_m > sure_sigma_m && unsure_speed_mps > 0.0;
-}
-
 PursuitOutput pursue(const TrackedPath& path, const PursuitState& before, const PursuitInput& input,
                      const PursuitOptions& options) {
   PursuitOutput out;

@@ -24,8 +24,6 @@ struct PursuitOptions {
   double sure_sigma_m = 0.05;       ///< position uncertainty up to which full speed is allowed
   double unsure_sigma_m = 0.30;     ///< ... and from which only `unsure_speed_mps` is
   double unsure_speed_mps = 0.2;
-
-  [[nodiscard]] bool is_valid() const;
 };
 
 /// What is remembered between two steps.

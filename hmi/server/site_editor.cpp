@@ -31,15 +31,9 @@ std::string one_line(std::string text) {
 }
 
 json vehicle_json(const mapping::VehicleRecord& v) {
-  return {{"length_m", v.length_m},
-          {"width_m", v.width_m},
-          {"height_m", v.height_m},
-          {"base_to_rear_m", v.base_to_rear_m},
-          {"wheel_radius_m", v.wheel_radius_m},
-          {"half_wheel_separation_m", v.half_wheel_separation_m},
-          {"max_speed_mps", v.max_speed_mps},
-          {"max_acceleration_mps2", v.max_acceleration_mps2},
-          {"max_turn_rate_radps", v.max_turn_rate_radps}};
+  json wire;
+  for (const auto& field : mapping::kVehicleFields) wire[field.name] = v.*field.value;
+  return wire;
 }
 
 json sensors_json(const std::vector<mapping::SensorRecord>& sensors) {
@@ -49,15 +43,9 @@ json sensors_json(const std::vector<mapping::SensorRecord>& sensors) {
 }
 
 mapping::VehicleRecord vehicle_from(const json& wire) {
-  return {.wheel_radius_m = wire.at("wheel_radius_m").get<double>(),
-          .half_wheel_separation_m = wire.at("half_wheel_separation_m").get<double>(),
-          .length_m = wire.at("length_m").get<double>(),
-          .width_m = wire.at("width_m").get<double>(),
-          .height_m = wire.at("height_m").get<double>(),
-          .base_to_rear_m = wire.at("base_to_rear_m").get<double>(),
-          .max_speed_mps = wire.at("max_speed_mps").get<double>(),
-          .max_acceleration_mps2 = wire.at("max_acceleration_mps2").get<double>(),
-          .max_turn_rate_radps = wire.at("max_turn_rate_radps").get<double>()};
+  mapping::VehicleRecord v;
+  for (const auto& field : mapping::kVehicleFields) v.*field.value = wire.at(field.name).get<double>();
+  return v;
 }
 
 /// What the panel does not show of a sensor stays as it was in the site.
@@ -96,6 +84,7 @@ json SiteEditor::site() const {
             {"georeference", nullptr},
             {"vehicle", vehicle_json({})},
             {"sensors", json::array()},
+            {"route_metric", "hops"},
             {"attribution", attribution_of(folder_ / "tiles")},
             {"walls_revision", walls_revision(folder_)},
             {"routes_revision", routes_revision(folder_)},
@@ -108,6 +97,7 @@ json SiteEditor::site() const {
                      {"height_px", site.drawing.height_px}};
   wire["vehicle"] = vehicle_json(site.vehicle);
   wire["sensors"] = sensors_json(site.sensors);
+  wire["route_metric"] = site.shortest_routes ? "metres" : "hops";
   if (const auto& s = site.scale)
     wire["scale"] = {{"m_per_px", s->m_per_px},
                      {"method", s->method},
@@ -163,6 +153,7 @@ json SiteEditor::save_vehicle(const json& edit) {
   mapping::Site site = mapping::load_site(folder_);
   site.vehicle = vehicle_from(edit.at("vehicle"));
   site.sensors = sensors_from(edit.at("sensors"), site.sensors);
+  site.shortest_routes = edit.at("route_metric") == "metres";
   mapping::SiteTransaction change(folder_);
   const fs::path staged = change.staged("site.yaml");
   mapping::write_new_file(staged, mapping::site_yaml(site));

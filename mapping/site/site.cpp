@@ -52,17 +52,21 @@ GeoreferenceRecord read_georeference(StrictYaml yaml) {
 
 VehicleRecord read_vehicle(StrictYaml yaml) {
   VehicleRecord r;
-  r.wheel_radius_m = yaml.number_or("wheel_radius_m", r.wheel_radius_m, 0.005, 2.0);
-  r.half_wheel_separation_m = yaml.number_or("half_wheel_separation_m", r.half_wheel_separation_m, 0.01, 5.0);
-  r.length_m = yaml.number_or("length_m", r.length_m, 0.05, 20.0);
-  r.width_m = yaml.number_or("width_m", r.width_m, 0.05, 10.0);
-  r.height_m = yaml.number_or("height_m", r.height_m, 0.05, 10.0);
-  r.base_to_rear_m = yaml.number_or("base_to_rear_m", r.base_to_rear_m, 0.0, 20.0);
-  r.max_speed_mps = yaml.number_or("max_speed_mps", r.max_speed_mps, 0.01, 5.0);
-  r.max_acceleration_mps2 = yaml.number_or("max_acceleration_mps2", r.max_acceleration_mps2, 0.01, 10.0);
-  r.max_turn_rate_radps = yaml.number_or("max_turn_rate_radps", r.max_turn_rate_radps, 0.01, 10.0);
+  for (const VehicleField& field : kVehicleFields)
+    r.*field.value = yaml.number_or(field.name, r.*field.value, field.least, field.most);
+  if (r.base_to_rear_m > r.length_m)
+    throw yaml.error("base_to_rear_m", "the axle lies before the vehicle's front",
+                     "measure from the driven axle to the rear bumper; at most length_m");
   yaml.refuse_unknown_keys();
   return r;
+}
+
+bool read_route_metric(StrictYaml& yaml) {
+  const std::string metric = yaml.text_or("route_metric", "hops");
+  if (metric != "hops" && metric != "metres")
+    throw yaml.error("route_metric", "\"" + metric + "\" is no way to choose a route",
+                     "hops (fewest legs) or metres (shortest way)");
+  return metric == "metres";
 }
 
 SensorRecord read_sensor(StrictYaml& yaml) {
@@ -98,15 +102,9 @@ void emit_scale(YAML::Emitter& out, const ScaleRecord& scale) {
 
 void emit_vehicle(YAML::Emitter& out, const VehicleRecord& v) {
   out << YAML::Key << "vehicle" << YAML::Value << YAML::BeginMap;
-  out << YAML::Key << "wheel_radius_m" << YAML::Value << v.wheel_radius_m;
-  out << YAML::Key << "half_wheel_separation_m" << YAML::Value << v.half_wheel_separation_m;
-  out << YAML::Key << "length_m" << YAML::Value << v.length_m;
-  out << YAML::Key << "width_m" << YAML::Value << v.width_m;
-  out << YAML::Key << "height_m" << YAML::Value << v.height_m;
-  out << YAML::Key << "base_to_rear_m" << YAML::Value << v.base_to_rear_m;
-  out << YAML::Key << "max_speed_mps" << YAML::Value << v.max_speed_mps;
-  out << YAML::Key << "max_acceleration_mps2" << YAML::Value << v.max_acceleration_mps2;
-  out << YAML::Key << "max_turn_rate_radps" << YAML::Value << v.max_turn_rate_radps << YAML::EndMap;
+  for (const VehicleField& field : kVehicleFields)
+    out << YAML::Key << field.name << YAML::Value << v.*field.value;
+  out << YAML::EndMap;
 }
 
 void emit_sensor(YAML::Emitter& out, const SensorRecord& s) {
@@ -144,6 +142,7 @@ Site read_site_file(const std::filesystem::path& file) {
   if (yaml.has("georeference")) site.georeference = read_georeference(yaml.section("georeference"));
   if (yaml.has("vehicle")) site.vehicle = read_vehicle(yaml.section("vehicle"));
   for (StrictYaml& sensor : yaml.list("sensors")) site.sensors.push_back(read_sensor(sensor));
+  site.shortest_routes = read_route_metric(yaml);
   site.camera = yaml.text_or("camera", "");
   yaml.refuse_unknown_keys();
   return site;
@@ -189,6 +188,7 @@ std::string site_yaml(const Site& site) {
     out << YAML::EndMap;
   }
   emit_vehicle(out, site.vehicle);
+  if (site.shortest_routes) out << YAML::Key << "route_metric" << YAML::Value << "metres";
   if (!site.sensors.empty()) {
     out << YAML::Key << "sensors" << YAML::Value << YAML::BeginSeq;
     for (const SensorRecord& sensor : site.sensors) emit_sensor(out, sensor);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -35,7 +36,8 @@ struct GeoreferenceRecord {
   double enu_from_map_yaw_deg = 0.0;
 };
 
-/// Shape and drive of the vehicle. Defaults are the reference vehicle's.
+/// Shape and drive of the vehicle. Defaults are the reference vehicle's. Everything that drives takes its
+/// physics from here.
 struct VehicleRecord {
   double wheel_radius_m = 0.1;
   double half_wheel_separation_m = 0.25;  ///< `d` of the layout-map paper's Eq. (1)-(4)
@@ -46,7 +48,33 @@ struct VehicleRecord {
   double max_speed_mps = 1.0;
   double max_acceleration_mps2 = 0.5;
   double max_turn_rate_radps = 1.0;
+  double max_deceleration_mps2 = 0.8;  ///< that its brakes surely reach, loaded
+  double max_turn_acceleration_radps2 = 1.5;
+  double reaction_s = 0.25;  ///< from a command until the wheels obey it
 };
+
+/// The record's numbers, each once: their names in files and messages, and what is accepted.
+struct VehicleField {
+  const char* name;
+  double VehicleRecord::*value;
+  double least, most;
+};
+inline constexpr std::array kVehicleFields{
+    VehicleField{"wheel_radius_m", &VehicleRecord::wheel_radius_m, 0.005, 2.0},
+    VehicleField{"half_wheel_separation_m", &VehicleRecord::half_wheel_separation_m, 0.01, 5.0},
+    VehicleField{"length_m", &VehicleRecord::length_m, 0.05, 20.0},
+    VehicleField{"width_m", &VehicleRecord::width_m, 0.05, 10.0},
+    VehicleField{"height_m", &VehicleRecord::height_m, 0.05, 10.0},
+    VehicleField{"base_to_rear_m", &VehicleRecord::base_to_rear_m, 0.0, 20.0},
+    VehicleField{"max_speed_mps", &VehicleRecord::max_speed_mps, 0.01, 5.0},
+    VehicleField{"max_acceleration_mps2", &VehicleRecord::max_acceleration_mps2, 0.01, 10.0},
+    VehicleField{"max_turn_rate_radps", &VehicleRecord::max_turn_rate_radps, 0.01, 10.0},
+    VehicleField{"max_deceleration_mps2", &VehicleRecord::max_deceleration_mps2, 0.05, 10.0},
+    VehicleField{"max_turn_acceleration_radps2", &VehicleRecord::max_turn_acceleration_radps2, 0.05, 20.0},
+    VehicleField{"reaction_s", &VehicleRecord::reaction_s, 0.0, 2.0},
+};
+
+static_assert(sizeof(VehicleRecord) == kVehicleFields.size() * sizeof(double), "a number is not listed");
 
 /// A sensor and where it is mounted, Base frame.
 struct SensorRecord {
@@ -72,6 +100,7 @@ struct Site {
   std::optional<GeoreferenceRecord> georeference;
   VehicleRecord vehicle;
   std::vector<SensorRecord> sensors;
+  bool shortest_routes = false;  ///< least metres; else fewest legs, as published
   /// Where the verification camera's pictures come from: a URL (http, rtsp) or a device such as /dev/video0;
   /// empty: there is no camera.
   std::string camera;

@@ -20,6 +20,7 @@ struct CheckOptions {
   double turn_margin_m = 0.06;   ///< ... on all sides during a slow turn on the spot
   double care_margin_m = 0.15;   ///< something within this much more only slows the vehicle
   double protective_m = 0.0;     ///< kept free before the vehicle, of walls too: a scanner's protective field
+  double before_braking_s = 0.35;  ///< a sweep and the reaction, see BrakingModel
   double wall_margin_m = 0.03;   ///< to drawn walls, which lie as exactly as the drawing
   double step_m = 0.15;          ///< waypoints nearer together than this are checked once
   double turn_step_rad = 0.15;   ///< between the checked headings of a turn on the spot
@@ -28,8 +29,7 @@ struct CheckOptions {
 /// Kept free before and behind a vehicle of this speed: beside it as much as in a turn, and what it drives
 /// before braking shows.
 [[nodiscard]] inline double ends_margin_m(const CheckOptions& options, double speed_mps) {
-  constexpr double kBeforeBrakingS = 0.35;  ///< a scan and the reaction, see BrakingModel
-  return std::min(options.ends_margin_m, options.turn_margin_m + kBeforeBrakingS * speed_mps);
+  return std::min(options.ends_margin_m, options.turn_margin_m + options.before_braking_s * speed_mps);
 }
 
 /// What is left of the ordinary margins to a vehicle that has come to stand too near to something.
@@ -51,7 +51,8 @@ struct Squeeze {
 /// it.
 struct BrakingModel {
   double deceleration_mps2 = 0.8;
-  double reaction_s = 0.25;  ///< sensing, computing, sending, motor
+  double turn_deceleration_radps2 = 1.5;
+  double reaction_s = 0.25;  ///< computing, sending, motor
   double scan_period_s = 0.1;
 
   [[nodiscard]] double horizon_m(double speed_mps) const {

@@ -24,7 +24,8 @@ WallGrid::Cell WallGrid::cell(std::int32_t x, std::int32_t y) const {
   return {items_.data() + first_[at], items_.data() + first_[at + 1]};
 }
 
-/// Every cell that a wall passes, column by column.
+/// Every cell that a wall passes, column by column. No wall lies outside the grid, but a place on one that was
+/// computed may, by a rounding.
 template <class Visit>
 void WallGrid::for_each_cell(const Segment2<Map>& wall, Visit&& visit) const {
   const auto [x0, x1] = std::minmax({column(wall.a.x_m), column(wall.b.x_m)});
@@ -41,7 +42,8 @@ void WallGrid::for_each_cell(const Segment2<Map>& wall, Visit&& visit) const {
     const auto y_at = [&](double t) {
       return wall.a.y_m + std::clamp(t, 0.0, 1.0) * (wall.b.y_m - wall.a.y_m);
     };
-    const auto [low, high] = std::minmax({row(y_at(left)), row(y_at(right))});
+    const auto inside = [&](std::int32_t y) { return std::clamp(y, 0, rows_ - 1); };
+    const auto [low, high] = std::minmax({inside(row(y_at(left))), inside(row(y_at(right)))});
     for (std::int32_t y = low; y <= high; ++y) visit(x, y);
   }
 }

@@ -12,10 +12,6 @@ const LimitOptions kOptions;
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(Limits, DefaultsAreValid) {
-  EXPECT_TRUE(kOptions.is_valid());
-}
-
 TEST(Limits, AStartIsSmoothAndReachesTheRequest) {
   LimitState state;
   double fastest_growth = 0.0;

@@ -60,10 +60,6 @@ Drive drive(const TrackedPath& path, Transform2<Map, Base> start, const PursuitI
   return result;
 }
 
-TEST(PurePursuit, DefaultsAreValid) {
-  EXPECT_TRUE(PursuitOptions().is_valid());
-}
-
 TEST(PurePursuit, FollowsABendAtFullSpeedAndStopsAccurately) {
   const TrackedPath path(bent_path(1.0, kPi), {});
   const Drive result = drive(path, {0.0, 0.0, 0.0});

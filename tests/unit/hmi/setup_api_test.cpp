@@ -50,9 +50,12 @@ TEST_F(SetupApiTest, TheFiveStepsAreDoneOneAfterTheOther) {
   const json site = get("/api/site");
   const json edit{{"revision", site["vehicle_revision"]},
                   {"vehicle", site["vehicle"]},
-                  {"sensors", json::array({get("/api/devices")[0]["sensor"]})}};
+                  {"sensors", json::array({get("/api/devices")[0]["sensor"]})},
+                  {"route_metric", "metres"}};
   EXPECT_EQ(call("PUT", "/api/site/vehicle", edit.dump()).status, 200);
   EXPECT_TRUE(done("vehicle"));
+  EXPECT_EQ(site["route_metric"], "hops");
+  EXPECT_EQ(get("/api/site")["route_metric"], "metres");
   EXPECT_FALSE(done("locate"));
   LiveState live;
   live.pose.health.state = LocalizationState::Localized;
@@ -64,7 +67,10 @@ TEST_F(SetupApiTest, TheFiveStepsAreDoneOneAfterTheOther) {
 TEST_F(SetupApiTest, AVehicleThatCannotBeIsRefusedAndNothingIsSaved) {
   import();
   const json site = get("/api/site");
-  json edit{{"revision", site["vehicle_revision"]}, {"vehicle", site["vehicle"]}, {"sensors", json::array()}};
+  json edit{{"revision", site["vehicle_revision"]},
+            {"vehicle", site["vehicle"]},
+            {"sensors", json::array()},
+            {"route_metric", "metres"}};
   edit["vehicle"]["max_speed_mps"] = -1.0;
   EXPECT_EQ(call("PUT", "/api/site/vehicle", edit.dump()).status, 422);
   EXPECT_EQ(get("/api/site")["vehicle"], site["vehicle"]);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/result.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -41,6 +43,31 @@ TEST(Site, SurvivesSavingAndLoading) {
   EXPECT_DOUBLE_EQ(loaded.scale->m_per_px, 0.00846);
   EXPECT_EQ(loaded.scale->residuals_m, std::vector<double>{0.001});
   EXPECT_DOUBLE_EQ(loaded.sensors.at(1).protective_m, 0.65);
+}
+
+TEST(Site, EveryNumberOfTheVehicleComesBackAndIsRefusedOutOfRange) {
+  const TemporaryFolder folder;
+  Site site;
+  site.name = "hall";
+  site.drawing = {"a.png", 10, 5, 1, 0.0};
+  double share = 0.3;
+  for (const VehicleField& field : kVehicleFields)
+    site.vehicle.*field.value = field.least + (share += 0.01) * (std::min(field.most, 2.0) - field.least);
+  site.vehicle.length_m = 2.0;
+  site.shortest_routes = true;
+  save_site(folder.path(), site);
+  const Site loaded = load_site(folder.path());
+  EXPECT_TRUE(loaded.shortest_routes);
+  for (const VehicleField& field : kVehicleFields) {
+    EXPECT_EQ(loaded.vehicle.*field.value, site.vehicle.*field.value) << field.name;
+    for (const double bad : {field.least - 0.01, field.most + 0.01})
+      EXPECT_THAT(
+          error_of(std::string(kMinimal) + "vehicle: {" + field.name + ": " + std::to_string(bad) + "}\n"),
+          HasSubstr(field.name));
+  }
+  EXPECT_THAT(error_of(std::string(kMinimal) + "vehicle: {length_m: 1, base_to_rear_m: 1.1}\n"),
+              HasSubstr("base_to_rear_m"));
+  EXPECT_THAT(error_of(std::string(kMinimal) + "route_metric: best\n"), HasSubstr("hops"));
 }
 
 TEST(Site, RefusesUnknownKeysWithTheirLine) {

@@ -12,16 +12,17 @@ import { Tool } from "../../ui/tool";
 import { EditBar } from "../../ui/edit_bar";
 import { useEdit } from "./use_edit";
 
-interface Plan {
-  vehicle: VehicleInfo;
-  sensors: SensorInfo[];
-}
+type Plan = Pick<Site, "vehicle" | "sensors" | "route_metric">;
+
+const planOf = ({ vehicle, sensors, route_metric }: Site): Plan => ({ vehicle, sensors, route_metric });
+const metrics: readonly Plan["route_metric"][] = ["hops", "metres"];
 
 type Dimension = keyof VehicleInfo;
 const dimensions: readonly [Dimension, number, number, string][] = [
   ["length_m", 0.2, 5, "m"], ["width_m", 0.2, 3, "m"], ["height_m", 0.1, 4, "m"], ["base_to_rear_m", 0, 4, "m"],
   ["wheel_radius_m", 0.01, 1, "m"], ["half_wheel_separation_m", 0.05, 2, "m"],
   ["max_speed_mps", 0.05, 3, "m/s"], ["max_acceleration_mps2", 0.05, 3, "m/s²"], ["max_turn_rate_radps", 0.05, 3, "rad/s"],
+  ["max_deceleration_mps2", 0.05, 5, "m/s²"], ["max_turn_acceleration_radps2", 0.05, 10, "rad/s²"], ["reaction_s", 0, 2, "s"],
 ];
 const mounting: readonly ["x_m" | "y_m" | "z_m" | "yaw_deg", number, number, string][] = [
   ["x_m", -5, 5, "m"], ["y_m", -5, 5, "m"], ["z_m", 0, 5, "m"], ["yaw_deg", -180, 180, "°"],
@@ -82,11 +83,11 @@ export function VehicleStep({ site, next }: { site: Site; next: () => void }) {
   const edit = useEdit<Plan>({
     site: site.name,
     kind: "vehicle",
-    loaded: { revision: site.vehicle_revision, value: { vehicle: site.vehicle, sensors: site.sensors } },
+    loaded: { revision: site.vehicle_revision, value: planOf(site) },
     save: (revision, value) => api.saveVehicle({ revision, ...value }),
     reload: async () => {
       const theirs = await api.site();
-      return { revision: theirs.vehicle_revision, value: { vehicle: theirs.vehicle, sensors: theirs.sensors } };
+      return { revision: theirs.vehicle_revision, value: planOf(theirs) };
     },
   });
   const plan = edit.value;
@@ -103,6 +104,13 @@ export function VehicleStep({ site, next }: { site: Site; next: () => void }) {
               {dimensions.map(([key, least, most, unit]) => (
                 <NumberField key={key} label={t(`vehicle.${key}`)} value={plan.vehicle[key]} unit={unit} least={least} most={most}
                   change={(value) => value !== null && edit.change({ ...plan, vehicle: { ...plan.vehicle, [key]: value } })} />
+              ))}
+            </div>
+            <h2>{t("vehicle.routes")}</h2>
+            <div class="buttons">
+              {metrics.map((metric) => (
+                <Tool key={metric} icon={metric === "hops" ? "oneway" : "ruler"} label={t(`vehicle.routes.${metric}`)} pressed={plan.route_metric === metric}
+                  onClick={() => edit.change({ ...plan, route_metric: metric })} />
               ))}
             </div>
             {plan.sensors.map((sensor, i) => <Mounted key={i} sensor={sensor} change={(changedSensor) => setSensor(i, changedSensor)} remove={() => setSensor(i, null)} />)}
