@@ -71,8 +71,18 @@ void Factory::advance_traffic() {
     if (auto leaf = door.leaf()) bodies_.push_back(std::move(*leaf));
 }
 
+/// What was asked one dead time ago.
+WheelCommand Factory::obeyed(const WheelCommand& asked) {
+  const auto ticks = static_cast<std::size_t>(vehicle_.dead_time_s() / to_seconds(kTick) + 0.5);
+  unheard_.push_back(asked);
+  if (unheard_.size() <= ticks) return {};
+  const WheelCommand now = unheard_.front();
+  unheard_.pop_front();
+  return now;
+}
+
 void Factory::advance_vehicle(const WheelCommand* command) {
-  const WheelCommand asked = command != nullptr ? *command : drive_.asked();
+  const WheelCommand asked = obeyed(command != nullptr ? *command : drive_.asked());
   const auto tick_number = static_cast<std::uint64_t>(now_ / kTick);
   VehicleState next = vehicle_.advance(state_, asked, to_seconds(kTick), extra_slip(), tick_number);
   const bool moves = next.pose.x_m() != state_.pose.x_m() || next.pose.y_m() != state_.pose.y_m() ||

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -112,6 +113,7 @@ class Factory {
   [[nodiscard]] bool is_clear(const Transform2<Building, Base>& pose) const;
   [[nodiscard]] DriveTrouble trouble() const;
   [[nodiscard]] ExtraSlip extra_slip() const;
+  [[nodiscard]] WheelCommand obeyed(const WheelCommand& asked);
 
   FactorySetup setup_;
   Stamp epoch_;
@@ -120,6 +122,7 @@ class Factory {
   SensorSuite sensors_;
   Mailbox mailbox_;
   DriveDevice drive_;
+  std::deque<WheelCommand> unheard_;  ///< one a tick, of the last dead time
   std::vector<Mover> movers_;
   std::vector<Door> doors_;
   std::vector<Body> bodies_;

@@ -45,6 +45,8 @@ VehicleSpec read_vehicle_spec(StrictYaml yaml) {
   v.left_radius_error_percent = yaml.number_or("left_radius_error_percent", 0.0, -20.0, 20.0);
   v.right_radius_error_percent = yaml.number_or("right_radius_error_percent", 0.0, -20.0, 20.0);
   v.separation_error_percent = yaml.number_or("separation_error_percent", 0.0, -20.0, 20.0);
+  v.as_recorded = yaml.boolean_or("as_recorded", false);
+  v.dead_time_s = yaml.number_or("dead_time_s", v.dead_time_s, 0.0, 5.0);
   v.motor_lag_s = yaml.number_or("motor_lag_s", v.motor_lag_s, 0.0, 5.0);
   v.acceleration_mps2 = yaml.number_or("acceleration_mps2", v.acceleration_mps2, 0.05, 50.0);
   v.braking_mps2 = yaml.number_or("braking_mps2", v.braking_mps2, 0.05, 50.0);

@@ -106,6 +106,8 @@ struct VehicleSpec {
   double left_radius_error_percent = 0.0;
   double right_radius_error_percent = 0.0;
   double separation_error_percent = 0.0;
+  bool as_recorded = false;  ///< brakes, turns and answers just as the site's record says, no better
+  double dead_time_s = 0.0;  ///< from a command until the motors begin to obey
   double motor_lag_s = 0.06;
   double acceleration_mps2 = 1.5;  ///< of an empty vehicle's driven wheels
   double braking_mps2 = 2.5;

@@ -10,10 +10,19 @@ namespace {
 
 constexpr std::uint64_t kSlipStream = 0x511B;
 
+VehicleSpec really(VehicleSpec spec, const mapping::VehicleRecord& record) {
+  constexpr double kLinkAndStepS = 0.04;  // pass before the command is there
+  if (!spec.as_recorded) return spec;
+  spec.braking_mps2 = record.max_deceleration_mps2;
+  spec.dead_time_s = std::max(0.0, record.reaction_s - kLinkAndStepS);
+  spec.motor_lag_s = 0.0;
+  return spec;
+}
+
 }  // namespace
 
 Vehicle::Vehicle(const mapping::VehicleRecord& record, const VehicleSpec& spec, std::uint64_t seed)
-    : record_(record), spec_(spec), seed_(seed) {
+    : record_(record), spec_(really(spec, record)), seed_(seed) {
   const double squat = 1.0 - spec.squat_percent_per_100kg / 100.0 * spec.load_kg / 100.0;
   wheels_.left_radius_m = record.wheel_radius_m * squat * (1.0 + spec.left_radius_error_percent / 100.0);
   wheels_.right_radius_m = record.wheel_radius_m * squat * (1.0 + spec.right_radius_error_percent / 100.0);

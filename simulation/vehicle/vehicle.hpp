@@ -38,6 +38,7 @@ class Vehicle {
                                                         double margin_m = 0.0) const;
   /// What can touch something: from the ground clearance to the top of the load.
   [[nodiscard]] HeightRange body() const { return {spec_.ground_clearance_m, record_.height_m}; }
+  [[nodiscard]] double dead_time_s() const { return spec_.dead_time_s; }
   [[nodiscard]] const WheelGeometry& true_wheels() const { return wheels_; }
   [[nodiscard]] const mapping::VehicleRecord& record() const { return record_; }
 

@@ -119,6 +119,25 @@ TEST(Factory, EachFiringLeavesFromWhereTheVehicleIsAtItsTime) {
   EXPECT_GT(checked, 50);
 }
 
+TEST(Factory, AVehicleAsRecordedNeedsTheWayToStandThatItsRecordPromises) {
+  for (const double deceleration : {0.5, 1.5})
+    for (const double reaction_s : {0.05, 0.4}) {
+      FactorySetup setup = test::small_hall(20.0, 12.0, 3.0, 6.0);
+      setup.vehicle.max_deceleration_mps2 = deceleration;
+      setup.vehicle.reaction_s = reaction_s;
+      setup.scenario.vehicle.as_recorded = true;
+      Factory factory(setup);
+      factory.step(seconds(4), {10.0, 10.0});  // 1 m/s
+      const double before_m = factory.distance_driven_m();
+      factory.step(seconds(5), {0.0, 0.0});
+      const double promised_m = reaction_s + 1.0 / (2.0 * deceleration);
+      EXPECT_LE(factory.distance_driven_m() - before_m, promised_m + 0.005)
+          << deceleration << ' ' << reaction_s;
+      EXPECT_GT(factory.distance_driven_m() - before_m, promised_m - 0.06)
+          << deceleration << ' ' << reaction_s;
+    }
+}
+
 TEST(Factory, GlassLetsBeamsThroughUnlessTheyAreSquareOnIt) {
   FactorySetup setup = test::small_hall();
   setup.scenario.glass = {{{{12.0, 0.0}, {12.0, 12.0}}, 0.0, 5.0}};
