@@ -10,7 +10,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 7;
+constexpr std::uint32_t kFormat = 8;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -78,17 +78,34 @@ class BytesIn {
   std::size_t at_ = 0;
 };
 
+template <class Bytes, class... Fields>
+void each(Bytes& bytes, Fields&... fields) {
+  (bytes(fields), ...);
+}
+
+// Every field of a struct is named in a binding: one that is added does not compile until it is written too,
+// or said to need no writing.
+
+template <class Bytes, class Notice>
+void each_of_notice(Bytes& bytes, Notice& n) {
+  auto& [code, values, text] = n;
+  static_cast<void>(values);  // for a panel in another language, which a replay has not
+  each(bytes, code, text);
+}
+
 template <class Bytes, class Way>
 void each_of_way(Bytes& bytes, Way& w) {
-  bytes(w.target), bytes(w.stop), bytes(w.nodes), bytes(w.plain.points), bytes(w.pursuit), bytes(w.status);
-  bytes(w.along_m), bytes(w.cross_track_m), bytes(w.arrived), bytes(w.reported), bytes(w.dwell_until);
-  bytes(w.rejoin_m), bytes(w.check), bytes(w.stop_along_m), bytes(w.care_along_m), bytes(w.turn_free);
-  bytes(w.held), bytes(w.held_since), bytes(w.felt);
-  bytes(w.backing), bytes(w.backing_held), bytes(w.back_outs);
-  bytes(w.squeeze.share), bytes(w.squeeze.wall_slack_m), bytes(w.by_mover), bytes(w.unseen),
-      bytes(w.height_unseen), bytes(w.doors_allowed), bytes(w.stirring), bytes(w.blocked_since),
-      bytes(w.free_since), bytes(w.asked_detour);
-  bytes(w.detour_id), bytes(w.detour_pending), bytes(w.detour_failed), bytes(w.blocked_legs);
+  auto& [target, stop, nodes, path, plain, pursuit, status, along_m, cross_track_m, arrived, reported,
+         dwell_until, no_way, rejoin_m, check, stop_along_m, care_along_m, turn_free, held, held_since,
+         backing, backing_held, back_outs, felt, squeeze, height_unseen, doors_allowed, by_mover, unseen,
+         stirring, blocked_since, free_since, asked_detour, detour_id, detour_pending, detour_failed,
+         blocked_legs] = w;
+  static_cast<void>(path);  // made from `plain`
+  each(bytes, target, stop, nodes, plain.points, pursuit, status, along_m, cross_track_m, arrived, reported,
+       dwell_until, rejoin_m, check, stop_along_m, care_along_m, turn_free, held, held_since, backing,
+       backing_held, back_outs, felt, squeeze, height_unseen, doors_allowed, by_mover, unseen, stirring,
+       blocked_since, free_since, asked_detour, detour_id, detour_pending, detour_failed, blocked_legs);
+  each_of_notice(bytes, no_way);
 }
 
 template <class Bytes, class Sight>
@@ -98,12 +115,17 @@ void each_of_sight(Bytes& bytes, Sight& s) {
 
 template <class Bytes, class State>
 void each_of(Bytes& bytes, State& s) {
-  bytes(s.mode), bytes(s.odometry), bytes(s.track), bytes(s.drive), bytes(s.drive_heard),
-      bytes(s.drive_clock), bytes(s.drive_us), bytes(s.lidars_heard), bytes(s.lidar_heard), bytes(s.looked);
-  bytes(s.previous), bytes(s.gap), bytes(s.protective_stop), bytes(s.jog), bytes(s.jog_heard),
-      bytes(s.limits);
-  bytes(s.unarmed_steps), bytes(s.effort), bytes(s.trail), bytes(s.trail_at);
-  each_of_way(bytes, s.way);
+  auto& [mode, standstill, odometry, track, localization, site, pose, obstacles, movers, drive, drive_heard,
+         drive_clock, drive_us, lidars_heard, lidar_heard, looked, previous, gap, protective_stop, begun,
+         stopped, stopped_order, jog, jog_heard, way, trail, trail_at, effort, limits, unarmed_steps] = s;
+  static_cast<void>(standstill);  // for people, each step anew
+  static_cast<void>(localization), static_cast<void>(site),
+      static_cast<void>(pose);                              // a recording's own part
+  static_cast<void>(obstacles), static_cast<void>(movers);  // below: they guard their fields
+  each(bytes, mode, odometry, track, drive, drive_heard, drive_clock, drive_us, lidars_heard, lidar_heard,
+       looked, previous, gap, protective_stop, begun, stopped, stopped_order, jog, jog_heard, trail, trail_at,
+       effort, limits, unarmed_steps);
+  each_of_way(bytes, way);
 }
 
 }  // namespace
@@ -112,7 +134,6 @@ std::string state_bytes(const CycleState& state) {
   BytesOut bytes;
   bytes(kFormat);
   each_of(bytes, state);
-  bytes(state.way.no_way.code), bytes(state.way.no_way.text);
   bytes(state.obstacles.columns());
   bytes(static_cast<std::uint64_t>(state.obstacles.sights().sights().size()));
   for (const auto& sight : state.obstacles.sights().sights()) each_of_sight(bytes, sight);
@@ -127,7 +148,6 @@ void restore_state(CycleState& state, const std::string& text, const CycleConfig
   bytes(format);
   if (format != kFormat) BytesIn::fail();
   each_of(bytes, state);
-  bytes(state.way.no_way.code), bytes(state.way.no_way.text);
   std::vector<planning::Column> columns;
   bytes(columns);
   std::uint64_t count = 0;
