@@ -81,11 +81,11 @@ void write_deviations(const ExportArguments& arguments) {
 /// What was seen of the building, drawn or not.
 void write_map_layers(const ExportArguments& arguments) {
   const std::filesystem::path folder(arguments.site);
-  (void)mapping::load_scaled_site(folder);
+  const mapping::Site site = mapping::load_scaled_site(folder);
   if (!std::filesystem::exists(folder / kLivingMapFile)) (void)load_living_map(folder / kLivingMapFile);
   const LivingMap kept = begin_living_map(folder, mapping::load_walls(folder / "walls.csv"));
   if (!kept.message.empty()) throw Error(kept.message);
-  save_map_layers(kept.map, arguments.map_layers);
+  save_map_layers(kept.map, site.georeference, arguments.map_layers);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/result.hpp"
+#include "mapping/georeference/geotiff.hpp"
+#include "mapping/site/atomic_file.hpp"
 
 namespace madori::app {
 namespace {
@@ -63,6 +65,9 @@ GridMap layer_of(const HybridMap& map, MapLayer layer) {
   GridMap grid;
   grid.cell_m = map.options().cell_m;
   grid.origin = {box.low.column * grid.cell_m, box.low.row * grid.cell_m};
+  if (box.high.column < box.low.column)
+    throw Error("the living map", "is empty",
+                "drive, or learn from a log: madori localize DIR --log LOG --learn");
   grid.width = box.high.column - box.low.column + 1;
   grid.height = box.high.row - box.low.row + 1;
   if (std::int64_t{grid.width} * grid.height > kMostPixels)
@@ -79,10 +84,16 @@ GridMap layer_of(const HybridMap& map, MapLayer layer) {
   return grid;
 }
 
-void save_map_layers(const HybridMap& map, const std::filesystem::path& folder) {
+void save_map_layers(const HybridMap& map, const std::optional<mapping::GeoreferenceRecord>& georeference,
+                     const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  for (const MapLayer layer : {MapLayer::Static, MapLayer::SemiStatic, MapLayer::Free})
-    save_grid_map(folder / to_string(layer), layer_of(map, layer));
+  for (const MapLayer layer : {MapLayer::Static, MapLayer::SemiStatic, MapLayer::Free}) {
+    const GridMap grid = layer_of(map, layer);
+    const auto stem = folder / to_string(layer);
+    save_grid_map(stem, grid);
+    const mapping::MapRaster raster{grid.cell_m, grid.origin, grid.width, grid.height, grid.pixels};
+    mapping::write_file_atomically(stem.string() + ".tif", mapping::geotiff(raster, georeference));
+  }
 }
 
 nlohmann::json to_json(const HybridMap& map) {

@@ -43,12 +43,12 @@ void CellLayers::take(double evidence, Stamp stamp, const LayerOptions& options)
   seen = std::max(seen, stamp);
 }
 
-CellState CellLayers::state(Stamp stamp, const LayerOptions& options) const {
+CellState CellLayers::state(Stamp stamp, const LayerOptions& options, bool is_drawn) const {
   if (!was_seen()) return CellState::Unseen;
   const CellLayers then = at(stamp, options);
   const bool stays = then.permanent > options.permanent;
   if (then.now > options.known) {
-    if (stays || drawn) return CellState::Static;
+    if (stays || is_drawn) return CellState::Static;
     return then.stands > options.stands ? CellState::SemiStatic : CellState::Moving;
   }
   if (then.now < -options.known)

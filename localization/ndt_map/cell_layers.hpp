@@ -28,15 +28,15 @@ struct CellLayers {
   float now = 0.0F;
   float stands = 0.0F;
   float permanent = 0.0F;
-  bool drawn = false;  ///< a wall is drawn here: what stands here is it
-  Stamp seen{};        ///< of the last look; the epoch: never
+  Stamp seen{};  ///< of the last look; the epoch: never
 
   [[nodiscard]] bool was_seen() const { return seen != Stamp{}; }
   /// One look's evidence, at `stamp`. A look that is not later than the last one tells of *now* only.
   void take(double evidence, Stamp stamp, const LayerOptions& options);
   /// As they count at `stamp`: out of view, each falls back to the slower one.
   [[nodiscard]] CellLayers at(Stamp stamp, const LayerOptions& options) const;
-  [[nodiscard]] CellState state(Stamp stamp, const LayerOptions& options) const;
+  /// `is_drawn`: what was seen here lies on a drawn wall; then it is static at once.
+  [[nodiscard]] CellState state(Stamp stamp, const LayerOptions& options, bool is_drawn = false) const;
 };
 
 }  // namespace madori::localization

@@ -15,16 +15,26 @@ CellTree::Index CellTree::find(const CellPlace& place) const {
   return node;
 }
 
-CellTree::Index CellTree::at(const CellPlace& place) {
-  Index node = 0;
-  for (int level = kDepth; level > 1; --level) {
-    const std::size_t quarter = child(place, level);
-    if (branches_[node][quarter] == kNone) {
-      branches_[node][quarter] = static_cast<Index>(branches_.size());
-      branches_.push_back(kEmpty);
-    }
-    node = branches_[node][quarter];
+/// The child of a branch, made where there is none.
+CellTree::Index CellTree::descend(Index node, std::size_t quarter) {
+  if (branches_[node][quarter] == kNone) {
+    branches_[node][quarter] = static_cast<Index>(branches_.size());
+    branches_.push_back(kEmpty);
   }
+  return branches_[node][quarter];
+}
+
+/// A beam goes from a cell to the next: the way down to a block of cells is remembered.
+CellTree::Index CellTree::at(const CellPlace& place) {
+  const CellPlace block{place.column >> kBlockLevel, place.row >> kBlockLevel};
+  if (!(block == block_) || block_branch_ == kNone) {
+    Index node = 0;
+    for (int level = kDepth; level > kBlockLevel; --level) node = descend(node, child(place, level));
+    block_ = block;
+    block_branch_ = node;
+  }
+  Index node = block_branch_;
+  for (int level = kBlockLevel; level > 1; --level) node = descend(node, child(place, level));
   Index& cell = branches_[node][child(place, 1)];
   if (cell == kNone) {
     cell = static_cast<Index>(cells_.size());

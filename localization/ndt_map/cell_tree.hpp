@@ -20,6 +20,7 @@ struct CellPlace {
 struct MapCell {
   CellGaussian gaussian;
   CellLayers layers;
+  std::array<std::int32_t, 2> drawn{-1, -1};  ///< the drawn walls nearest to its middle: a wall has two faces
 };
 
 /// Cells in a quadtree of fixed depth; a cell exists once it was asked for with at(). Indices stay as they
@@ -47,11 +48,15 @@ class CellTree {
  private:
   using Branch = std::array<Index, 4>;
   static constexpr Branch kEmpty{kNone, kNone, kNone, kNone};
+  static constexpr int kBlockLevel = 3;  ///< blocks of 8 x 8 cells
   [[nodiscard]] static std::size_t child(const CellPlace& place, int level);
+  Index descend(Index node, std::size_t quarter);
 
   std::vector<Branch> branches_{kEmpty};  ///< the first is the root; the lowest ones hold cells
   std::vector<MapCell> cells_;
   std::vector<CellPlace> places_;
+  CellPlace block_;  ///< that of the last cell asked for with at() ...
+  Index block_branch_ = kNone;
 };
 
 }  // namespace madori::localization

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "localization/ndt_map/beam_in_cell.hpp"
+#include "mapping/wall_map/grid_frame.hpp"
 
 namespace madori::localization {
 namespace {
@@ -169,25 +171,48 @@ void HybridMap::forget_oldest() {
   is_touched_.assign(cells_.size(), 0);
 }
 
-void HybridMap::draw(const mapping::Walls& walls) {
-  constexpr double kBesideM = 0.1;  // as exactly as a drawing and a pose are
-  for (CellTree::Index i = 0; i < cells_.size(); ++i) cells_[i].layers.drawn = false;
-  const auto mark = [&](const Point2<Map>& p) {
-    const CellPlace at = place_of(p);
-    if (CellTree::holds(at)) cells_[cells_.at(at)].layers.drawn = true;
-  };
-  for (const mapping::Wall& wall : walls) {
-    const auto& [a, b] = wall.segment;
-    const double length_m = wall.segment.length_m();
-    const int pieces = std::max(1, static_cast<int>(std::ceil(4.0 * length_m / options_.cell_m)));
-    for (int i = 0; i <= pieces; ++i) {
-      const double t = static_cast<double>(i) / pieces;
-      const Point2<Map> p{a.x_m + t * (b.x_m - a.x_m), a.y_m + t * (b.y_m - a.y_m)};
-      for (const double side : {-kBesideM, 0.0, kBesideM}) {
-        mark({p.x_m + side, p.y_m});
-        mark({p.x_m, p.y_m + side});
+CellState HybridMap::state(CellTree::Index cell) const {
+  const MapCell& c = cells_[cell];
+  const double most_m2 = options_.drawn_m * options_.drawn_m;
+  const Point2<Map> at{c.gaussian.x_m, c.gaussian.y_m};
+  const bool is_drawn = !c.gaussian.empty() && std::any_of(c.drawn.begin(), c.drawn.end(), [&](auto wall) {
+    return wall >= 0 && mapping::squared_distance_m2(drawn_[static_cast<std::size_t>(wall)], at) < most_m2;
+  });
+  return c.layers.state(newest_, options_.layers, is_drawn);
+}
+
+/// Cells that hold something of the band around a wall, where no two others are nearer to their middle.
+void HybridMap::mark_drawn(std::int32_t wall) {
+  const Segment2<Map>& line = drawn_[static_cast<std::size_t>(wall)];
+  const double reach_m = options_.drawn_m + 0.75 * options_.cell_m;  // to the middle of such a cell
+  const auto low =
+      place_of({std::min(line.a.x_m, line.b.x_m) - reach_m, std::min(line.a.y_m, line.b.y_m) - reach_m});
+  const auto high =
+      place_of({std::max(line.a.x_m, line.b.x_m) + reach_m, std::max(line.a.y_m, line.b.y_m) + reach_m});
+  for (auto row = low.row; row <= high.row; ++row)
+    for (auto column = low.column; column <= high.column; ++column) {
+      const CellPlace place{column, row};
+      const double away_m2 = mapping::squared_distance_m2(line, centre(place));
+      if (!CellTree::holds(place) || away_m2 > reach_m * reach_m) continue;
+      auto& [first, second] = cells_[cells_.at(place)].drawn;
+      const auto nearer_than = [&](std::int32_t other) {
+        return other < 0 ||
+               away_m2 < mapping::squared_distance_m2(drawn_[static_cast<std::size_t>(other)], centre(place));
+      };
+      if (nearer_than(first)) {
+        second = std::exchange(first, wall);
+      } else if (nearer_than(second)) {
+        second = wall;
       }
     }
+}
+
+void HybridMap::draw(const mapping::Walls& walls) {
+  for (CellTree::Index i = 0; i < cells_.size(); ++i) cells_[i].drawn = {-1, -1};
+  drawn_.clear();
+  for (const mapping::Wall& wall : walls) {
+    drawn_.push_back(wall.segment);
+    mark_drawn(static_cast<std::int32_t>(drawn_.size()) - 1);
   }
 }
 

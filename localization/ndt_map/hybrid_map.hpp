@@ -20,6 +20,7 @@ struct HybridMapOptions {
   double range_min_m = 0.4;     ///< nearer returns are the vehicle itself
   double low_m = 0.15;          ///< above the floor: what is lower is driven over ...
   double high_m = 1.9;          ///< ... and higher than a person stands nothing in the way
+  double drawn_m = 0.15;        ///< what stands so near to a drawn line is that wall
   double surface_m = 0.05;      ///< ends within it of a surface, one sigma: noise of range and pose
   double most_samples = 500.0;  ///< of a Gaussian: older ones fade
   std::size_t most_cells = 250'000;
@@ -44,9 +45,7 @@ class HybridMap {
   [[nodiscard]] CellPlace place_of(const Point2<Map>& p) const;
   [[nodiscard]] Point2<Map> centre(const CellPlace& place) const;
   /// As it is read at the newest look.
-  [[nodiscard]] CellState state(CellTree::Index cell) const {
-    return cells_[cell].layers.state(newest_, options_.layers);
-  }
+  [[nodiscard]] CellState state(CellTree::Index cell) const;
   [[nodiscard]] CellState state_at(const Point2<Map>& p) const;
   /// A cell as it was kept.
   void restore(const CellPlace& place, const MapCell& cell);
@@ -58,9 +57,11 @@ class HybridMap {
   void weigh(CellTree::Index cell, double evidence);
   void settle(Stamp stamp);
   void forget_oldest();
+  void mark_drawn(std::int32_t wall);
 
   HybridMapOptions options_;
   CellTree cells_;
+  std::vector<Segment2<Map>> drawn_;
   Stamp newest_{};
   std::vector<double> evidence_;  ///< of the look at hand, by cell
   std::vector<char> is_touched_;

@@ -46,6 +46,8 @@ class Door {
   /// 0 shut, 1 open.
   [[nodiscard]] double openness() const { return openness_; }
   [[nodiscard]] const std::string& name() const { return spec_.name; }
+  /// The opening.
+  [[nodiscard]] const Segment2<Building>& line() const { return line_; }
 
  private:
   [[nodiscard]] double distance_to(const Point2<Building>& p) const;

@@ -146,7 +146,8 @@ def main():
                f"the living map was begun anew: {len(first_map)} bytes, then {len(second_map)}")
         subprocess.run([arguments.madori, "export", site, "--map-layers", folder / "layers"], check=True)
         for layer in ("static", "semi_static", "free"):
-            demand((folder / "layers" / f"{layer}.yaml").exists(), f"no layer {layer}")
+            for kind in ("pgm", "yaml", "tif"):
+                demand((folder / "layers" / f"{layer}.{kind}").stat().st_size > 50, f"no layer {layer}.{kind}")
         demand("nothing has moved since the last run" in said, f"the pose was not restored:\n{said}")
 
         text = (site / "last_pose.yaml").read_text()

@@ -56,7 +56,8 @@ nlohmann::json to_json(const Figures& f) {
           {"delivery_s", f.delivery_s},
           {"standstill_s", f.standstill_s},
           {"memory_kib", f.memory_kib},
-          {"database_bytes", f.database_bytes}};
+          {"database_bytes", f.database_bytes},
+          {"living_map", f.living_map}};
 }
 
 long resident_kib() {

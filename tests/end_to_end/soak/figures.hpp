@@ -2,7 +2,7 @@
 
 #include <array>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -54,6 +54,7 @@ struct Figures {
   std::map<std::string, double> standstill_s;
   long memory_kib = 0;
   long database_bytes = 0;
+  nlohmann::json living_map;  ///< against the truth of the day; null where none is made
 };
 
 [[nodiscard]] nlohmann::json to_json(const Figures& figures);

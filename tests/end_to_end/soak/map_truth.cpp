@@ -40,8 +40,9 @@ double distance_to(const Outline& outline, const Point2<simulation::Building>& p
   if (is_inside(outline, p)) return 0.0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i)
-    nearest =
-        std::min(nearest, distance_m(Segment2<simulation::Building>{outline[i], outline[(i + 1) % outline.size()]}, p));
+    nearest = std::min(
+        nearest,
+        distance_m(Segment2<simulation::Building>{outline[i], outline[(i + 1) % outline.size()]}, p));
   return nearest;
 }
 
@@ -111,7 +112,7 @@ void MapTruth::look() {
       const double range = hits[i].range_m;
       if (!(range < kSightM)) continue;
       const Point2<simulation::Building> at{here.x_m + range * static_cast<double>(rays.dx[i]),
-                                here.y_m + range * static_cast<double>(rays.dy[i])};
+                                            here.y_m + range * static_cast<double>(rays.dy[i])};
       const Place place{static_cast<int>(std::floor(at.x_m * 10.0)),
                         static_cast<int>(std::floor(at.y_m * 10.0))};
       if (!now.insert(place).second) continue;
@@ -140,7 +141,8 @@ nlohmann::json MapTruth::compare(const HybridMap& map) const {
     moving += state == CellState::Moving ? 1 : 0;
     if (state != CellState::Static && state != CellState::SemiStatic) continue;
     const auto& g = tree[i].gaussian;
-    const Point2<simulation::Building> p = in_building(g.empty() ? map.centre(tree.place(i)) : Point2<Map>{g.x_m, g.y_m});
+    const Point2<simulation::Building> p =
+        in_building(g.empty() ? map.centre(tree.place(i)) : Point2<Map>{g.x_m, g.y_m});
     if (near_door(p)) continue;
     const auto nearest = distances(p);
     const std::size_t layer = state == CellState::Static ? 0 : 1;

@@ -36,7 +36,8 @@ class MapTruth {
 
   const simulation::Factory& factory_;
   Point2<simulation::Building> looked_{1e9, 1e9};
-  std::map<Place, std::pair<int, Point2<simulation::Building>>> seen_;  ///< 0.1 m; from how many places, and a point
+  std::map<Place, std::pair<int, Point2<simulation::Building>>>
+      seen_;  ///< 0.1 m; from how many places, and a point
 };
 
 }  // namespace madori::soak

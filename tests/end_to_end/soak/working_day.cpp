@@ -1,9 +1,11 @@
 #include "tests/end_to_end/soak/working_day.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 
+#include "app/learned/living_map_file.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/simulated/factory_link.hpp"
 #include "planning/route_graph/route_csv.hpp"
@@ -50,14 +52,39 @@ WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int numb
   transport.site = options.database;
   transport.detours_in_step = true;
   transport.store_poll_s = 0.5;
+  app::LocalizerPoseOptions pose;
+  if (!options.living_map.empty()) watch_map(pose);
   run_ = std::make_unique<app::TransportRun>(
-      loaded_.config, std::make_unique<app::LocalizerPose>(loaded_.walls, loaded_.config.lidars),
+      loaded_.config, std::make_unique<app::LocalizerPose>(loaded_.walls, loaded_.config.lidars, pose),
       std::make_unique<app::FactoryLink>(factory_, loaded_.config.odometry.wheels, kStep), transport);
   surprises_ = std::make_unique<Surprises>(*factory_, setup.scenario, run_->config());
   witness_ = std::make_unique<Witness>(*factory_, figures_, options.verbose, options.trace_s);
   run_->set_tap(
       [this](const auto& in, const auto& out, const auto& state) { witness_->observe(in, out, state); });
   if (plan_.closed_aisle) surprises_->close_aisle(*plan_.closed_aisle);
+}
+
+/// In lock-step, so that the same day gives the same map.
+void WorkingDay::watch_map(app::LocalizerPoseOptions& options) {
+  map_learner_ = std::make_unique<localization::MapLearner>(
+      app::begin_living_map(options_.living_map, loaded_.walls).map);
+  map_truth_ = std::make_unique<MapTruth>(*factory_);
+  options.sweep_onlooker = [this](const auto& sweep, const auto& lidar, const auto& pose) {
+    map_truth_->look();
+    if (!map_learner_->is_due(pose)) return;
+    const double before = cpu_seconds();
+    map_learner_->look(localization::beams_of(sweep, lidar), pose);
+    map_cpu_s_ += cpu_seconds() - before;
+  };
+}
+
+void WorkingDay::end_map() {
+  figures_.living_map = map_truth_->compare(map_learner_->map());
+  figures_.living_map["looks"] = map_learner_->looks();
+  figures_.living_map["ms_a_look"] =
+      1e3 * map_cpu_s_ / std::max(1.0, static_cast<double>(map_learner_->looks()));
+  app::save_living_map(options_.living_map, map_learner_->map(), loaded_.walls);
+  figures_.living_map["file_bytes"] = std::filesystem::file_size(options_.living_map / app::kLivingMapFile);
 }
 
 Figures WorkingDay::work(const std::atomic<bool>& stop) {
@@ -67,6 +94,7 @@ Figures WorkingDay::work(const std::atomic<bool>& stop) {
   run_->say({app::OperatorWord::Resume, {}, {}});  // every start of the program waits for it
   for (const Delivery& delivery : plan_.deliveries)
     if (!stop) deliver(delivery);
+  if (map_learner_) end_map();
   figures_.driven_m = factory_->distance_driven_m();
   figures_.simulated_s = to_seconds(factory_->now() - morning);
   figures_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();

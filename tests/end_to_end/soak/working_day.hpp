@@ -6,7 +6,10 @@
 #include <optional>
 
 #include "app/cycle/site_config.hpp"
+#include "app/pose/localizer_pose.hpp"
 #include "app/runner/transport_run.hpp"
+#include "localization/ndt_map/map_learner.hpp"
+#include "tests/end_to_end/soak/map_truth.hpp"
 #include "tests/end_to_end/soak/plan.hpp"
 #include "tests/end_to_end/soak/surprises.hpp"
 #include "tests/end_to_end/soak/witness.hpp"
@@ -19,6 +22,8 @@ struct DayOptions {
   std::filesystem::path scenario;
   std::filesystem::path database;  ///< folder of madori.db, kept from day to day
   double limit_s = 900.0;          ///< for one order
+  std::filesystem::path
+      living_map;  ///< folder in which the living map is kept from day to day; empty: none is made
   bool verbose = false;
   std::pair<double, double> trace_s;  ///< every revolution between these times is told of; none by default
 };
@@ -45,6 +50,8 @@ class WorkingDay {
   void look_after(const Delivery& delivery);
   void help(const Delivery& delivery, const std::string& reason, bool every_way_blocked);
   void note_delivered(const Delivery& delivery, Stamp began);
+  void watch_map(app::LocalizerPoseOptions& options);
+  void end_map();
   void note_undelivered(const Delivery& delivery, std::int64_t order, const std::string& why);
 
   DayOptions options_;
@@ -56,6 +63,9 @@ class WorkingDay {
   std::unique_ptr<app::TransportRun> run_;
   std::unique_ptr<Surprises> surprises_;
   std::unique_ptr<Witness> witness_;
+  std::unique_ptr<localization::MapLearner> map_learner_;
+  std::unique_ptr<MapTruth> map_truth_;
+  double map_cpu_s_ = 0.0;
   simulation::Random chance_;
   bool kidnapping_due_ = false, pallet_due_ = false, person_due_ = false;
   std::string stands_because_;

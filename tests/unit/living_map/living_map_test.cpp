@@ -1,5 +1,7 @@
+#include <gdal_priv.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -9,6 +11,8 @@
 #include "app/learned/map_layers.hpp"
 #include "app/learned/map_watch.hpp"
 #include "core/result.hpp"
+#include "mapping/georeference/geotiff.hpp"
+#include "mapping/georeference/local_plane.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "tests/support/lidar_models.hpp"
 #include "tests/support/made_up_buildings.hpp"
@@ -131,6 +135,34 @@ TEST(LivingMap, LayersShowEachCellOnce) {
   EXPECT_GT(of(free, 254), 500U);
   const auto places = occupied_cells(fixed);
   for (const Point2<Map>& p : places) EXPECT_EQ(map.state_at(p), CellState::Static);
+}
+
+/// A pixel's corners on Earth are where the site's georeference has them.
+TEST(LivingMap, AGeoTiffLiesWhereTheSiteLies) {
+  const mapping::GeoreferenceRecord place{35.0, 137.0, 30.0};
+  const std::vector<std::uint8_t> pixels{0, 254, 205, 254, 0, 0};
+  const test::TemporaryFolder folder;
+  for (const bool on_earth : {true, false}) {
+    const auto georeference = on_earth ? std::optional(place) : std::nullopt;
+    const auto file =
+        folder.write("map.tif", mapping::geotiff({0.25, {4.0, -2.0}, 3, 2, pixels}, georeference));
+    const std::unique_ptr<GDALDataset> tiff(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER));
+    ASSERT_NE(tiff, nullptr);
+    std::array<std::uint8_t, 6> read{};
+    ASSERT_EQ(tiff->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, 3, 2, read.data(), 3, 2, GDT_Byte, 0, 0),
+              CE_None);
+    EXPECT_TRUE(std::equal(read.begin(), read.end(), pixels.begin()));
+    std::array<double, 6> t{};
+    ASSERT_EQ(tiff->GetGeoTransform(t.data()), CE_None);
+    const Point2<Map> corner{4.0 + 2 * 0.25,
+                             -2.0 + 1 * 0.25};  // between the second and third column and the rows
+    const double x = t[0] + 2.0 * t[1] + t[2], y = t[3] + 2.0 * t[4] + t[5];
+    EXPECT_EQ(tiff->GetSpatialRef() != nullptr, on_earth);
+    const mapping::LatLon truth = mapping::place_of(place, corner);
+    const Point2<Enu> enu = mapping::LocalPlane({35.0, 137.0}).enu_of(truth);
+    EXPECT_NEAR(x, on_earth ? enu.x_m : corner.x_m, 1e-4);
+    EXPECT_NEAR(y, on_earth ? enu.y_m : corner.y_m, 1e-4);
+  }
 }
 
 }  // namespace
