@@ -11,19 +11,24 @@
 namespace madori::mapping {
 namespace {
 
-constexpr double kSmallPixels = 2e6;  // below, the oracle's recall gains 0.01 to 0.05 by enlarging twice
+constexpr double kSmallPixels = 2e6;  // below, the oracle's recall gains 0.01 to 0.05 by enlarging
+constexpr double kMostEnlarged = 4;   // times
 constexpr double kMostPixels = 7e6;   // above, the detector alone would be slower than a Hough transform
 constexpr double kShortest = 4;       // pixels: shorter edges are noise of the picture
+constexpr double kShortestDrawn = 2;  // pixels of the drawing: so are these
 constexpr double kBeside = 1.5;       // pixels off an edge its two sides show
 constexpr double kRareTone = 1e-4;    // of the pixels: dust and glare do not say what is black and what white
 constexpr int kLeastRange = 20;       // grey levels: an empty sheet stays as it is
 constexpr int kRowsAsked = 1000;      // rows that are enough to tell the ground
 constexpr int kStepShare = 8;         // of the range: what steps less is shading
 
+/// The same drawing has about the same sheet however finely it is scanned.
 double factor_for(const GrayImage& drawing) {
   const double pixels = static_cast<double>(drawing.width_px) * drawing.height_px;
-  if (pixels <= kSmallPixels) return 2;
-  return pixels > kMostPixels ? std::sqrt(kMostPixels / pixels) : 1;
+  if (pixels > kMostPixels) return std::sqrt(kMostPixels / pixels);
+  double factor = 1;
+  while (factor < kMostEnlarged && pixels * factor * factor <= kSmallPixels) factor *= 2;
+  return factor;
 }
 
 /// The greys that a drawing uses, and which of them is its ground.
@@ -111,7 +116,7 @@ double brightness(const EdgeSheet& sheet, const Edge& edge, double off) {
 
 void append(EdgeSheet& sheet, const PixelSegment& segment) {
   Edge edge{.segment = segment, .length_px = segment.length_px()};
-  if (edge.length_px < kShortest) return;
+  if (edge.length_px < std::max(kShortest, kShortestDrawn * sheet.factor)) return;
   edge.normal_u = -(segment.v2 - segment.v1) / edge.length_px;
   edge.normal_v = (segment.u2 - segment.u1) / edge.length_px;
   if (brightness(sheet, edge, kBeside) > brightness(sheet, edge, -kBeside)) {

@@ -7,8 +7,9 @@
 namespace madori::mapping {
 namespace {
 
-constexpr double kSlack = 2.5;         // pixels of the sheet between a line and its edges
-constexpr double kMiss = 1;            // pixels by which edges usually miss their line
+constexpr double kSlack = 1.25;        // pixels of the lines' picture between a line and its edges
+constexpr double kMiss = 0.5;          // by which edges usually miss their line
+constexpr double kCoarsest = 2;        // pixels of the sheet for one of the lines: no edge is told finer
 constexpr double kParallelSine = 0.2;  // of short edges the direction is vague
 constexpr int kPlaces = 12;            // of an edge that are looked at, at most
 
@@ -17,8 +18,12 @@ constexpr int kPlaces = 12;            // of an edge that are looked at, at most
 LineCover::LineCover(const DrawnLines& lines, const EdgeSheet& sheet, double u_scale, double v_scale)
     : lines_(lines), sheet_(sheet), u_scale_(u_scale), v_scale_(v_scale) {}
 
+double LineCover::pixel_px() const {
+  return std::max({kCoarsest, u_scale_, v_scale_});
+}
+
 double LineCover::reach_px(const DrawnLine& line) const {
-  return kSlack + (line.solid_face ? 0 : 0.5 * line.stroke_px * std::max(u_scale_, v_scale_));
+  return kSlack * pixel_px() + (line.solid_face ? 0 : 0.5 * line.stroke_px * std::max(u_scale_, v_scale_));
 }
 
 double LineCover::at(std::size_t number, double t, const std::vector<float>& values) const {
@@ -27,7 +32,8 @@ double LineCover::at(std::size_t number, double t, const std::vector<float>& val
   const double length = std::max(1e-9, s.length_px());
   const double nu = -(s.v2 - s.v1) / length, nv = (s.u2 - s.u1) / length;
   const double u = std::lerp(s.u1, s.u2, t), v = std::lerp(s.v1, s.v2, t), reach = reach_px(line);
-  const double expected = reach - kSlack;  // the edges of a stroke lie on both sides of its middle
+  const double expected =
+      reach - kSlack * pixel_px();  // the edges of a stroke lie on both sides of its middle
   double sum = 0, weights = 0;
   int last = -1;
   for (double d = -reach; d <= reach; d += 0.7) {
@@ -37,7 +43,7 @@ double LineCover::at(std::size_t number, double t, const std::vector<float>& val
     last = edge;
     const Edge& e = sheet_.edges[static_cast<std::size_t>(edge)];
     if (std::abs(e.normal_u * nv - e.normal_v * nu) > kParallelSine) continue;
-    const double miss = (std::abs(d) - expected) / kMiss;
+    const double miss = (std::abs(d) - expected) / (kMiss * pixel_px());
     const double weight = std::exp(-0.5 * miss * miss);
     sum += weight * values[static_cast<std::size_t>(edge)];
     weights += weight;

@@ -25,6 +25,7 @@ class LineCover {
   [[nodiscard]] PixelSegment on_sheet(const PixelSegment& s) const {
     return {s.u1 * u_scale_, s.v1 * v_scale_, s.u2 * u_scale_, s.v2 * v_scale_};
   }
+  [[nodiscard]] double pixel_px() const;
   [[nodiscard]] double reach_px(const DrawnLine& line) const;
 
   const DrawnLines& lines_;

@@ -16,6 +16,7 @@
 #include "core/result.hpp"
 #include "tests/bench/wall_training/chance.hpp"
 #include "tests/bench/wall_training/example_sheet.hpp"
+#include "tests/bench/wall_training/forest_of.hpp"
 
 namespace {
 
@@ -83,7 +84,7 @@ void append(Examples& examples, const ExampleSheet& sheet) {
   examples.names = sheet.features;
 }
 
-/// Trees that judge edges; the bytes of a model file's half.
+/// Trees that judge edges.
 class Judge {
  public:
   Judge(const Examples& examples, int trees, const char* depth) {
@@ -127,12 +128,7 @@ class Judge {
     return copy;
   }
 
-  [[nodiscard]] std::string bytes() const {
-    bst_ulong size = 0;
-    const char* bytes = nullptr;
-    check(XGBoosterSaveModelToBuffer(booster_, "{\"format\": \"ubj\"}", &size, &bytes));
-    return {bytes, bytes + size};
-  }
+  [[nodiscard]] madori::mapping::Forest forest() const { return forest_of(booster_); }
 
  private:
   BoosterHandle booster_ = nullptr;
@@ -194,12 +190,12 @@ void train(const std::vector<ExampleSheet>& sheets, const std::string& file) {
     for (std::size_t k = 0; k < sheets.size(); ++k)
       if (folds[k] == fold) append(contexts, in_context(sheets[k], judge.probabilities(sheets[k])));
   }
-  const std::string first = Judge(without_fold(sheets, folds, kFolds), kTrees, kDepth).bytes();
-  const std::string second = Judge(contexts, kSecondTrees, kSecondDepth).bytes();
+  const madori::mapping::WallModel model(Judge(without_fold(sheets, folds, kFolds), kTrees, kDepth).forest(),
+                                         Judge(contexts, kSecondTrees, kSecondDepth).forest());
+  const std::string bytes = model.bytes();
   std::ofstream stream(file, std::ios::binary);
-  stream << "madori-walls-2 " << first.size() << ' ' << second.size() << '\n' << first << second;
-  if (!stream) throw madori::Error(file, "cannot be written", "name another --out");
-  std::printf("%s: %zu sheets, %zu + %zu bytes\n", file.c_str(), sheets.size(), first.size(), second.size());
+  if (!(stream << bytes)) throw madori::Error(file, "cannot be written", "name another --out");
+  std::printf("%s: %zu sheets, %zu bytes\n", file.c_str(), sheets.size(), bytes.size());
 }
 
 }  // namespace
