@@ -77,10 +77,10 @@ double straightness(const CloudSurface& p, const Voxels& voxels) {
 
 }  // namespace
 
-MemoryCloud memory_cloud(const Memory& memory, std::size_t first) {
+MemoryCloud memory_cloud(const Memory& memory, std::size_t first, std::size_t end) {
   Voxels voxels;
   voxels.reserve(8192);
-  for (std::size_t k = first; k < memory.size(); ++k) {
+  for (std::size_t k = first; k < std::min(end, memory.size()); ++k) {
     add_keyframe(memory, k, voxels);
   }
   std::vector<std::pair<std::uint64_t, CloudSurface>> sorted;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "localization/memory/memory.hpp"
@@ -22,8 +24,9 @@ using MemoryCloud = std::vector<CloudSurface>;
 
 inline constexpr double kVoxelM = 0.2;
 
-/// The surfaces with a known normal of the keyframes from `first` on. Deterministic: ordered by voxel.
-[[nodiscard]] MemoryCloud memory_cloud(const Memory& memory, std::size_t first = 0);
+/// The surfaces with a known normal of the keyframes [first, end). Deterministic: ordered by voxel.
+[[nodiscard]] MemoryCloud memory_cloud(const Memory& memory, std::size_t first = 0,
+                                       std::size_t end = std::numeric_limits<std::size_t>::max());
 /// The same surfaces elsewhere.
 [[nodiscard]] MemoryCloud moved(const MemoryCloud& cloud, const Transform2<Map, Map>& by);
 

@@ -30,13 +30,15 @@ Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPos
 }
 
 /// What was remembered lies elsewhere, or nobody knows where: a fresh memory, from the next scan on.
-void Localizer::begin_anew(const std::optional<StartPrior>& told) {
+void Localizer::begin_anew(const std::optional<StartPrior>& told, bool carried) {
   worker_.discard();
+  const bool was_sure = map_.placed && map_.evidence.here >= options_.health.localized;
+  if (map_.drawing && carried && was_sure) map_.drawing->left = map_.memory;
   map_.memory = Memory(options_.memory);
   if (map_.drawing) {
     map_.drawing->belief.forget();
-    const bool was_sure = map_.evidence.here >= options_.health.localized;
     if (started_ && !was_sure) map_.drawing->walls.straighten();  // what it was bent to may lie elsewhere
+    if (!carried) map_.drawing->left.reset(), map_.drawing->known.reset();  // a person knows better
   }
   map_.evidence = {};
   map_.evidence.has_drawing = map_.drawing.has_value();
@@ -190,7 +192,7 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
     const Transform2<Map, Base> before = anchor_;
     follow(scan, step);
     if (was_carried(stamp, points, step, before) || gives_up(stamp) || wants_another_look(stamp)) {
-      begin_anew(std::nullopt);
+      begin_anew(std::nullopt, true);
       surroundings_.restart();
     }
   } else {

@@ -77,7 +77,7 @@ class Localizer {
                                  const Transform2<Map, Base>& before);
   [[nodiscard]] bool gives_up(Stamp stamp) const;
   [[nodiscard]] bool wants_another_look(Stamp stamp) const;
-  void begin_anew(const std::optional<StartPrior>& told);
+  void begin_anew(const std::optional<StartPrior>& told, bool carried = false);
 
   LocalizerOptions options_;
   OdometryModel model_;

@@ -4,7 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "localization/placement/known_building.hpp"
+
 namespace madori::localization {
+
+void OnDrawing::take_in_left() {
+  const DrawingFit& before = known ? *known : walls.standing();
+  mapping::Walls all = before.index().walls();
+  const mapping::Walls beside = seen_beside(before, *left);
+  all.insert(all.end(), beside.begin(), beside.end());
+  known = std::make_shared<const DrawingFit>(all);
+  left.reset();
+}
 
 void MapState::think(const LocalizerOptions& options) {
   if (memory.empty()) return;
@@ -62,7 +73,8 @@ void MapState::place(const LocalizerOptions& options) {
 void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options) {
   const bool unsure = !placed || evidence.here < options.health.localized;
   const bool everywhere = !evidence.looked || evidence.walls_seen > next_survey_walls;
-  drawing->belief.weigh(drawing->walls.drawn(), memory, cloud, told, memory.poses().back(), everywhere);
+  if (drawing->left) drawing->take_in_left();
+  drawing->belief.weigh(drawing->to_find_by(), memory, cloud, told, memory.poses().back(), everywhere);
   if (everywhere) {
     evidence.looked = true;
     next_survey_walls = evidence.walls_seen * (unsure ? options.survey_growth_unsure : options.survey_growth);
@@ -75,6 +87,7 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   if (leaves) {
     unconfirmed_size = memory.size();  // a place that was wrong once is believed when more agrees
     drawing->walls.straighten();
+    drawing->known.reset();
   }
   if (!placed || leaves) move(best->correction);
   placed = placed || clear || told.has_value();

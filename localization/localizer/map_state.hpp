@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 #include "localization/localizer/options.hpp"
@@ -15,6 +16,13 @@ struct OnDrawing {
 
   BendingDrawing walls;
   PlaceBelief belief;
+  std::optional<Memory> left;  ///< that lay right when the vehicle was carried off it, not yet in `known`
+  std::shared_ptr<const DrawingFit>
+      known;  ///< the walls as they stand and what earlier memories saw; null: nothing
+
+  /// What the places are weighed by.
+  [[nodiscard]] const DrawingFit& to_find_by() const { return known ? *known : walls.drawn(); }
+  void take_in_left();
 };
 
 /// The memory and how it lies on the drawing: all that the slow work reads and changes. A copy is cheap.

@@ -129,6 +129,41 @@ TEST(LocalizerDriving, AKidnappingIsNoticedWithinTwoSecondsAndMended) {
   }
 }
 
+/// The drawing is its own image, turned by half a turn: carried off, only what was seen there before tells
+/// the place. Racks are rearranged meanwhile, each third of them.
+TEST(LocalizerDriving, CarriedOffItFindsItsPlaceByWhatItSawBeforeWhereTheDrawingCannotTell) {
+  mapping::Walls drawn;
+  test::add_box(drawn, 0.0, 0.0, 24.0, 12.0);
+  const auto with_racks = [&](int left_out) {
+    mapping::Walls real = drawn;
+    for (int i = 0; i < 9; ++i)
+      if (i % 3 != left_out)
+        test::add_box(real, 2.5 + 2.2 * i, 4.2 + 0.1 * (i % 4), 3.6 + 2.2 * i + 0.1 * i, 5.0);
+    return real;
+  };
+  const std::vector<Point2<Map>> round{{2.0, 2.0}, {22.0, 2.0}, {22.0, 9.0}, {2.0, 9.0}, {2.0, 2.5}};
+  const std::vector<std::vector<Point2<Map>>> places{{{19.0, 8.0}, {15.0, 8.0}},
+                                                     {{5.0, 2.5}, {9.0, 2.5}},
+                                                     {{20.0, 2.2}, {16.0, 2.2}},
+                                                     {{4.0, 8.5}, {8.0, 8.5}}};
+  auto moments = drive(with_racks(3), round, ten_hertz(), 21);
+  Localizer localizer(drawn, InitialPose{moments.front().truth}, driving_options());
+  for (const auto& moment : moments) (void)take(localizer, moment);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::size_t begin = moments.size();
+    moments = joined(moments, drive(with_racks(static_cast<int>(i % 3)), places[i], ten_hertz(),
+                                    22 + static_cast<unsigned>(i)));
+    PoseEstimate e;
+    for (std::size_t k = begin; k < moments.size(); ++k) {
+      e = take(localizer, moments[k]);
+      const bool sure = k > begin + 2 && e.health.state == LocalizationState::Localized;
+      EXPECT_LT(sure ? off_m(e.map_from_base, moments[k].truth) : 0.0, 0.3) << "place " << i;
+    }
+    EXPECT_EQ(e.health.state, LocalizationState::Localized) << "place " << i << ": " << e.health.reason;
+    EXPECT_LT(off_m(e.map_from_base, moments.back().truth), 0.05) << "place " << i;
+  }
+}
+
 TEST(LocalizerDriving, WhatDrivesPastInFrontOfTheLidarIsNoCarry) {
   const mapping::Walls walls = test::factory_floor();
   std::mt19937 engine(13);

@@ -1,0 +1,30 @@
+#include "localization/placement/known_building.hpp"
+
+#include <cmath>
+
+namespace madori::localization {
+namespace {
+
+constexpr double kSameWallM = 0.2;  ///< a voxel: as near as a memory tells surfaces apart
+
+std::size_t unbroken(const Memory& memory) {
+  std::size_t end = memory.size();
+  while (end > 0 && memory.keyframes()[end - 1].after_break) --end;
+  return end;
+}
+
+}  // namespace
+
+mapping::Walls seen_beside(const DrawingFit& walls, const Memory& memory) {
+  mapping::Walls beside;
+  for (const CloudSurface& p : memory_cloud(memory, 0, unbroken(memory))) {
+    const WallIndex::Hit hit = walls.index().nearest(p.x_m, p.y_m, p.direction);
+    if (hit.wall >= 0 && std::abs(hit.distance_m) < kSameWallM && hit.beyond_m < kSameWallM) continue;
+    const double half_x = -0.5 * kVoxelM * p.normal_y, half_y = 0.5 * kVoxelM * p.normal_x;
+    beside.push_back({static_cast<int>(beside.size()) + 1,
+                      {{p.x_m - half_x, p.y_m - half_y}, {p.x_m + half_x, p.y_m + half_y}}});
+  }
+  return beside;
+}
+
+}  // namespace madori::localization
