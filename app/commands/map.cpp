@@ -13,6 +13,7 @@
 #include "core/median.hpp"
 #include "core/result.hpp"
 #include "localization/slam/graph_mapper.hpp"
+#include "localization/slam/slow_lidar_mapper.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "sensors/open_log.hpp"
 
@@ -24,6 +25,7 @@ struct MapArguments {
   std::string wheels;
   std::filesystem::path out;
   std::string name;
+  std::string method = "graph";
   std::string trajectory;
   std::string at_last;
   std::string plot;
@@ -33,6 +35,11 @@ struct MapArguments {
 
 nlohmann::json pose_json(const Transform2<Map, Base>& pose) {
   return {{"x_m", pose.x_m()}, {"y_m", pose.y_m()}, {"yaw_deg", to_deg(pose.yaw_rad())}};
+}
+
+std::unique_ptr<localization::Mapper> make_mapper(const std::string& method) {
+  if (method == "slow-lidar") return std::make_unique<localization::SlowLidarMapper>();
+  return std::make_unique<localization::GraphMapper>();
 }
 
 std::vector<std::uint8_t> final_plot(const MappingRun& run, const MappedSite& mapped) {
@@ -50,9 +57,9 @@ void map_log(const MapArguments& arguments) {
     throw Error(arguments.out.string(), "is a site already",
                 "choose another --out, or give --force to replace it");
   }
-  localization::GraphMapper mapper;
+  const std::unique_ptr<localization::Mapper> mapper = make_mapper(arguments.method);
   const auto log = sensors::open_log(arguments.log, log_options({}, arguments.wheels));
-  const MappingRun run = run_mapper(*log, log_lidar({}), mapper);
+  const MappingRun run = run_mapper(*log, log_lidar({}), *mapper);
   const localization::Memory& memory = run.map.memory;
   const MappedSite mapped = map_site(localization::memory_cloud(memory), arguments.log);
   const std::string name =
@@ -66,7 +73,8 @@ void map_log(const MapArguments& arguments) {
   const Transform2<Map, Base> start = mapped.map_from_memory * memory.poses().front();
   double length_m = 0.0;
   for (const mapping::Wall& wall : mapped.walls) length_m += wall.segment.length_m();
-  write_json(arguments.json_file, {{"scans", run.played.scans},
+  write_json(arguments.json_file, {{"method", arguments.method},
+                                   {"scans", run.played.scans},
                                    {"keyframes", memory.size()},
                                    {"loop_closures", memory.loops()},
                                    {"walls", mapped.walls.size()},
@@ -95,6 +103,9 @@ void add_map(CLI::App& app) {
       ->check(CLI::ExistingFile);
   command->add_option("--out", arguments->out, "site folder to write")->required();
   command->add_option("--name", arguments->name, "of the site; the log's where not given");
+  command->add_option("--method", arguments->method, "how: graph, or slow-lidar")
+      ->check(CLI::IsMember({"graph", "slow-lidar"}))
+      ->capture_default_str();
   command->add_flag("--force", arguments->force, "replace an existing site's walls and drawing");
   command->add_option("--trajectory", arguments->trajectory, "TUM file of the poses as they were known");
   command->add_option("--final", arguments->at_last, "TUM file of the poses after all loops");

@@ -24,7 +24,7 @@ std::vector<Point2<Map>> near(const PointMap& map, const std::vector<Point2<Base
   std::vector<Point2<Map>> placed;
   placed.reserve(scan.size());
   for (const Point2<Base>& p : scan) placed.push_back(pose * p);
-  const PointMap scan_map(placed);
+  const PointMap scan_map(placed, 0.0);
   std::vector<Point2<Map>> result;
   for (const Point2<Map>& p : map.points())
     if (scan_map.nearest(p).squared_distance_m2 < reach_m * reach_m) result.push_back(p);

@@ -55,7 +55,7 @@ mapping::GridFrame bounds(std::span<const Point2<Map>> points, double cell_m, in
   return frame;
 }
 
-/// Gradient and Hessian of the negative score in (x, y, yaw).
+/// Gradient and Gauss-Newton Hessian of the negative score in (x, y, yaw).
 struct Newton {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
@@ -73,9 +73,9 @@ void add(Newton& sum, const NdtMap::Cell& cell, double rx, double ry, const Pose
   const double tx = cell.a * -ry + cell.b * rx;
   const double ty = cell.b * -ry + cell.c * rx;
   Eigen::Matrix3d h;
-  h << cell.a, cell.b, tx, cell.b, cell.c, ty, tx, ty, -ry * tx + rx * ty - (cx * rx + cy * ry);
+  h << cell.a, cell.b, tx, cell.b, cell.c, ty, tx, ty, -ry * tx + rx * ty;
   sum.gradient += e * slope;
-  sum.hessian += e * (h - slope * slope.transpose());
+  sum.hessian += e * h;
 }
 
 Newton derivatives(const ScanPoints& points, const NdtMap& map, int level, const Pose& pose) {
@@ -110,7 +110,7 @@ Eigen::Vector3d newton_step(const Newton& n) {
 }  // namespace
 
 NdtMap::NdtMap(std::span<const Point2<Map>> points, std::array<double, 3> cells_m)
-    : points_(std::vector<Point2<Map>>(points.begin(), points.end())) {
+    : points_(std::vector<Point2<Map>>(points.begin(), points.end()), 0.0) {
   for (std::size_t level = 0; level < kLevels; ++level)
     for (int g = 0; g < 4; ++g) {
       Grid& grid = grids_[level][static_cast<std::size_t>(g)];

@@ -15,7 +15,7 @@ namespace madori::localization {
 /// The map as normal distributions: each cell holds mean and covariance of its points; four grids, shifted by
 /// half a cell, overlap (Biber and Strasser, The Normal Distributions Transform, IROS 2003, sections III and
 /// IV). Three sizes of cells, from coarse to fine. On mathematically flat walls the smaller eigenvalue is
-/// raised to a thousandth of the larger.
+/// raised to a twentieth of the larger.
 class NdtMap {
  public:
   explicit NdtMap(std::span<const Point2<Map>> points, std::array<double, 3> cells_m = {3.0, 1.5, 0.75});
@@ -45,7 +45,8 @@ struct NdtOptions {
   double step_limit_rad = 1e-5;
 };
 
-/// Newton's method on the score of the NDT, level by level (Biber and Strasser, section V).
+/// The score of the NDT, level by level (Biber and Strasser, section V), by Gauss-Newton steps: Newton's own
+/// Hessian is indefinite where the exponentials bend down, a few decimetres off, and leads away from there.
 [[nodiscard]] RegistrationResult ndt(const ScanPoints& points, const NdtMap& map,
                                      const Transform2<Map, Base>& initial, const NdtOptions& options = {});
 

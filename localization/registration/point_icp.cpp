@@ -1,5 +1,6 @@
 #include "localization/registration/point_icp.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -8,37 +9,45 @@ namespace {
 
 using Pose = Transform2<Map, Base>;
 
-/// Weighted sums from which the best rigid transform of a pairing follows.
-struct Pairing {
-  double w = 0, px = 0, py = 0, qx = 0, qy = 0, dot = 0, cross = 0;
+/// Weight of the distance from the middle of points that make no line: they hold a scan where it starts.
+constexpr double kBlot = 0.2;
 
-  void add(const Point2<Base>& p, const Point2<Map>& q, double weight) {
-    w += weight;
-    px += weight * p.x_m;
-    py += weight * p.y_m;
-    qx += weight * q.x_m;
-    qy += weight * q.y_m;
-    dot += weight * (p.x_m * q.x_m + p.y_m * q.y_m);
-    cross += weight * (p.x_m * q.y_m - p.y_m * q.x_m);
-  }
+/// The Gauss-Newton sums of one pairing, in (x, y, yaw) at the pose.
+struct Sums {
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
 
-  [[nodiscard]] Pose best() const {
-    const double c = dot - (px * qx + py * qy) / w;
-    const double s = cross - (px * qy - py * qx) / w;
-    const Pose turn(0.0, 0.0, std::atan2(s, c));
-    const Point2<Map> turned = turn * Point2<Base>{px / w, py / w};
-    return {qx / w - turned.x_m, qy / w - turned.y_m, turn.yaw_rad()};
+  void add(double residual, double nx, double ny, double rx, double ry, double weight) {
+    const Eigen::Vector3d jacobian(nx, ny, -nx * ry + ny * rx);
+    hessian += weight * jacobian * jacobian.transpose();
+    gradient += weight * residual * jacobian;
   }
 };
 
-Pairing pair_up(const ScanPoints& points, const PointMap& map, const Pose& pose, double limit_m) {
-  Pairing pairing;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point2<Base> p = points.point(i);
-    const PointMap::Neighbour n = map.nearest(pose * p);
-    if (n.squared_distance_m2 < limit_m * limit_m) pairing.add(p, map.points()[n.index], points.weight_of(i));
+PointSurface surface_at(const PointMap& map, std::size_t i) {
+  if (!map.surfaces().empty()) return map.surfaces()[i];
+  return {map.points()[i].x_m, map.points()[i].y_m, 1.0, 0.0, 0.0};
+}
+
+Sums pair_up(const ScanPoints& points, const PointMap& map, const Pose& pose, double scale_m,
+             std::size_t stride, double along_surface) {
+  Sums sums;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    const Point2<Map> p = pose * points.point(i);
+    const PointSurface s = surface_at(map, map.nearest(p).index);
+    const double dx = p.x_m - s.x_m;
+    const double dy = p.y_m - s.y_m;
+    const double across = dx * s.normal_x + dy * s.normal_y;
+    const double along = dy * s.normal_x - dx * s.normal_y;
+    const double tangent = std::max(along_surface, kBlot * (1.0 - s.flatness));
+    const double ratio = (across * across + tangent * along * along) / (scale_m * scale_m);
+    const double weight = points.weight_of(i) / ((1.0 + ratio) * (1.0 + ratio));
+    const double rx = p.x_m - pose.x_m();
+    const double ry = p.y_m - pose.y_m();
+    sums.add(across, s.normal_x, s.normal_y, rx, ry, weight);
+    sums.add(along, -s.normal_y, s.normal_x, rx, ry, weight * tangent);
   }
-  return pairing;
+  return sums;
 }
 
 }  // namespace
@@ -68,6 +77,7 @@ RegistrationResult point_fit(const ScanPoints& points, const PointMap& map, cons
     result.hessian += weight * h;
   }
   result.inlier_fraction = weight_sum > 0.0 ? inlier_weight / weight_sum : 0.0;
+  if (!points.empty()) result.near_fraction = static_cast<double>(near) / static_cast<double>(points.size());
   result.e_psr_m = near > 0 ? near_sum / near : kPsrEpsilonM;
   result.rmse_m = result.inliers > 0 ? std::sqrt(square_sum / result.inliers) : 0.0;
   result.covariance =
@@ -78,20 +88,25 @@ RegistrationResult point_fit(const ScanPoints& points, const PointMap& map, cons
 RegistrationResult point_icp(const ScanPoints& points, const PointMap& map, const Pose& initial,
                              const PointIcpOptions& options) {
   Pose pose = initial;
-  double limit = options.first_distance_m;
+  double scale = options.first_scale_m;
   bool converged = false;
   int iteration = 0;
-  while (iteration < options.max_iterations && !converged && !map.empty()) {
-    const Pairing pairing = pair_up(points, map, pose, limit);
+  const std::size_t coarse = 1 + points.size() / (options.coarse_points + 1);
+  while (iteration < options.max_iterations && !converged && !map.empty() && !points.empty()) {
+    const bool last = scale <= options.last_scale_m;
+    Sums sums = pair_up(points, map, pose, scale, last ? std::size_t{1} : coarse, options.along_surface);
     ++iteration;
-    if (pairing.w <= 0.0) break;
-    const Pose next = pairing.best();
-    const Transform2<Base, Base> moved = pose.inverse() * next;
-    converged = limit <= options.last_distance_m &&
-                std::hypot(moved.x_m(), moved.y_m()) < options.step_limit_m &&
-                std::abs(moved.yaw_rad()) < options.step_limit_rad;
-    limit = std::max(options.last_distance_m, limit * 0.5);
-    pose = next;
+    const Eigen::Vector3d off(pose.x_m() - options.prior.x_m(), pose.y_m() - options.prior.y_m(),
+                              wrap_angle(pose.yaw_rad() - options.prior.yaw_rad()));
+    sums.hessian += options.prior_information;
+    sums.gradient += options.prior_information * off;
+    const Eigen::Matrix3d regular =
+        sums.hessian + 1e-6 * (1.0 + sums.hessian.trace()) * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d step = -regular.ldlt().solve(sums.gradient);
+    pose = Pose(pose.x_m() + step[0], pose.y_m() + step[1], pose.yaw_rad() + step[2]);
+    converged = last && std::hypot(step[0], step[1]) < options.step_limit_m &&
+                std::abs(step[2]) < options.step_limit_rad;
+    scale = std::max(options.last_scale_m, scale * options.scale_factor);
   }
   RegistrationResult result = point_fit(points, map, pose, options.inlier_distance_m);
   result.converged = converged && pose.is_finite() && result.inliers > 2;

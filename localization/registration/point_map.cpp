@@ -1,6 +1,7 @@
 #include "localization/registration/point_map.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <nanoflann.hpp>
 #include <utility>
 
@@ -19,10 +20,53 @@ struct PointMap::Tree {
   }
 
   std::vector<Point2<Map>> points;
+  std::vector<PointSurface> surfaces;
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Tree>, Tree, 2> index;
 };
 
-PointMap::PointMap(std::vector<Point2<Map>> points) : tree_(std::make_unique<Tree>(std::move(points))) {}
+namespace {
+
+/// Total least squares over the points at `near`.
+PointSurface surface_of(const std::vector<Point2<Map>>& points,
+                        const std::vector<std::pair<std::uint32_t, double>>& near) {
+  PointSurface surface;
+  const auto n = static_cast<double>(near.size());
+  for (const auto& [i, squared] : near) {
+    surface.x_m += points[i].x_m / n;
+    surface.y_m += points[i].y_m / n;
+  }
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const auto& [i, squared] : near) {
+    const double dx = points[i].x_m - surface.x_m;
+    const double dy = points[i].y_m - surface.y_m;
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+  }
+  const double spread = std::hypot(0.5 * (xx - yy), xy);
+  const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  surface.normal_x = -std::sin(direction);
+  surface.normal_y = std::cos(direction);
+  const double large = 0.5 * (xx + yy) + spread;
+  surface.flatness = near.size() > 2 && large > 0.0 ? 2.0 * spread / large : 0.0;
+  return surface;
+}
+
+}  // namespace
+
+PointMap::PointMap(std::vector<Point2<Map>> points, double surface_radius_m)
+    : tree_(std::make_unique<Tree>(std::move(points))) {
+  if (!(surface_radius_m > 0.0)) return;
+  tree_->surfaces.reserve(tree_->points.size());
+  std::vector<std::pair<std::uint32_t, double>> near;
+  const nanoflann::SearchParams unsorted(0, 0.0F, false);
+  for (const Point2<Map>& p : tree_->points) {
+    const double query[2] = {p.x_m, p.y_m};
+    near.clear();
+    tree_->index.radiusSearch(query, surface_radius_m * surface_radius_m, near, unsorted);
+    tree_->surfaces.push_back(surface_of(tree_->points, near));
+  }
+}
 PointMap::~PointMap() = default;
 PointMap::PointMap(PointMap&&) noexcept = default;
 PointMap& PointMap::operator=(PointMap&&) noexcept = default;
@@ -39,6 +83,10 @@ PointMap::Neighbour PointMap::nearest(const Point2<Map>& p) const {
 
 const std::vector<Point2<Map>>& PointMap::points() const {
   return tree_->points;
+}
+
+const std::vector<PointSurface>& PointMap::surfaces() const {
+  return tree_->surfaces;
 }
 
 std::vector<Point2<Map>> sample_walls(const mapping::Walls& walls, double spacing_m) {

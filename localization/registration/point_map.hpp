@@ -10,10 +10,21 @@
 
 namespace madori::localization {
 
-/// Points of the static map with a search tree, for the methods that match points to points.
+/// What surface the points around one of them make: a line through their mean, however thick noise made it.
+struct PointSurface {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double normal_x = 0.0;
+  double normal_y = 0.0;
+  double flatness = 0.0;  ///< 0 a blot or a lone point, 1 a line
+};
+
+/// Points of a map with a search tree, for the methods that match points to points. What the points were made
+/// of does not matter: sampled walls of a drawing, a map that grows scan by scan, the surfaces of keyframes.
 class PointMap {
  public:
-  explicit PointMap(std::vector<Point2<Map>> points);
+  /// `surface_radius_m`: the points this near to one make its surface; 0: no surfaces are made.
+  explicit PointMap(std::vector<Point2<Map>> points, double surface_radius_m = 0.2);
   ~PointMap();
   PointMap(PointMap&&) noexcept;
   PointMap& operator=(PointMap&&) noexcept;
@@ -25,6 +36,8 @@ class PointMap {
   /// The point nearest to `p`. Precondition: the map is not empty.
   [[nodiscard]] Neighbour nearest(const Point2<Map>& p) const;
   [[nodiscard]] const std::vector<Point2<Map>>& points() const;
+  /// One a point, or none.
+  [[nodiscard]] const std::vector<PointSurface>& surfaces() const;
   [[nodiscard]] bool empty() const { return points().empty(); }
 
  private:

@@ -43,7 +43,8 @@ RdnDescriptor rdn(const ScanPoints& points, const RdnOptions& options) {
   return rdn<Base>(list, {}, options);
 }
 
-double rdn_difference(const RdnDescriptor& scan, const RdnDescriptor& map, int shift, double unlike_m) {
+double rdn_difference(const RdnDescriptor& scan, const RdnDescriptor& map, int shift,
+                      const RdnOptions& options) {
   const std::size_t n = scan.size();
   double sum = 0.0;
   std::size_t compared = 0;
@@ -51,26 +52,42 @@ double rdn_difference(const RdnDescriptor& scan, const RdnDescriptor& map, int s
     const float a = scan[i];
     const float b = map[(i + static_cast<std::size_t>(shift)) % n];
     if (a == kEmptySection || b == kEmptySection) continue;
-    sum += std::min<double>(std::abs(a - b), unlike_m);
+    const double off = std::abs(a - b);
+    sum += options.norm == RdnNorm::Published ? off * off : std::min(off, options.unlike_m);
     ++compared;
   }
-  return 4 * compared < n ? unlike_m : sum / static_cast<double>(compared);
+  if (4 * compared < n) return INFINITY;
+  const double mean = sum / static_cast<double>(compared);
+  return options.norm == RdnNorm::Published ? std::sqrt(mean) : mean;
+}
+
+std::vector<RdnmResult> rdnm_ranked(const ScanPoints& scan, std::span<const Point2<Map>> map,
+                                    std::span<const Point2<Map>> candidates, const RdnOptions& options,
+                                    const TurnLimit& turns) {
+  std::vector<RdnmResult> ranked;
+  if (scan.empty()) return ranked;
+  const RdnDescriptor seen = rdn(scan, options);
+  const double alpha = 2.0 * kPi / options.sections;
+  for (const Point2<Map>& candidate : candidates) {
+    const RdnDescriptor view = rdn<Map>(map, candidate, options);
+    RdnmResult best{{}, INFINITY};
+    for (int shift = 0; shift < options.sections; ++shift) {
+      if (std::abs(wrap_angle(shift * alpha - turns.heading_rad)) > turns.most_rad) continue;
+      const double difference = rdn_difference(seen, view, shift, options);
+      if (difference < best.difference_m) best = {{candidate.x_m, candidate.y_m, shift * alpha}, difference};
+    }
+    if (best.difference_m < INFINITY) ranked.push_back(best);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.difference_m < b.difference_m; });
+  return ranked;
 }
 
 std::optional<RdnmResult> rdnm(const ScanPoints& scan, std::span<const Point2<Map>> map,
-                               std::span<const Point2<Map>> candidates, const RdnOptions& options) {
-  if (scan.empty() || candidates.empty()) return std::nullopt;
-  const RdnDescriptor seen = rdn(scan, options);
-  const double alpha = 2.0 * kPi / options.sections;
-  RdnmResult best{{}, INFINITY};
-  for (const Point2<Map>& candidate : candidates) {
-    const RdnDescriptor view = rdn<Map>(map, candidate, options);
-    for (int shift = 0; shift < options.sections; ++shift) {
-      const double difference = rdn_difference(seen, view, shift, options.unlike_m);
-      if (difference < best.difference_m) best = {{candidate.x_m, candidate.y_m, shift * alpha}, difference};
-    }
-  }
-  return best;
+                               std::span<const Point2<Map>> candidates, const RdnOptions& options,
+                               const TurnLimit& turns) {
+  const std::vector<RdnmResult> ranked = rdnm_ranked(scan, map, candidates, options, turns);
+  return ranked.empty() ? std::nullopt : std::optional(ranked.front());
 }
 
 }  // namespace madori::localization

@@ -11,10 +11,15 @@
 
 namespace madori::localization {
 
+/// How two descriptors are compared: by the Euclidean norm of the paper (divided by the root of the number of
+/// sections compared), or by the mean difference of which a section counts no more than `unlike_m`.
+enum class RdnNorm { Published, CappedMean };
+
 struct RdnOptions {
   int sections = 72;       ///< alpha = 2 pi / sections
   double epsilon_m = 0.5;  ///< depth of the nearest surface within a section
-  double unlike_m = 1.0;  ///< a section's difference counts no more than this (the paper's norm is unbounded)
+  RdnNorm norm = RdnNorm::Published;
+  double unlike_m = 1.0;
 };
 
 /// Relative directional neighbours: for each section of directions around a viewpoint, the mean distance of
@@ -31,20 +36,32 @@ template <class F>
                                 const RdnOptions& options);
 [[nodiscard]] RdnDescriptor rdn(const ScanPoints& points, const RdnOptions& options);
 
-/// Mean difference of two descriptors, the second seen turned: section i of `scan` beside section i + shift
-/// of `map`. Over the sections that neither leaves empty; unlike_m when these are fewer than a quarter.
+/// Difference of two descriptors, the second seen turned: section i of `scan` beside section i + shift of
+/// `map`. Over the sections that neither leaves empty; infinite when these are fewer than a quarter.
 [[nodiscard]] double rdn_difference(const RdnDescriptor& scan, const RdnDescriptor& map, int shift,
-                                    double unlike_m);
+                                    const RdnOptions& options = {});
 
 struct RdnmResult {
   Transform2<Map, Base> map_from_base;  ///< R(shift * alpha) x + p: the shift is taken times alpha
   double difference_m = 0.0;
 };
 
+/// Only turns within `most_rad` of the heading are looked at.
+struct TurnLimit {
+  double heading_rad = 0.0;
+  double most_rad = kPi;
+};
+/// The best turn of every candidate position, most like the scan first; candidates whose view has too little
+/// in common with the scan are left out.
+[[nodiscard]] std::vector<RdnmResult> rdnm_ranked(const ScanPoints& scan, std::span<const Point2<Map>> map,
+                                                  std::span<const Point2<Map>> candidates,
+                                                  const RdnOptions& options = {},
+                                                  const TurnLimit& turns = {});
+
 /// Algorithm 1, procedure RDNM: the candidate position and the turn (a multiple of alpha) whose view of the
 /// map is most like the scan. Nothing when there are no candidates or no points.
 [[nodiscard]] std::optional<RdnmResult> rdnm(const ScanPoints& scan, std::span<const Point2<Map>> map,
                                              std::span<const Point2<Map>> candidates,
-                                             const RdnOptions& options = {});
+                                             const RdnOptions& options = {}, const TurnLimit& turns = {});
 
 }  // namespace madori::localization

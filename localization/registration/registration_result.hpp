@@ -18,6 +18,7 @@ struct RegistrationResult {
   /// Registration error, Eq. (1) of Kis, Csemesz, Csáji, "A SLAM algorithm for sensors with low sampling
   /// rate" (2021): mean distance to the nearest map point over the points nearer than 1 m.
   double e_psr_m = 0.0;
+  double near_fraction = 0.0;  ///< of the points, those nearer than 1 m; only where a point map was matched
   /// Gauss-Newton Hessian of the weighted squared residuals in (x, y, yaw), Map frame: counts, m, m^2.
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   /// Of (x, y, yaw), Map frame: m^2, m rad, rad^2. Residual variance times the inverse of the Hessian; very

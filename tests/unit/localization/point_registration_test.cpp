@@ -2,9 +2,10 @@
 
 #include <cmath>
 
-#include "localization/global/strategies.hpp"
 #include "localization/registration/cpd.hpp"
 #include "localization/registration/ndt.hpp"
+#include "localization/registration/segment_icp.hpp"
+#include "localization/slam/strategies.hpp"
 #include "tests/support/made_up_buildings.hpp"
 
 namespace madori::localization {
@@ -55,6 +56,21 @@ TEST_F(PointRegistration, NdtBoundsTheFlatnessOfACell) {
   EXPECT_FALSE(ndt({}, flat, {}).converged);
 }
 
+/// From 0.3 m and 5 degrees off, the distance and turn of bench_registration.
+TEST_F(PointRegistration, IcpRecoversAKnownTransform) {
+  int good = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Pose truth = any_pose();
+    const double a = 0.7 * i;
+    const Pose start(truth.x_m() + 0.3 * std::cos(a), truth.y_m() + 0.3 * std::sin(a),
+                     truth.yaw_rad() + to_rad(i % 2 == 0 ? 5.0 : -5.0));
+    const RegistrationResult r = point_icp(scan_from(truth), map_, start);
+    good += right(r.map_from_base, truth, 0.05, 0.5);
+  }
+  EXPECT_GE(good, 38);
+  EXPECT_FALSE(point_icp({}, map_, {}).converged);
+}
+
 TEST_F(PointRegistration, CpdRecoversAKnownTransform) {
   int good = 0;
   for (int i = 0; i < 12; ++i) {
@@ -89,20 +105,28 @@ TEST_F(PointRegistration, CpdIsExactOnTheSameSet) {
 }
 
 TEST_F(PointRegistration, TheRelativeStrategyFallsBackInOrder) {
-  const GlobalLocalizer global(walls_);
   const Pose truth(7.0, 2.5, 0.5);
   const ScanPoints scan = scan_from(truth);
-  const auto near = localize_relatively(scan, global, map_, {7.2, 2.4, 0.45});
+  const auto near = localize_relatively(scan, map_, {7.2, 2.4, 0.45});
   ASSERT_TRUE(near);
   EXPECT_EQ(near->strategy, Strategy::Rdnm);
-  EXPECT_TRUE(right(near->fit.map_from_base, truth, 0.02, 0.3));
-  const auto lost = localize_relatively(scan, global, map_, {16.0, 8.5, -2.0});
+  EXPECT_TRUE(right(near->fit.map_from_base, truth, 0.03, 0.5));
+  EXPECT_GT(near->fit.near_fraction, 0.9);
+  const auto lost = localize_relatively(scan, map_, {16.0, 8.5, -2.0});
   ASSERT_TRUE(lost);
   EXPECT_EQ(lost->strategy, Strategy::Absolute);
-  EXPECT_TRUE(right(lost->fit.map_from_base, truth, 0.02, 0.3));
+  EXPECT_TRUE(right(lost->fit.map_from_base, truth, 0.03, 0.5));
   StrategyOptions strict;
   strict.most_e_psr_m = 1e-6;
-  EXPECT_FALSE(localize_relatively(scan, global, map_, truth, strict));
+  EXPECT_FALSE(localize_relatively(scan, map_, truth, strict));
+  EXPECT_FALSE(localize_relatively(scan, PointMap({}), truth));
+}
+
+TEST_F(PointRegistration, GlobalCandidatesAreClearOfTheMap) {
+  const auto candidates = global_candidates(map_, 0.5, 0.25);
+  EXPECT_GT(candidates.size(), 500U);
+  for (const Point2<Map>& p : candidates) EXPECT_GT(field_.distance_m(p), 0.2);
+  EXPECT_TRUE(global_candidates(PointMap({}), 0.5, 0.25).empty());
 }
 
 }  // namespace

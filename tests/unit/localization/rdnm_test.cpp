@@ -24,7 +24,7 @@ class Rdnm : public testing::Test {
 };
 
 TEST(Rdn, AveragesTheNearestSurfaceOfEachSection) {
-  const RdnOptions options{.sections = 4, .epsilon_m = 0.5, .unlike_m = 1.0};
+  const RdnOptions options{.sections = 4, .epsilon_m = 0.5};
   const std::vector<Point2<Map>> points{{2.0, 1.0},
                                         {2.3, 1.0},
                                         {7.0, 1.1},    // first quarter: the last is beyond
@@ -43,6 +43,7 @@ TEST_F(Rdnm, TurningTheScanShiftsTheDescriptor) {
   const double alpha = 2.0 * kPi / options.sections;
   const ScanPoints scan = scan_from({6.0, 5.5, 0.2});
   const RdnDescriptor h = rdn(scan, options);
+  const RdnOptions capped{.norm = RdnNorm::CappedMean};
   for (const int r : {1, 7, 36, 71}) {
     ScanPoints turned;
     const Transform2<Base, Base> turn(0.0, 0.0, r * alpha);
@@ -53,18 +54,25 @@ TEST_F(Rdnm, TurningTheScanShiftsTheDescriptor) {
     const RdnDescriptor shifted = rdn(turned, options);
     // shift_r of Eq. (2): what was seen in section i is now in section i + r. A point on a border may go
     // either way.
-    EXPECT_LT(rdn_difference(h, shifted, r, 1.0), 0.01) << r;
-    EXPECT_GT(rdn_difference(h, shifted, (r + 20) % 72, 1.0), 0.1) << r;
+    EXPECT_LT(rdn_difference(h, shifted, r, capped), 0.01) << r;
+    EXPECT_GT(rdn_difference(h, shifted, (r + 20) % 72, capped), 0.1) << r;
   }
 }
 
 TEST_F(Rdnm, DifferenceIsZeroToItselfAndIgnoresEmptySections) {
   const RdnDescriptor h = rdn(scan_from({6.0, 5.5, 0.2}), {});
-  EXPECT_EQ(rdn_difference(h, h, 0, 1.0), 0.0);
+  EXPECT_EQ(rdn_difference(h, h, 0), 0.0);
   RdnDescriptor holes = h;
   for (std::size_t i = 0; i < 18; ++i) holes[i] = kEmptySection;
-  EXPECT_EQ(rdn_difference(holes, h, 0, 1.0), 0.0);
-  EXPECT_EQ(rdn_difference(RdnDescriptor(72, kEmptySection), h, 0, 1.0), 1.0);
+  EXPECT_EQ(rdn_difference(holes, h, 0), 0.0);
+  EXPECT_EQ(rdn_difference(RdnDescriptor(72, kEmptySection), h, 0), INFINITY);
+}
+
+TEST_F(Rdnm, TheNormIsThePublishedOneOverTheSectionsCompared) {
+  const RdnDescriptor a{1.0F, 2.0F, 3.0F, kEmptySection};
+  const RdnDescriptor b{1.0F, 4.0F, kEmptySection, 5.0F};
+  EXPECT_NEAR(rdn_difference(a, b, 0), std::sqrt(4.0 / 2.0), 1e-6);
+  EXPECT_NEAR(rdn_difference(a, b, 0, {.norm = RdnNorm::CappedMean, .unlike_m = 1.0}), 0.5, 1e-6);
 }
 
 TEST_F(Rdnm, FindsTheCandidateAndTheTurn) {

@@ -4,6 +4,7 @@
 
 #include "localization/slam/graph_mapper.hpp"
 #include "localization/slam/laid_way.hpp"
+#include "localization/slam/slow_lidar_mapper.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"
 
@@ -88,6 +89,77 @@ TEST(GraphMapper, IsCausalAndRepeatsItself) {
   const auto half = poses(moments.size() / 2);
   EXPECT_TRUE(std::equal(half.begin(), half.end(), whole.begin()));
   EXPECT_EQ(whole, poses(moments.size()));
+}
+
+/// A lidar that scans every two seconds (0.6 m a scan), with noise on x and y of its points.
+TEST(SlowLidarMapper, MapsAHallAndFindsItselfInIt) {
+  std::mt19937 engine(7);
+  test::DriveSettings settings;
+  settings.lidar = test::ScanSettings{};
+  settings.steps_per_scan = 6;
+  settings.sigma_rad_per_m = 0.03;
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto moments = test::drive(walls, kTwoRounds, settings, engine);
+  SlowLidarMapper mapper;
+  double worst_m = 0.0;
+  for (const auto& moment : moments) {
+    (void)mapper.on_odometry(moment.odometry);
+    if (!moment.has_scan) continue;
+    const auto pose = mapper.on_scan(moment.scan.stamp, scan_points(moment.scan, {}), {}).map_from_base;
+    const auto right = moments.front().truth.inverse() * moment.truth;
+    worst_m = std::max(worst_m, std::hypot(pose.x_m() - right.x_m(), pose.y_m() - right.y_m()));
+  }
+  EXPECT_LT(worst_m, 0.03);
+  const Transform2<Map, Base> elsewhere(5.0, 7.8, 2.0);
+  const ScanPoints scan = scan_points(test::simulate_scan(walls, elsewhere, settings.lidar, engine), {});
+  const auto found = localize_absolutely(scan, mapper.map().points(), mapper.strategies_for(scan));
+  ASSERT_TRUE(found);
+  const auto right = moments.front().truth.inverse() * elsewhere;
+  EXPECT_LT(
+      std::hypot(found->fit.map_from_base.x_m() - right.x_m(), found->fit.map_from_base.y_m() - right.y_m()),
+      0.05);
+  EXPECT_EQ(mapper.finish().lost_scans, 0);
+}
+
+TEST(SlowLidarMapper, KeepsTheWheelsWordForAScanThatLiesNowhere) {
+  std::mt19937 engine(8);
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto scan = scan_points(test::simulate_scan(walls, {2.5, 1.2, 0.0}, {}, engine), {});
+  ScanPoints nonsense;
+  std::uniform_real_distribution<double> at(-3.0, 3.0);
+  for (int i = 0; i < 300; ++i) nonsense.add(at(engine), at(engine));
+  SlowLidarMapper mapper;
+  (void)mapper.on_odometry({second(0.0), {}});
+  (void)mapper.on_scan(second(0.0), scan, {});
+  const std::size_t points = mapper.map().points().points().size();
+  (void)mapper.on_odometry({second(2.0), {0.5, 0.0, 0.0}});
+  const PoseEstimate pose = mapper.on_scan(second(2.0), nonsense, {});
+  EXPECT_EQ(pose.health.state, LocalizationState::Lost);
+  EXPECT_NEAR(pose.map_from_base.x_m(), 0.5, 0.05);
+  EXPECT_EQ(mapper.map().points().points().size(), points);
+  EXPECT_EQ(mapper.finish().lost_scans, 1);
+}
+
+TEST(GrowingMap, ForgetsWhatIsSeenThrough) {
+  std::mt19937 engine(9);
+  const test::ScanSettings lidar = test::full_turn(720, 30.0);
+  mapping::Walls with_box = test::laboratory_hall();
+  test::add_box(with_box, 3.0, 0.6, 3.6, 1.2);
+  const Transform2<Map, Base> here(1.5, 1.0, 0.0);
+  GrowingMap map;
+  const auto boxed = [&] {
+    int count = 0;
+    for (const Point2<Map>& p : map.points().points())
+      count += p.x_m > 2.9 && p.x_m < 3.7 && p.y_m > 0.5 && p.y_m < 1.3;
+    return count;
+  };
+  map.add(scan_points(test::simulate_scan(with_box, here, lidar, engine), {}), here, {}, 0.0);
+  EXPECT_GT(boxed(), 10);
+  for (int i = 0; i < 6; ++i)
+    map.add(scan_points(test::simulate_scan(test::laboratory_hall(), here, lidar, engine), {}), here, {},
+            0.0);
+  EXPECT_EQ(boxed(), 0);
+  EXPECT_GT(map.points().points().size(), 300U);
 }
 
 TEST(GraphMapper, HasNothingToFinishWithoutAScan) {

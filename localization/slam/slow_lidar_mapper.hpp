@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "localization/localizer/options.hpp"
+#include "localization/motion_model/odometry_track.hpp"
+#include "localization/slam/growing_map.hpp"
+#include "localization/slam/mapper.hpp"
+#include "localization/slam/strategies.hpp"
+
+namespace madori::localization {
+
+struct SlowLidarOptions {
+  StrategyOptions strategies;  ///< most_e_psr_m is what e_max is at the least
+  GrowingMapOptions map;
+  OdometryNoise odometry;
+  SurfaceScanOptions scan;
+  double e_max_of_noise = 1.0;   ///< e_max is at least so many sigmas of the scan's own noise,
+  double e_max_of_recent = 2.0;  ///< and so many times the mean e_psr of the scans accepted last;
+  double most_e_max_m = 0.3;     ///< a scan laid anywhere comes to about 0.4 m
+  std::size_t recent = 10;
+  double residual_sigma_m = 0.05;  ///< of a point from its surface at the least, beside the wheels' word
+};
+
+/// SLAM for lidars that scan less than once a second, as published (Kis, Csemesz, Csáji 2021, Algorithms 1 to
+/// 3): each scan is laid on a growing point map by RDNM and ICP, failing that by CPD and ICP, failing that by
+/// the search of the whole map; a scan that lies nowhere is not added, and the wheels go on.
+class SlowLidarMapper final : public Mapper {
+ public:
+  explicit SlowLidarMapper(const SlowLidarOptions& options = {});
+
+  PoseEstimate on_odometry(const OdometryReading& reading) override;
+  PoseEstimate on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) override;
+  [[nodiscard]] FinishedMap finish() override;
+
+  /// The point map, and what it says of itself.
+  [[nodiscard]] const GrowingMap& map() const { return map_; }
+  /// e_psr of each accepted scan to the map as it was before it, metres.
+  [[nodiscard]] const std::vector<double>& e_psr_m() const { return e_psr_m_; }
+  /// How a scan as noisy as this is laid on the map as it is now.
+  [[nodiscard]] StrategyOptions strategies_for(const ScanPoints& points) const;
+
+ private:
+  [[nodiscard]] double e_max_m(double noise_m) const;
+  [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
+
+  SlowLidarOptions options_;
+  OdometryModel model_;
+  OdometryTrack track_;
+  OdometryStep since_scan_;
+  GrowingMap map_;
+  Transform2<Map, Base> anchor_;  ///< the pose at the last scan
+  Stamp anchor_stamp_{};
+  bool started_ = false;
+  int lost_ = 0;          ///< scans, all in all
+  bool is_lost_ = false;  ///< the last one
+  double path_m_ = 0.0;   ///< driven since the last accepted scan
+  std::vector<double> e_psr_m_;
+  FinishedMap finished_;
+};
+
+}  // namespace madori::localization

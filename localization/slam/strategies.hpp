@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+
+#include "localization/registration/point_icp.hpp"
+#include "localization/registration/point_map.hpp"
+#include "localization/registration/rdnm.hpp"
+#include "localization/registration/registration_result.hpp"
+#include "localization/scan_points.hpp"
+
+namespace madori::localization {
+
+/// The localization strategies of Kis, Csemesz, Csáji (2021). Their map is a PointMap, whatever it was made
+/// of: sampled walls of a drawing, the points of a growing map, the surfaces of keyframes.
+struct StrategyOptions {
+  double most_e_psr_m = 0.10;       ///< e_max: a registration of a larger error has failed
+  double least_near = 0.6;          ///< share of the scan that must lie within 1 m of the map (own addition:
+                                    ///< e_psr of few near points is small anywhere)
+  double candidate_radius_m = 0.3;  ///< of the six local candidates around the assumed position
+  double most_turn_rad = kPi / 4.0;
+  double grid_m = 0.5;  ///< g of the global candidates
+  double clearance_m =
+      0.25;                  ///< from every point of the map: where the vehicle would not fit is no candidate
+  std::size_t refined = 30;  ///< candidates of Algorithm 2 that ICP looks at (the paper: the best alone)
+  double view_radius_m = 30.0;  ///< the map's points within it make the candidates' views,
+  double global_view_m = 15.0;  ///< the same for the candidates of Algorithm 2, of which there are thousands,
+  double view_spacing_m = 0.15;  ///< thinned to this: a section averages over half a metre anyway
+  RdnOptions rdn;
+  PointIcpOptions icp;
+};
+
+enum class Strategy { Rdnm, Cpd, Absolute };
+[[nodiscard]] const char* to_string(Strategy strategy);
+
+struct StrategyResult {
+  RegistrationResult fit;
+  Strategy strategy = Strategy::Rdnm;  ///< the one that succeeded
+};
+
+/// Positions on a grid over the map's box that are clear of its points.
+[[nodiscard]] std::vector<Point2<Map>> global_candidates(const PointMap& map, double grid_m,
+                                                         double clearance_m);
+
+/// Algorithm 2: RDNM over the whole map's grid, then ICP; nothing when e_psr stays above the limit.
+[[nodiscard]] std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,
+                                                                const StrategyOptions& options = {});
+
+/// Algorithm 3 (the ICP of Algorithm 2 leans on nothing): RDNM around the assumed pose and ICP; failing that
+/// CPD and ICP; failing that Algorithm 2.
+[[nodiscard]] std::optional<StrategyResult> localize_relatively(const ScanPoints& scan, const PointMap& map,
+                                                                const Transform2<Map, Base>& assumed,
+                                                                const StrategyOptions& options = {});
+
+}  // namespace madori::localization
