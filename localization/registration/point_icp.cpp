@@ -24,17 +24,12 @@ struct Sums {
   }
 };
 
-PointSurface surface_at(const PointMap& map, std::size_t i) {
-  if (!map.surfaces().empty()) return map.surfaces()[i];
-  return {map.points()[i].x_m, map.points()[i].y_m, 1.0, 0.0, 0.0};
-}
-
 Sums pair_up(const ScanPoints& points, const PointMap& map, const Pose& pose, double scale_m,
              std::size_t stride, double along_surface) {
   Sums sums;
   for (std::size_t i = 0; i < points.size(); i += stride) {
     const Point2<Map> p = pose * points.point(i);
-    const PointSurface s = surface_at(map, map.nearest(p).index);
+    const PointSurface& s = map.surface(map.nearest(p).index);
     const double dx = p.x_m - s.x_m;
     const double dy = p.y_m - s.y_m;
     const double across = dx * s.normal_x + dy * s.normal_y;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <nanoflann.hpp>
+#include <optional>
 #include <utility>
 
 namespace madori::localization {
@@ -20,7 +21,8 @@ struct PointMap::Tree {
   }
 
   std::vector<Point2<Map>> points;
-  std::vector<PointSurface> surfaces;
+  std::vector<std::optional<PointSurface>> surfaces;
+  double surface_radius_m = 0.0;
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Tree>, Tree, 2> index;
 };
 
@@ -56,16 +58,23 @@ PointSurface surface_of(const std::vector<Point2<Map>>& points,
 
 PointMap::PointMap(std::vector<Point2<Map>> points, double surface_radius_m)
     : tree_(std::make_unique<Tree>(std::move(points))) {
-  if (!(surface_radius_m > 0.0)) return;
-  tree_->surfaces.reserve(tree_->points.size());
-  std::vector<std::pair<std::uint32_t, double>> near;
-  const nanoflann::SearchParams unsorted(0, 0.0F, false);
-  for (const Point2<Map>& p : tree_->points) {
+  tree_->surface_radius_m = surface_radius_m;
+  tree_->surfaces.resize(tree_->points.size());
+}
+
+const PointSurface& PointMap::surface(std::size_t i) const {
+  std::optional<PointSurface>& surface = tree_->surfaces[i];
+  if (surface) return *surface;
+  const Point2<Map>& p = tree_->points[i];
+  const double radius = tree_->surface_radius_m;
+  surface = PointSurface{p.x_m, p.y_m, 1.0, 0.0, 0.0};
+  if (radius > 0.0) {
     const double query[2] = {p.x_m, p.y_m};
-    near.clear();
-    tree_->index.radiusSearch(query, surface_radius_m * surface_radius_m, near, unsorted);
-    tree_->surfaces.push_back(surface_of(tree_->points, near));
+    std::vector<std::pair<std::uint32_t, double>> near;
+    tree_->index.radiusSearch(query, radius * radius, near, nanoflann::SearchParams(0, 0.0F, false));
+    surface = surface_of(tree_->points, near);
   }
+  return *surface;
 }
 PointMap::~PointMap() = default;
 PointMap::PointMap(PointMap&&) noexcept = default;
@@ -83,10 +92,6 @@ PointMap::Neighbour PointMap::nearest(const Point2<Map>& p) const {
 
 const std::vector<Point2<Map>>& PointMap::points() const {
   return tree_->points;
-}
-
-const std::vector<PointSurface>& PointMap::surfaces() const {
-  return tree_->surfaces;
 }
 
 std::vector<Point2<Map>> sample_walls(const mapping::Walls& walls, double spacing_m) {

@@ -36,8 +36,9 @@ class PointMap {
   /// The point nearest to `p`. Precondition: the map is not empty.
   [[nodiscard]] Neighbour nearest(const Point2<Map>& p) const;
   [[nodiscard]] const std::vector<Point2<Map>>& points() const;
-  /// One a point, or none.
-  [[nodiscard]] const std::vector<PointSurface>& surfaces() const;
+  /// What the points around point `i` make, worked out when it is asked for first: not for several threads. A
+  /// blot at the point itself where no surfaces are made.
+  [[nodiscard]] const PointSurface& surface(std::size_t i) const;
   [[nodiscard]] bool empty() const { return points().empty(); }
 
  private:
