@@ -6,8 +6,8 @@
 namespace madori::localization {
 namespace {
 
-void add(float& layer, double evidence, double most) {
-  layer = static_cast<float>(std::clamp(static_cast<double>(layer) + evidence, -most, most));
+void add(float& layer, double evidence, double least, double most) {
+  layer = static_cast<float>(std::clamp(static_cast<double>(layer) + evidence, least, most));
 }
 
 float between(float from, float to, double share) {
@@ -35,11 +35,15 @@ void CellLayers::take(double evidence, Stamp stamp, const LayerOptions& options)
   const double since_s = was_seen() ? to_seconds(stamp - seen) : 0.0;
   const bool same = (now > 0.0F) == (look > 0.0) && now != 0.0F;  // as at the look before
   *this = at(stamp, options);
+  // What came while nobody looked may have stood all that time: that floor was seen before says less of it.
+  if (!same && look > 0.0 && stands < 0.0F)
+    stands = between(stands, 0.0F, apart(since_s, options.stands_tau_s));
   if (same) {
-    add(stands, apart(since_s, options.stands_tau_s) * look, options.stands_most);
-    add(permanent, apart(since_s, options.permanent_tau_s) * look, options.permanent_most);
+    add(stands, apart(since_s, options.stands_tau_s) * look, -options.stands_most, options.stands_most);
+    add(permanent, apart(since_s, options.permanent_tau_s) * look, options.permanent_least,
+        options.permanent_most);
   }
-  add(now, look, options.now_most);
+  add(now, look, -options.now_most, options.now_most);
   seen = std::max(seen, stamp);
 }
 

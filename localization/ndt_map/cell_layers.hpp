@@ -14,13 +14,14 @@ struct LayerOptions {
   double look_most = 1.4;  ///< of one look
   double now_most = 2.8;   ///< two looks say all, one does not turn it over
   double stands_most = 1.4;
-  double permanent_most = 2.0;
+  double permanent_most = 4.0;
+  double permanent_least = -1.4;          ///< a new wall is believed within days, too
   double stands_tau_s = 30.0;             ///< looks closer in time are not independent of each other ...
   double permanent_tau_s = 6.0 * 3600.0;  ///< ... nor of each other's day
   double known = 0.2;                     ///< below it nothing is known
   double stands = 0.05;                   ///< about a second of standing
   double gone = 0.2;                      ///< what stood so surely and is not there was taken away
-  double permanent = 0.5;
+  double permanent = 2.0;                 ///< two other days: on one, what comes and goes is back by chance
 };
 
 /// Occupancy at three speeds, log odds.

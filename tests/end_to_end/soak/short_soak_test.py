@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Four deliveries with a kidnapping and a drop-out of the lidar: all made, nothing run into, nobody helps."""
+"""Four deliveries with a kidnapping and a drop-out of the lidar: all made, nothing run into, nobody helps; and the living
+map of that day shows what stands there."""
 import json
 import pathlib
 import subprocess
@@ -16,7 +17,7 @@ def main():
                        stdout=subprocess.DEVNULL)
         soak = subprocess.run([SOAK, site, f"{DATA}/scenarios/soak/scenario.yaml", "--routes",
                                f"{DATA}/scenarios/soak/routes", "--orders", "4", "--kidnappings", "1",
-                               "--dropouts", "1", "--pallets", "0", "--json", str(figures)],
+                               "--dropouts", "1", "--pallets", "0", "--living-map", f"{folder}/map", "--json", str(figures)],
                               stdout=subprocess.PIPE, text=True)
         print(soak.stdout)
         day = json.loads(figures.read_text().splitlines()[0])
@@ -25,6 +26,10 @@ def main():
         assert day["dropouts"] == day["dropouts_survived"] == 1
         assert not day["collisions_moving"] and not day["collisions_standing"]
         assert soak.returncode == 0, day["help"]
+        found = day["living_map"]
+        print(json.dumps(found))
+        assert found["static"]["precision"] > 0.95 and found["static"]["cells"] > 500, found
+        assert found["phantoms"] < 0.005 * found["known"], found
 
 
 main()

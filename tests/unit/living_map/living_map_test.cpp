@@ -75,6 +75,7 @@ TEST(LivingMap, IsKeptBetweenDrivesAndGoesOn) {
   EXPECT_TRUE(again.message.empty()) << again.message;
   MapWatch watch(std::move(again.map));
   stand(watch, 1e6 + 86'400.0, 2);
+  stand(watch, 1e6 + 2.0 * 86'400.0, 2);
   EXPECT_EQ(watch.map().state_at(kOnTheConveyor), CellState::Static);
 }
 
