@@ -19,9 +19,9 @@
 #include "localization/localizer/localizer.hpp"
 #include "localization/particle_filter/particle_filter.hpp"
 #include "localization/registration/segment_icp.hpp"
-#include "localization/wall_extraction/cloud_in_base.hpp"
 #include "sensors/vlp16/encode.hpp"
 #include "simulation/lidar/vlp16_model.hpp"
+#include "tests/support/cloud_in_base.hpp"
 #include "tests/support/lidar_models.hpp"
 #include "tests/support/localization_trial.hpp"
 

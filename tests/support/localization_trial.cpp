@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "localization/wall_extraction/cloud_in_base.hpp"
 #include "planning/route_graph/route_csv.hpp"
 #include "simulation/scenario/scenario.hpp"
+#include "tests/support/cloud_in_base.hpp"
 #include "tests/support/lidar_models.hpp"
 
 namespace madori::test {
@@ -86,7 +86,7 @@ void LocalizationTrial::step(bool drives) {
   for (const auto& cloud : input.clouds) {
     const mapping::SensorRecord& lidar = floor_.lidar();
     const LidarModel model = spinning_lidar({lidar.x_m, lidar.y_m, lidar.z_m, to_rad(lidar.yaw_deg)});
-    const auto base = localization::cloud_in_base(cloud, model, track_);
+    const auto base = test::cloud_in_base(cloud, model, track_);
     const auto points = localization::extract_walls(base, model, walls);
     const PoseEstimate at_scan = localizer_.on_scan(base.stamp, points, {lidar.x_m, lidar.y_m});
     if (learner != nullptr) learner->observe(points, {lidar.x_m, lidar.y_m}, at_scan);

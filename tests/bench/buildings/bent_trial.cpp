@@ -6,12 +6,12 @@
 
 #include "control/diff_drive/odometry.hpp"
 #include "core/median.hpp"
-#include "localization/wall_extraction/cloud_in_base.hpp"
 #include "localization/wall_extraction/wall_extraction.hpp"
 #include "tests/bench/buildings/bent_floor.hpp"
 #include "tests/bench/buildings/drive_figures.hpp"
 #include "tests/bench/buildings/trial_localizer.hpp"
 #include "tests/bench/buildings/wall_scanner.hpp"
+#include "tests/support/cloud_in_base.hpp"
 #include "tests/support/lidar_models.hpp"
 
 namespace madori::bench {
@@ -106,7 +106,7 @@ void BentTrial::take_scans(const test::FloorInput& input) {
     if (looks_with_scanner()) break;
     const auto& lidar = floor_.lidar();
     const LidarModel model = test::spinning_lidar({lidar.x_m, lidar.y_m, lidar.z_m, to_rad(lidar.yaw_deg)});
-    const auto base = localization::cloud_in_base(cloud, model, track_);
+    const auto base = test::cloud_in_base(cloud, model, track_);
     localizer_->on_scan(base.stamp, localization::extract_walls(base, model), {lidar.x_m, lidar.y_m});
   }
   for (const auto& [stamp, points] : scans_of_floor()) localizer_->on_scan(stamp, points, scanner_.place());

@@ -1,11 +1,18 @@
-#include "localization/wall_extraction/cloud_in_base.hpp"
+#pragma once
 
 #include <cmath>
 
-namespace madori::localization {
+#include "core/lidar_model.hpp"
+#include "core/point_cloud.hpp"
+#include "localization/motion_model/odometry_track.hpp"
 
-PointCloud<Base> cloud_in_base(const PointCloud<Lidar>& cloud, const LidarModel& lidar,
-                               const OdometryTrack& track) {
+namespace madori::test {
+
+/// A revolution in the Base frame of its last firing: each point is moved by what the wheels did since its
+/// own. The result's stamp is the last firing's, its time offsets are zero. Where the track knows nothing,
+/// the vehicle counts as standing.
+inline PointCloud<Base> cloud_in_base(const PointCloud<Lidar>& cloud, const LidarModel& lidar,
+                                      const localization::OdometryTrack& track) {
   constexpr float kOneFiringS = 4e-4F;  // points this near in time share a motion: 0.4 mm at 1 m/s
   const auto base_from_lidar = lidar.mounting.base_from_lidar();
   PointCloud<Base> result;
@@ -32,4 +39,4 @@ PointCloud<Base> cloud_in_base(const PointCloud<Lidar>& cloud, const LidarModel&
   return result;
 }
 
-}  // namespace madori::localization
+}  // namespace madori::test
