@@ -94,12 +94,12 @@ function liveState(t) {
 }
 
 const lidar = { name: "top", type: "vlp16", x_m: 0.3, y_m: 0, z_m: 1.2, yaw_deg: 0 };
-const vehicle = { length_m: 1, width_m: 0.6, base_to_rear_m: 0.2, max_speed_mps: 1, height_m: 0.8, wheel_radius_m: 0.1, half_wheel_separation_m: 0.25, max_acceleration_mps2: 0.5, max_turn_rate_radps: 1 };
+const vehicle = { length_m: 1, width_m: 0.6, base_to_rear_m: 0.2, max_speed_mps: 1, height_m: 0.8, wheel_radius_m: 0.1, half_wheel_separation_m: 0.25, max_acceleration_mps2: 0.5, max_turn_rate_radps: 1, max_deceleration_mps2: 0.8, max_turn_acceleration_radps2: 1.5, reaction_s: 0.25 };
 const answers = {
   "/api/session": () => ({ role: "integrator", needs_pin: false }),
   "/api/site": () => ({
     name: "Made up", drawing: kDrawing, scale: { m_per_px: kScale, method: "known", relative_uncertainty: 0.002, residual_m: 0.01, date: "2026-01-01" }, georeference: null,
-    vehicle, sensors: [lidar], walls_revision: "1", routes_revision: "1", vehicle_revision: "1", attribution: "",
+    vehicle, sensors: [lidar], route_metric: "hops", walls_revision: "1", routes_revision: "1", vehicle_revision: "1", attribution: "",
   }),
   "/api/setup": () => ({ steps: ["drawing", "scale", "routes", "vehicle", "locate"].map((name) => ({ name, done: name !== "locate", what: none })), drivable: true, locked: none }),
   "/api/site/walls": () => ({ revision: "1", walls: walls.map((wall) => [...wall, -1]) }),

@@ -13,7 +13,7 @@ const kSizes = [{ width: 1280, height: 800, target: 118 }, { width: 1024, height
 const pages = [
   ["drive", ".rail button >> nth=0", "[role=tab] >> nth=0"], ["drive-by-hand", null, "[role=tab] >> nth=1"], ["drive-replay", null, "[role=tab] >> nth=2"],
   ["setup-1-drawing", ".rail button >> nth=1", ".steps button >> nth=0"], ["setup-2-scale", null, ".steps button >> nth=1"], ["setup-3-routes", null, ".steps button >> nth=2"],
-  ["setup-4-vehicle", null, ".steps button >> nth=3"], ["setup-5-place", null, ".steps button >> nth=4"],
+  ["setup-4-vehicle", null, ".steps button >> nth=3"], ["setup-4-details", null, "aside .buttons button >> nth=0"], ["setup-5-place", null, ".steps button >> nth=4"],
   ["history-events", ".rail button >> nth=2", "[role=tab] >> nth=0"], ["history-statistics", null, "[role=tab] >> nth=1"], ["history-downloads", null, "[role=tab] >> nth=2"],
 ];
 
