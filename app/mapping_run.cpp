@@ -12,8 +12,6 @@ namespace {
 using localization::MomentPose;
 using localization::ReckonedPose;
 
-constexpr const char* kTumHead = "# timestamp x y z qx qy qz qw, Map frame\n";
-
 /// Where the wheels say the vehicle is at `stamp`, between two readings; clipped to what they know.
 Transform2<Odom, Base> wheels_at(const std::vector<ReckonedPose>& wheels, Stamp stamp) {
   if (wheels.empty()) return {};

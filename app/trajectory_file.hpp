@@ -17,6 +17,8 @@ struct StampedPose {
   Transform2<Map, Base> map_from_base;
 };
 
+/// The first line of a TUM file.
+inline constexpr const char* kTumHead = "# timestamp x y z qx qy qz qw, Map frame\n";
 /// A line of a TUM file, `timestamp x y z qx qy qz qw`, seconds and metres, with its line end.
 [[nodiscard]] std::string tum_line(Stamp stamp, const Transform2<Map, Base>& map_from_base);
 /// Reads a TUM file; `#` starts a comment. In the order of the file. Throws Error with file and line on

@@ -31,6 +31,15 @@ struct ScanPoints {
   [[nodiscard]] double weight_of(std::size_t i) const { return weight.empty() ? 1.0 : weight[i]; }
 };
 
+/// Those that count: a weight above 0.
+[[nodiscard]] inline std::vector<Point2<Base>> weighty_points(const ScanPoints& points) {
+  std::vector<Point2<Base>> out;
+  out.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points.weight_of(i) > 0.0) out.push_back(points.point(i));
+  return out;
+}
+
 /// The returns of `scan` as points; no returns, non-finite ranges and such below `range_min_m` are left out.
 [[nodiscard]] inline ScanPoints scan_points(const LaserScan& scan,
                                             const Transform2<Base, Lidar>& base_from_lidar,

@@ -1,9 +1,8 @@
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "app/commands.hpp"
 #include "app/json_output.hpp"
@@ -11,6 +10,7 @@
 #include "app/landmarks/landmark_files.hpp"
 #include "app/landmarks/log_run.hpp"
 #include "app/log_options.hpp"
+#include "app/pose_argument.hpp"
 #include "core/pose_hypothesis.hpp"
 #include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -37,13 +37,8 @@ struct LandmarkArguments {
 
 /// Numbers separated by blanks or colons: metres and degrees.
 Transform2<Map, Base> pose_of(std::string text, const std::string& option) {
-  for (char& c : text) c = c == ':' ? ' ' : c;
-  std::istringstream words(text);
-  double x = 0.0, y = 0.0, yaw_deg = 0.0;
-  std::string rest;
-  if (!(words >> x >> y >> yaw_deg) || words >> rest || !std::isfinite(x + y + yaw_deg))
-    throw CLI::ValidationError(option, "'" + text + "' is not \"x y yaw_deg\"");
-  return {x, y, to_rad(yaw_deg)};
+  std::replace(text.begin(), text.end(), ':', ' ');
+  return parse_pose(option, text);
 }
 
 void write(const std::filesystem::path& out, const char* name, const std::string& text) {
@@ -118,7 +113,7 @@ void map_log(const LandmarkArguments& arguments) {
   for (const std::string& agent : arguments.agents)
     tracks.push_back(run_agent(agent, site, hub, !arguments.wheels, map_from_origin));
   std::vector<std::vector<StampedPose>> ways;
-  std::string trajectory = "# timestamp x y z qx qy qz qw, Map frame\n";
+  std::string trajectory = kTumHead;
   nlohmann::json agents = nlohmann::json::array();
   for (const AgentTrack& track : tracks) {
     ways.push_back(track.trajectory(hub, map_from_origin));

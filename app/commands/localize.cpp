@@ -120,7 +120,7 @@ void localize(const LocalizeArguments& arguments) {
   localization::MapLearner map_learner(std::move(begun.map));
   if (arguments.memory) recall(localizer, folder / kMemoryFile, walls);
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
-  std::string trajectory = "# timestamp x y z qx qy qz qw, Map frame\n";
+  std::string trajectory = kTumHead;
   HealthLog health;
   std::vector<PoseEstimate> estimates;
   const PlayedLog played = play_log(

@@ -112,7 +112,7 @@ void simulate(SimArguments arguments) {
   if (!arguments.truth_file.empty()) {
     tum.open(arguments.truth_file);
     if (!tum) throw Error(arguments.truth_file, "cannot be written", "check the path and its permissions");
-    tum << "# timestamp x y z qx qy qz qw, Map frame\n";
+    tum << kTumHead;
   }
   std::optional<CameraStream> camera;
   if (arguments.camera_port)

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/cycle/stages.hpp"
+#include "core/sweep_in_base.hpp"
 
 namespace madori::app {
 namespace {
@@ -48,39 +49,14 @@ bool is_own(const Point2<Base>& at, const planning::VehicleOutline& v) {
   return at.x_m < v.front_m && at.x_m > -v.rear_m && std::abs(at.y_m) < v.half_width_m;
 }
 
-/// A revolution in the Base frame of its last firing: each point is moved by what the vehicle did since its
-/// own.
 PointCloud<Base> in_base(const PointCloud<Lidar>& cloud, const std::deque<OdometryReading>& track,
                          const CycleConfig& config) {
-  PointCloud<Base> result;
-  result.lidar = cloud.lidar;
   const LidarModel& lidar = config.lidars[cloud.lidar];
   const bool planar = lidar.kind == LidarKind::Planar;
-  const float last_s = cloud.points.empty() ? 0.0F : cloud.points.back().time_offset_s;
-  result.stamp = cloud.stamp + duration_from_seconds(static_cast<double>(last_s));
-  result.points.reserve(cloud.points.size());
-  const Transform2<Base, Lidar> base_from_lidar = lidar.mounting.base_from_lidar();
-  const auto end_from_odom =
-      track.empty() ? Transform2<Base, Odom>() : odometry_at(track, result.stamp).inverse();
-  // Points of one firing share their time; a motion is worked out once for each.
-  float moment_s = std::nanf("");
-  Transform2<Base, Lidar> moved = base_from_lidar;
-  for (const CloudPoint& p : cloud.points) {
-    if (!track.empty() && p.time_offset_s != moment_s && !(std::abs(p.time_offset_s - moment_s) < 5e-4F)) {
-      moment_s = p.time_offset_s;
-      const Stamp moment = cloud.stamp + duration_from_seconds(static_cast<double>(moment_s));
-      moved = end_from_odom * odometry_at(track, moment) * base_from_lidar;
-    }
-    const Point2<Base> at = moved * Point2<Lidar>{static_cast<double>(p.x_m), static_cast<double>(p.y_m)};
-    if (planar && is_own(at, config.check.vehicle)) continue;
-    CloudPoint q = p;
-    q.x_m = static_cast<float>(at.x_m);
-    q.y_m = static_cast<float>(at.y_m);
-    q.z_m = p.z_m + static_cast<float>(lidar.mounting.z_m);
-    q.time_offset_s = 0.0F;
-    result.points.push_back(q);
-  }
-  return result;
+  return sweep_in_base(
+      cloud, lidar.mounting,
+      [&](Stamp moment) { return track.empty() ? std::nullopt : std::optional(odometry_at(track, moment)); },
+      [&](const Point2<Base>& at) { return !planar || !is_own(at, config.check.vehicle); });
 }
 
 /// Whether nobody knows any more where the vehicle was when a revolution was taken: its bodies would stand

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <condition_variable>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
+#include "app/learned/latest_look.hpp"
 #include "core/lidar_model.hpp"
 #include "core/point_cloud.hpp"
 #include "core/pose_estimate.hpp"
@@ -19,9 +18,6 @@ class MapWatch {
  public:
   /// Goes on with what earlier drives left.
   explicit MapWatch(localization::HybridMap begun);
-  ~MapWatch();
-  MapWatch(const MapWatch&) = delete;
-  MapWatch& operator=(const MapWatch&) = delete;
 
   /// On the cycle's thread, after every sweep: copies one now and then. True where it did.
   bool see(const PointCloud<Base>& sweep, const LidarModel& lidar, const PoseEstimate& pose);
@@ -35,16 +31,11 @@ class MapWatch {
     LidarModel lidar;
     PoseEstimate pose;
   };
-  void run();
 
-  std::mutex mailbox_;
-  std::condition_variable wake_;
-  std::optional<Look> waiting_;
   std::optional<Stamp> handed_;  ///< stamp of the last sweep that was copied
-  bool stop_ = false;
-  mutable std::mutex mutex_;  ///< of the map
+  mutable std::mutex mutex_;     ///< of the map
   localization::MapLearner learner_;
-  std::thread thread_;
+  LatestLook<Look> looks_taken_;  ///< last: its thread uses all of the above
 };
 
 }  // namespace madori::app

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/angle.hpp"
-#include "hmi/server/thread_priority.hpp"
 #include "localization/wall_reliability/reliability_file.hpp"
 
 namespace madori::app {
@@ -24,48 +23,21 @@ bool is_elsewhere(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b
 
 WallWatch::WallWatch(const mapping::Walls& walls, const Point2<Base>& sensor,
                      const std::filesystem::path& learned)
-    : sensor_(sensor), learner_(walls) {
+    : sensor_(sensor), learner_(walls), looks_taken_([this](const Look& look) {
+        const std::scoped_lock learning(mutex_);
+        learner_.observe(look.points, sensor_, look.pose);
+        ++looks_;
+      }) {
   const std::string message = localization::load_reliability(learned, learner_.reliability());
   if (!message.empty()) spdlog::warn("{}", message);
-  thread_ = std::thread([this] { run(); });
-}
-
-WallWatch::~WallWatch() {
-  {
-    const std::scoped_lock lock(mailbox_);
-    stop_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
 }
 
 bool WallWatch::see(const localization::ScanPoints& points, const PoseEstimate& pose) {
   if (pose.health.state != LocalizationState::Localized) return false;
   if (handed_ && !is_elsewhere(*handed_, pose.map_from_base)) return false;
   handed_ = pose.map_from_base;
-  {
-    const std::scoped_lock lock(mailbox_);
-    waiting_ = Look{points, pose};
-  }
-  wake_.notify_one();
+  looks_taken_.hand({points, pose});
   return true;
-}
-
-void WallWatch::run() {
-  (void)hmi::run_behind_the_cycle();
-  std::unique_lock lock(mailbox_);
-  while (true) {
-    wake_.wait(lock, [this] { return stop_ || waiting_; });
-    if (stop_) return;
-    const Look look = *std::exchange(waiting_, std::nullopt);
-    lock.unlock();
-    {
-      const std::scoped_lock learning(mutex_);
-      learner_.observe(look.points, sensor_, look.pose);
-      ++looks_;
-    }
-    lock.lock();
-  }
 }
 
 std::size_t WallWatch::looks() const {

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <condition_variable>
 #include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "app/learned/latest_look.hpp"
 #include "core/pose_estimate.hpp"
 #include "localization/drawing_learner/drawing_learner.hpp"
 #include "localization/scan_points.hpp"
@@ -30,9 +29,6 @@ class WallWatch {
  public:
   /// `sensor`: where the lidar sits, Base frame. `learned`: reliability.csv; it need not exist.
   WallWatch(const mapping::Walls& walls, const Point2<Base>& sensor, const std::filesystem::path& learned);
-  ~WallWatch();
-  WallWatch(const WallWatch&) = delete;
-  WallWatch& operator=(const WallWatch&) = delete;
 
   /// On the cycle's thread, after every scan: copies one now and then, while the place is sure. True where it
   /// did.
@@ -50,18 +46,13 @@ class WallWatch {
     localization::ScanPoints points;
     PoseEstimate pose;
   };
-  void run();
 
   Point2<Base> sensor_;
   std::optional<Transform2<Map, Base>> handed_;  ///< pose of the last scan that was copied
-  std::mutex mailbox_;
-  std::condition_variable wake_;
-  std::optional<Look> waiting_;
-  bool stop_ = false;
-  mutable std::mutex mutex_;  ///< of what was learned
+  mutable std::mutex mutex_;                     ///< of what was learned
   localization::DrawingLearner learner_;
   std::size_t looks_ = 0;
-  std::thread thread_;
+  LatestLook<Look> looks_taken_;  ///< last: its thread uses all of the above
 };
 
 }  // namespace madori::app

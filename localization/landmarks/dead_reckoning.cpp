@@ -32,13 +32,6 @@ Eigen::Matrix3d in_map_axes(const Eigen::Matrix3d& covariance, double yaw_rad) {
   return turn * covariance * turn.transpose();
 }
 
-std::vector<Point2<Base>> to_points(const ScanPoints& points) {
-  std::vector<Point2<Base>> out;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points.weight_of(i) > 0.0) out.push_back(points.point(i));
-  return out;
-}
-
 }  // namespace
 
 DeadReckoning::DeadReckoning(bool match_scans, const MemoryOptions& options)
@@ -56,7 +49,7 @@ Transform2<Odom, Base> DeadReckoning::on_scan(Stamp stamp, const ScanPoints& poi
   if (last_scan_ && stamp <= *last_scan_) return in_odom(at_scan_ * since_scan_.motion);
   const OdometryStep step = last_scan_ ? track_.between(*last_scan_, stamp, model_) : OdometryStep{};
   if (match_scans_) {
-    match(make_surface_scan(stamp, sensor, to_points(points)), step);
+    match(make_surface_scan(stamp, sensor, weighty_points(points)), step);
   } else {
     at_scan_ = at_scan_ * step.motion;
     const auto& m = step.motion;

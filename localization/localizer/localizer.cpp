@@ -7,21 +7,6 @@
 #include "localization/localizer/pose_covariance.hpp"
 
 namespace madori::localization {
-namespace {
-
-std::vector<Point2<Base>> to_points(const ScanPoints& points) {
-  std::vector<Point2<Base>> out;
-  out.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points.weight_of(i) > 0.0) {
-      out.push_back(points.point(i));
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
 Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPose>& initial,
                      const LocalizerOptions& options)
     : options_(options), model_(options.odometry), surroundings_(options.surroundings) {
@@ -184,7 +169,7 @@ Memory Localizer::finished_memory() {
 }
 
 PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
-  SurfaceScan scan = make_surface_scan(stamp, sensor, to_points(points), options_.scan);
+  SurfaceScan scan = make_surface_scan(stamp, sensor, weighty_points(points), options_.scan);
   take_in_thoughts(stamp);
   if (started_ && stamp < anchor_stamp_) return on_late_scan(stamp, scan);
   if (started_) {

@@ -9,17 +9,6 @@
 #include "localization/slam/final_fit.hpp"
 
 namespace madori::localization {
-namespace {
-
-std::vector<Point2<Base>> to_points(const ScanPoints& points) {
-  std::vector<Point2<Base>> out;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points.weight_of(i) > 0.0) out.push_back(points.point(i));
-  return out;
-}
-
-}  // namespace
-
 GraphMapper::GraphMapper(const LocalizerOptions& options) : options_(options), model_(options.odometry) {
   map_.memory = Memory(options.memory);
 }
@@ -84,7 +73,7 @@ void GraphMapper::close_loops() {
 }
 
 PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
-  SurfaceScan scan = make_surface_scan(stamp, sensor, to_points(points), options_.scan);
+  SurfaceScan scan = make_surface_scan(stamp, sensor, weighty_points(points), options_.scan);
   Memory& memory = map_.memory;
   if (memory.empty()) {
     if (scan.points.empty()) return estimate(stamp);

@@ -11,13 +11,6 @@
 namespace madori::localization {
 namespace {
 
-std::vector<Point2<Base>> to_points(const ScanPoints& points) {
-  std::vector<Point2<Base>> out;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points.weight_of(i) > 0.0) out.push_back(points.point(i));
-  return out;
-}
-
 /// While the map is young and thin the wheels know more of some directions than the scan.
 void lean_on_wheels(PointIcpOptions& icp, const Transform2<Map, Base>& assumed,
                     const Eigen::Matrix3d& covariance, double residual_sigma_m) {
@@ -87,8 +80,8 @@ PoseEstimate SlowLidarMapper::on_scan(Stamp stamp, const ScanPoints& points, con
   if (accepted) {
     map_.add(points, anchor_, sensor, scan_noise_m(points));
     const Eigen::Matrix3d information = Eigen::Vector3d(400.0, 400.0, 2500.0).asDiagonal();
-    finished_.memory.add(make_surface_scan(stamp, sensor, to_points(points), options_.scan), path_m_, anchor_,
-                         information);
+    finished_.memory.add(make_surface_scan(stamp, sensor, weighty_points(points), options_.scan), path_m_,
+                         anchor_, information);
     finished_.scans.push_back({stamp, anchor_});
     path_m_ = 0.0;
   }

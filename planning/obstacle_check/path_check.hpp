@@ -21,9 +21,9 @@ struct CheckOptions {
   double care_margin_m = 0.15;   ///< something within this much more only slows the vehicle
   double protective_m = 0.0;     ///< kept free before the vehicle, of walls too: a scanner's protective field
   double before_braking_s = 0.35;  ///< a sweep and the reaction, see BrakingModel
-  double wall_margin_m = 0.03;   ///< to drawn walls, which lie as exactly as the drawing
-  double step_m = 0.15;          ///< waypoints nearer together than this are checked once
-  double turn_step_rad = 0.15;   ///< between the checked headings of a turn on the spot
+  double wall_margin_m = 0.03;     ///< to drawn walls, which lie as exactly as the drawing
+  double step_m = 0.15;            ///< waypoints nearer together than this are checked once
+  double turn_step_rad = 0.15;     ///< between the checked headings of a turn on the spot
 };
 
 /// Kept free before and behind a vehicle of this speed: beside it as much as in a turn, and what it drives

@@ -24,8 +24,8 @@ WallGrid::Cell WallGrid::cell(std::int32_t x, std::int32_t y) const {
   return {items_.data() + first_[at], items_.data() + first_[at + 1]};
 }
 
-/// Every cell that a wall passes, column by column. No wall lies outside the grid, but a place on one that was
-/// computed may, by a rounding.
+/// Every cell that a wall passes, column by column. No wall lies outside the grid, but a place on one that
+/// was computed may, by a rounding.
 template <class Visit>
 void WallGrid::for_each_cell(const Segment2<Map>& wall, Visit&& visit) const {
   const auto [x0, x1] = std::minmax({column(wall.a.x_m), column(wall.b.x_m)});
