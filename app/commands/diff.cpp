@@ -62,11 +62,11 @@ void add_diff(CLI::App& app) {
     arguments->options.date = iso_time_utc();
     const mapping::Progress progress = terminal_progress();
     const bool apply = arguments->apply;
-    const DrawingRevision revision =
-        apply ? apply_drawing(arguments->options, progress) : compare_drawing(arguments->options, progress);
+    const RevisedDrawing revised(arguments->options, progress);
+    if (apply) revised.apply();
     if (progress) progress("done", 1.0);
-    if (arguments->json_file != "-") print(revision, apply);
-    write_json(arguments->json_file, revision_json(revision, apply));
+    if (arguments->json_file != "-") print(revised.found(), apply);
+    write_json(arguments->json_file, revision_json(revised.found(), apply));
   });
 }
 

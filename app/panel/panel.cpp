@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app/iso_time.hpp"
+#include "app/panel/panel_preview.hpp"
 #include "app/panel/panel_vehicle.hpp"
 #include "app/scaled_routes.hpp"
 #include "core/result.hpp"
@@ -51,7 +52,8 @@ class ServedPanel final : public Panel {
                  iso_time_utc,
                  [site = options.site](mapping::SiteTransaction& change, double factor) {
                    stage_scaled_routes(site, change, factor);
-                 }},
+                 },
+                 preview_drawing},
         server_(server, context_, files_) {}
 
   void begin_run() override { vehicle_.begin_run(); }

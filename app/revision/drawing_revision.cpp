@@ -23,29 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using Walls2 = std::vector<Segment2<Map>>;
 
-/// The new drawing, imported into a folder of its own that goes with this object.
-class Beside {
- public:
-  Beside(mapping::ImportOptions options, const mapping::Progress& progress) {
-    folder_ = fs::temp_directory_path() /
-              ("madori-revision-" + std::to_string(::getpid()) + "-" + std::to_string(++count_));
-    options.site = folder_;
-    options.force = false;
-    (void)mapping::import_drawing(options, progress);
-  }
-  ~Beside() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Beside(const Beside&) = delete;
-  Beside& operator=(const Beside&) = delete;
-  [[nodiscard]] const fs::path& folder() const { return folder_; }
-
- private:
-  inline static std::atomic<int> count_ = 0;
-  fs::path folder_;
-};
-
 Walls2 walls_of(const fs::path& site) {
   Walls2 walls;
   for (const auto& wall : mapping::load_walls(site / "walls.csv")) walls.push_back(wall.segment);
@@ -98,43 +75,9 @@ void check(const fs::path& site, const mapping::Site& record, const Walls2& befo
   }
 }
 
-DrawingRevision compared(const fs::path& site, const fs::path& beside) {
-  const mapping::Site record = mapping::load_site(site);
-  const Walls2 before = walls_of(site);
-  const double unit = record.scale ? 1.0 : 1.0 / 0.02;  // pixels are taken for 2 cm while nobody measured
-  const auto laid = mapping::register_walls(before, walls_of(beside), 0.15 * unit);
-  if (!laid)
-    throw Error("the new drawing", "is no revision of the site's: its walls do not lie on the old ones",
-                "import it as a site of its own, or replace the drawing with --force");
-  DrawingRevision revision{*laid, {}, {}, {}, {}, {}};
-  Walls2 drawn;
-  for (const auto& wall : walls_of(beside)) drawn.push_back(mapping::moved(laid->old_from_new, wall));
-  const mapping::ChangeOptions options{.within = 0.15 * unit, .shortest = 0.8 * unit, .step = 0.05 * unit};
-  const DrawnInk old_ink(site), new_ink(beside);
-  const auto changes = [&](const Walls2& of, const Walls2& others, auto drawn_too) {
-    Walls2 pieces = mapping::pieces_without(of, others, options);
-    std::erase_if(pieces, drawn_too);  // taken for a wall in one drawing only, and drawn in both
-    return pieces;
-  };
-  const auto back = inverse(laid->old_from_new);
-  revision.added = changes(drawn, before, [&](const Segment2<Map>& piece) {
-    return old_ink.is_bold_along(piece, new_ink, mapping::moved(back, piece));
-  });
-  revision.gone = changes(before, drawn, [&](const Segment2<Map>& piece) {
-    return new_ink.is_bold_along(mapping::moved(back, piece), old_ink, piece);
-  });
-  // What has not changed stays as it is, with all that a person mended of it.
-  const mapping::ChangeOptions exactly{.within = 1e-3 * unit, .shortest = 0.05 * unit, .step = 0.05 * unit};
-  revision.walls = mapping::pieces_without(before, revision.gone, exactly);
-  revision.walls.insert(revision.walls.end(), revision.added.begin(), revision.added.end());
-  check(site, record, before, revision.walls, revision);
-  return revision;
-}
-
-nlohmann::json rows(const Walls2& pieces) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const auto& p : pieces) list.push_back({p.a.x_m, p.a.y_m, p.b.x_m, p.b.y_m});
-  return list;
+/// Of the Map a metre: pixels are taken for 2 cm while nobody measured.
+double unit_of(const mapping::Site& record) {
+  return record.scale ? 1.0 : 1.0 / 0.02;
 }
 
 double length_of(const Walls2& pieces) {
@@ -145,16 +88,87 @@ double length_of(const Walls2& pieces) {
 
 }  // namespace
 
-DrawingRevision compare_drawing(const mapping::ImportOptions& options, const mapping::Progress& progress) {
-  const Beside beside(options, progress);
-  return compared(options.site, beside.folder());
+/// The folder goes with this object.
+class RevisedDrawing::Beside {
+ public:
+  Beside(mapping::ImportOptions options, const mapping::Progress& progress) {
+    folder_ = fs::temp_directory_path() /
+              ("madori-revision-" + std::to_string(::getpid()) + "-" + std::to_string(++count_));
+    options.site = folder_;
+    options.force = false;
+    (void)mapping::import_drawing(options, progress);
+  }
+  ~Beside() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+  [[nodiscard]] const fs::path& folder() const { return folder_; }
+
+ private:
+  inline static std::atomic<int> count_ = 0;
+  fs::path folder_;
+};
+
+RevisedDrawing::RevisedDrawing(const mapping::ImportOptions& options, const mapping::Progress& progress)
+    : site_(options.site),
+      beside_(std::make_unique<const Beside>(options, progress)),
+      before_(walls_of(site_)) {
+  const double unit = unit_of(mapping::load_site(site_));
+  const auto laid = mapping::register_walls(before_, walls_of(beside_->folder()), 0.15 * unit);
+  if (!laid)
+    throw Error("the new drawing", "is no revision of the site's: its walls do not lie on the old ones",
+                "import it as a site of its own, or replace the drawing with --force");
+  compare(*laid);
 }
 
-DrawingRevision apply_drawing(const mapping::ImportOptions& options, const mapping::Progress& progress) {
-  const Beside beside(options, progress);
-  DrawingRevision revision = compared(options.site, beside.folder());
-  carry_site(options.site, beside.folder(), revision.laid.old_from_new, revision.walls);
-  return revision;
+RevisedDrawing::~RevisedDrawing() = default;
+
+void RevisedDrawing::move(const mapping::Similarity& by) {
+  const auto& old = found_.laid.old_from_new;
+  const mapping::Similarity near{by.scale * old.scale, wrap_angle(by.yaw_rad + old.yaw_rad),
+                                 by.apply(old.offset)};
+  const double unit = unit_of(mapping::load_site(site_));
+  compare(mapping::settle_walls(before_, walls_of(beside_->folder()), near, 0.15 * unit));
+}
+
+void RevisedDrawing::apply() const {
+  carry_site(site_, beside_->folder(), found_.laid.old_from_new, found_.walls);
+}
+
+void RevisedDrawing::compare(const mapping::WallRegistration& laid) {
+  const mapping::Site record = mapping::load_site(site_);
+  const double unit = unit_of(record);
+  found_ = {laid, {}, {}, {}, {}, {}};
+  drawn_.clear();
+  for (const auto& wall : walls_of(beside_->folder()))
+    drawn_.push_back(mapping::moved(laid.old_from_new, wall));
+  const mapping::ChangeOptions options{.within = 0.15 * unit, .shortest = 0.8 * unit, .step = 0.05 * unit};
+  const DrawnInk old_ink(site_), new_ink(beside_->folder());
+  const auto changes = [&](const Walls2& of, const Walls2& others, auto drawn_too) {
+    Walls2 pieces = mapping::pieces_without(of, others, options);
+    std::erase_if(pieces, drawn_too);  // taken for a wall in one drawing only, and drawn in both
+    return pieces;
+  };
+  const auto back = inverse(laid.old_from_new);
+  found_.added = changes(drawn_, before_, [&](const Segment2<Map>& piece) {
+    return old_ink.is_bold_along(piece, new_ink, mapping::moved(back, piece));
+  });
+  found_.gone = changes(before_, drawn_, [&](const Segment2<Map>& piece) {
+    return new_ink.is_bold_along(mapping::moved(back, piece), old_ink, piece);
+  });
+  // What has not changed stays as it is, with all that a person mended of it.
+  const mapping::ChangeOptions exactly{.within = 1e-3 * unit, .shortest = 0.05 * unit, .step = 0.05 * unit};
+  found_.walls = mapping::pieces_without(before_, found_.gone, exactly);
+  found_.walls.insert(found_.walls.end(), found_.added.begin(), found_.added.end());
+  check(site_, record, before_, found_.walls, found_);
+}
+
+nlohmann::json segment_rows(const Walls2& pieces) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& p : pieces) list.push_back({p.a.x_m, p.a.y_m, p.b.x_m, p.b.y_m});
+  return list;
 }
 
 nlohmann::json revision_json(const DrawingRevision& revision, bool applied) {
@@ -173,8 +187,8 @@ nlohmann::json revision_json(const DrawingRevision& revision, bool applied) {
             {"x", by.offset.x()},
             {"y", by.offset.y()},
             {"covered", revision.laid.covered}}},
-          {"gone", rows(revision.gone)},
-          {"added", rows(revision.added)},
+          {"gone", segment_rows(revision.gone)},
+          {"added", segment_rows(revision.added)},
           {"gone_m", length_of(revision.gone)},
           {"added_m", length_of(revision.added)},
           {"findings", findings},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -20,17 +21,40 @@ struct DrawingRevision {
   std::vector<std::string> stations_lost;        ///< too near to a wall now, or no longer to be reached
 };
 
-/// Imports `options.drawing` beside the site and lays it on the site's own walls; nothing of the site
-/// changes. `options.site` names the site. Throws Error where the drawing cannot be read, or is no revision
-/// of the site's.
-[[nodiscard]] DrawingRevision compare_drawing(const mapping::ImportOptions& options,
-                                              const mapping::Progress& progress = {});
+/// A new drawing, imported into a folder of its own beside the site and laid on the site's walls. Nothing of
+/// the site changes before `apply`.
+class RevisedDrawing {
+ public:
+  /// `options.site` names the site. Throws Error where the drawing cannot be read, or is no revision of the
+  /// site's.
+  explicit RevisedDrawing(const mapping::ImportOptions& options, const mapping::Progress& progress = {});
+  ~RevisedDrawing();
+  RevisedDrawing(const RevisedDrawing&) = delete;
+  RevisedDrawing& operator=(const RevisedDrawing&) = delete;
 
-/// The same, and the new drawing becomes the site's in one step: in the scale of the old one, with routes and
-/// georeference carried to where it lies now.
-DrawingRevision apply_drawing(const mapping::ImportOptions& options, const mapping::Progress& progress = {});
+  [[nodiscard]] const DrawingRevision& found() const { return found_; }
+  /// All walls of the new drawing where they lie now.
+  [[nodiscard]] const std::vector<Segment2<Map>>& drawn() const { return drawn_; }
+  /// Somebody moves the new drawing on the old one: it settles on the walls near there, and is compared anew.
+  void move(const mapping::Similarity& by);
+  /// The new drawing becomes the site's in one step: in the scale of the old one, with routes and
+  /// georeference carried to where it lies now.
+  void apply() const;
+
+ private:
+  void compare(const mapping::WallRegistration& laid);
+
+  std::filesystem::path site_;
+  class Beside;
+  std::unique_ptr<const Beside> beside_;
+  std::vector<Segment2<Map>> before_, drawn_;
+  DrawingRevision found_;
+};
 
 /// DrawingRevision of docs/reference/command-line.md (`madori diff --json`) and hmi/schema.
 [[nodiscard]] nlohmann::json revision_json(const DrawingRevision& revision, bool applied);
+
+/// x1, y1, x2, y2 of each, metres.
+[[nodiscard]] nlohmann::json segment_rows(const std::vector<Segment2<Map>>& pieces);
 
 }  // namespace madori::app

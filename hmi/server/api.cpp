@@ -11,6 +11,8 @@ Router make_router(ApiContext& context) {
   add_session_routes(router, context);
   add_site_routes(router, context);
   add_import_routes(router, context);
+  add_preview_routes(router, context);
+  add_backup_routes(router, context);
   add_scale_routes(router, context);
   add_tile_routes(router, context);
   add_setup_routes(router, context);

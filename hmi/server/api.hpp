@@ -4,6 +4,7 @@
 #include <string>
 
 #include "hmi/server/access.hpp"
+#include "hmi/server/drawing_preview.hpp"
 #include "hmi/server/http.hpp"
 #include "hmi/server/job.hpp"
 #include "hmi/server/replay.hpp"
@@ -22,6 +23,7 @@ struct ApiContext {
   Replay& replay;
   std::function<std::string()> iso_time;  ///< for what is recorded with a date
   mapping::StageScaled stage_scaled;      ///< what else of the site changes with its scale: the routes
+  MakeDrawingPreview preview_drawing;     ///< a new revision of the site's drawing, before it is taken over
 };
 
 /// Every address below /api but the live socket (docs/reference/panel.md).
@@ -30,11 +32,13 @@ struct ApiContext {
 void add_session_routes(Router& router, ApiContext& context);
 void add_site_routes(Router& router, ApiContext& context);
 void add_import_routes(Router& router, ApiContext& context);
+void add_preview_routes(Router& router, ApiContext& context);
 void add_tile_routes(Router& router, ApiContext& context);
 void add_setup_routes(Router& router, ApiContext& context);
 void add_scale_routes(Router& router, ApiContext& context);
 void add_vehicle_routes(Router& router, ApiContext& context);
 void add_history_routes(Router& router, ApiContext& context);
+void add_backup_routes(Router& router, ApiContext& context);
 void add_version_routes(Router& router, ApiContext& context);
 
 }  // namespace madori::hmi

@@ -1,7 +1,5 @@
 #include "hmi/server/api.hpp"
 #include "hmi/server/api_support.hpp"
-#include "hmi/server/site_backup.hpp"
-#include "hmi/server/tar_stream.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -12,11 +10,6 @@ Response csv_file(const std::string& content, const std::string& name) {
   Response response{200, "text/csv; charset=utf-8", content, {}, {}};
   response.headers["Content-Disposition"] = "attachment; filename=\"" + name + "\"";
   return response;
-}
-
-/// The same file as `madori export --backup` makes.
-Response site_as_tar(const std::filesystem::path& folder) {
-  return tar_response(site_entries(folder), "site.tar");
 }
 
 void add_routes_routes(Router& router, SiteEditor& editor, Vehicle& vehicle) {
@@ -61,9 +54,6 @@ void add_site_routes(Router& router, ApiContext& context) {
         return Response{200, "image/png", editor.drawing_png(), {}, {}};
       },
       Work::Worker);
-  router.add(
-      "GET", "/api/site/download", Role::Operator,
-      [&](const Request&) { return site_as_tar(editor.folder()); }, Work::Worker);
   add_routes_routes(router, editor, vehicle);
 }
 

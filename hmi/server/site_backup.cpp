@@ -7,10 +7,12 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <set>
 
 #include "core/result.hpp"
 #include "hmi/server/site_files.hpp"
 #include "mapping/site/site_transaction.hpp"
+#include "mapping/site/site_versions.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -72,6 +74,10 @@ std::string read_content(std::ifstream& stream, std::uint64_t size, const fs::pa
   return content;
 }
 
+bool is_manifest(const std::string& name) {
+  return name.starts_with("versions/") && name.ends_with(".json");
+}
+
 void write_whole(const fs::path& file, TarStream& tar) {
   const int to = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   bool good = to >= 0;
@@ -123,8 +129,9 @@ std::size_t read_backup(const fs::path& file, const fs::path& site, bool replace
   std::ifstream stream(file, std::ios::binary);
   mapping::SiteTransaction change(site);
   change.say("backup restored");
-  std::size_t count = 0;
-  bool complete = false, named = false;
+  std::set<std::string> came;
+  std::vector<std::string> manifests;
+  bool complete = false;
   for (TarBlock block{}; stream.read(block.data(), kTarBlock);) {
     complete = std::ranges::all_of(block, [](char c) { return c == '\0'; });
     if (complete) break;
@@ -134,14 +141,21 @@ std::size_t read_backup(const fs::path& file, const fs::path& site, bool replace
     const std::string name = safe_name(block);
     const std::string content = read_content(stream, size, file);
     if (name.empty()) continue;
-    change.write(name, content);
-    named = named || name == "site.yaml";
-    ++count;
+    came.insert(name);
+    if (is_manifest(name))
+      manifests.push_back(content);
+    else
+      change.write(name, content);
   }
   if (!complete) no_backup(file, "it is cut off");
-  if (!named) no_backup(file, "it holds no site.yaml");
+  if (!came.contains("site.yaml")) no_backup(file, "it holds no site.yaml");
+  mapping::bring_versions(change, site, manifests);
+  for (const auto& entry : has_site(site) ? site_entries(site) : std::vector<TarStream::Entry>()) {
+    const std::string name = entry.name.substr(std::strlen(kFolder));
+    if (!came.contains(name) && !name.starts_with("versions/")) change.remove(name);
+  }
   change.commit();
-  return count;
+  return came.size();
 }
 
 }  // namespace madori::hmi

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "mapping/revision/wall_changes.hpp"
+#include "mapping/site/site_transaction.hpp"
 #include "mapping/site/site_versions.hpp"
 #include "mapping/wall_map/wall.hpp"
 #include "planning/route_graph/route_csv.hpp"
@@ -64,6 +65,7 @@ json version_drawing(const mapping::SiteVersion& version) {
 }  // namespace
 
 json versions_json(const fs::path& site) {
+  mapping::recover_site(site);  // a save that was cut short counts
   json list = json::array();
   for (const auto& version : mapping::site_versions(site))
     list.push_back({{"number", version.number},

@@ -149,7 +149,6 @@ Segment2<Map> moved(const Similarity& by, const Segment2<Map>& segment) {
 std::optional<WallRegistration> register_walls(const std::vector<Wall2>& old_walls,
                                                const std::vector<Wall2>& new_walls, double within,
                                                double least_covered) {
-  const auto points = sampled(new_walls, kLastLook);
   const auto few = sampled(new_walls, kLastLook / 5);
   std::optional<WallRegistration> best;
   double most = 0.0;
@@ -162,10 +161,16 @@ std::optional<WallRegistration> register_walls(const std::vector<Wall2>& old_wal
     best = WallRegistration{by, share};
   }
   if (!best) return std::nullopt;
-  best->old_from_new = refined(old_walls, points, best->old_from_new, within);
-  best->covered = covered(old_walls, points, best->old_from_new, within);
+  best = settle_walls(old_walls, new_walls, best->old_from_new, within);
   if (best->covered < least_covered) return std::nullopt;
   return best;
+}
+
+WallRegistration settle_walls(const std::vector<Wall2>& old_walls, const std::vector<Wall2>& new_walls,
+                              const Similarity& from, double within) {
+  const auto points = sampled(new_walls, kLastLook);
+  const Similarity by = refined(old_walls, points, from, within);
+  return {by, covered(old_walls, points, by, within)};
 }
 
 }  // namespace madori::mapping

@@ -24,6 +24,12 @@ struct WallRegistration {
                                                              const std::vector<Segment2<Map>>& new_walls,
                                                              double within, double least_covered = 0.4);
 
+/// The same from a place that is nearly right, say a person's: only the last step, to the walls that are
+/// within four times `within`.
+[[nodiscard]] WallRegistration settle_walls(const std::vector<Segment2<Map>>& old_walls,
+                                            const std::vector<Segment2<Map>>& new_walls,
+                                            const Similarity& from, double within);
+
 /// A point by a similarity.
 [[nodiscard]] Point2<Map> moved(const Similarity& by, const Point2<Map>& point);
 [[nodiscard]] Segment2<Map> moved(const Similarity& by, const Segment2<Map>& segment);

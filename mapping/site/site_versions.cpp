@@ -50,10 +50,24 @@ std::string keep_object(const fs::path& site, const fs::path& file) {
   return name;
 }
 
-SiteVersion read(const fs::path& manifest) {
-  const json all = json::parse(file_content(manifest));
+SiteVersion parsed(const std::string& manifest) {
+  const json all = json::parse(manifest);
   return {all.at("number").get<int>(), all.at("stamp_s").get<double>(), all.at("author").get<std::string>(),
           all.at("sentence").get<std::string>(), all.at("files").get<std::map<std::string, std::string>>()};
+}
+
+/// Those that are no manifest are left out: the others count.
+std::vector<SiteVersion> readable(const std::vector<std::string>& manifests) {
+  std::vector<SiteVersion> all;
+  for (const auto& text : manifests) {
+    try {
+      all.push_back(parsed(text));
+    } catch (const json::exception&) {
+      // not of this program, or damaged
+    }
+  }
+  std::ranges::sort(all, {}, &SiteVersion::number);
+  return all;
 }
 
 std::string manifest_name(int number) {
@@ -93,16 +107,19 @@ std::map<std::string, std::string> files_now(const fs::path& site) {
   return files;
 }
 
-std::string manifest(int number, const std::map<std::string, std::string>& files,
-                     const std::string& sentence) {
-  const std::scoped_lock lock(author_mutex);
-  return json{{"number", number},
-              {"stamp_s", to_seconds(time_of_day())},
-              {"author", author_name},
-              {"sentence", sentence},
-              {"files", files}}
+std::string manifest(const SiteVersion& version) {
+  return json{{"number", version.number},
+              {"stamp_s", version.stamp_s},
+              {"author", version.author},
+              {"sentence", version.sentence},
+              {"files", version.files}}
              .dump(1) +
          "\n";
+}
+
+std::string author() {
+  const std::scoped_lock lock(author_mutex);
+  return author_name;
 }
 
 }  // namespace
@@ -113,18 +130,11 @@ void set_version_author(const std::string& author) {
 }
 
 std::vector<SiteVersion> site_versions(const fs::path& site) {
-  std::vector<SiteVersion> all;
+  std::vector<std::string> manifests;
   std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(site / "versions", missing)) {
-    if (entry.path().extension() != ".json") continue;
-    try {
-      all.push_back(read(entry.path()));
-    } catch (const std::exception&) {
-      // not of this program: the others count
-    }
-  }
-  std::ranges::sort(all, {}, &SiteVersion::number);
-  return all;
+  for (const auto& entry : fs::directory_iterator(site / "versions", missing))
+    if (entry.path().extension() == ".json") manifests.push_back(file_content(entry.path()));
+  return readable(manifests);
 }
 
 SiteVersion site_version(const fs::path& site, int number) {
@@ -143,25 +153,42 @@ void stage_version(SiteTransaction& change, const fs::path& site, const fs::path
                    const std::vector<std::string>& puts, const std::vector<std::string>& removals,
                    const std::string& sentence) {
   if (std::ranges::none_of(puts, is_kept) && std::ranges::none_of(removals, is_kept)) return;
-  const auto brings = [](const std::string& name) { return name.starts_with("versions/"); };
-  if (std::ranges::any_of(puts, brings)) return;  // a backup brings its own
   const auto versions = site_versions(site);
   auto before = versions.empty() ? std::map<std::string, std::string>() : versions.back().files;
-  int number = versions.empty() ? 0 : versions.back().number;
+  const auto brought = site_versions(staging);  // of a backup, numbered by bring_versions
+  const auto& last = brought.empty() ? versions : brought;
+  int number = last.empty() ? 0 : last.back().number;
   const auto stage = [&](const std::map<std::string, std::string>& files, const std::string& what) {
     if (files == before) return;
     ++number;
-    change.write(manifest_name(number), manifest(number, files, what.empty() ? words(before, files) : what));
+    change.write(manifest_name(number), manifest({number, to_seconds(time_of_day()), author(),
+                                                  what.empty() ? words(before, files) : what, files}));
     before = files;
   };
   auto files = files_now(site);
   if (!files.empty())
     stage(files, "as it was found");  // saved by another program, or before there were versions
+  else if (!brought.empty())
+    before = brought.back().files;  // an empty folder: the backup's last save is what comes now
   for (const auto& name : removals) files.erase(name);
   const std::vector<std::string> kept(puts);  // staging a manifest adds to them
   for (const auto& name : kept)
     if (is_kept(name)) files[name] = keep_object(site, staging / name);
   stage(files, sentence);
+}
+
+void bring_versions(SiteTransaction& change, const fs::path& site,
+                    const std::vector<std::string>& manifests) {
+  const auto own = site_versions(site);
+  int number = own.empty() ? 0 : own.back().number;
+  for (SiteVersion& version : readable(manifests)) {
+    const auto same = [&](const SiteVersion& one) {
+      return one.stamp_s == version.stamp_s && one.files == version.files;
+    };
+    if (std::ranges::any_of(own, same)) continue;
+    version.number = own.empty() ? version.number : ++number;
+    change.write(manifest_name(version.number), manifest(version));
+  }
 }
 
 void restore_version(const fs::path& site, int number) {

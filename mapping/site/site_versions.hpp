@@ -28,6 +28,11 @@ void stage_version(SiteTransaction& change, const std::filesystem::path& site,
                    const std::filesystem::path& staging, const std::vector<std::string>& puts,
                    const std::vector<std::string>& removals, const std::string& sentence);
 
+/// Stages the versions of a backup, given as the manifests that it holds: behind the site's own, those left
+/// out that the site has, or that cannot be read. In a folder without versions they keep their numbers.
+void bring_versions(SiteTransaction& change, const std::filesystem::path& site,
+                    const std::vector<std::string>& manifests);
+
 /// All versions, oldest first; damaged manifests are left out.
 [[nodiscard]] std::vector<SiteVersion> site_versions(const std::filesystem::path& site);
 /// Throws Error where there is no such version.

@@ -101,7 +101,7 @@ struct Panel {
   hmi::Job job;
   hmi::Replay replay;
   hmi::SiteEditor editor{folder.path() / "site"};
-  hmi::ApiContext context{access, editor, vehicle, job, replay, [] { return std::string(); }, {}};
+  hmi::ApiContext context{access, editor, vehicle, job, replay, [] { return std::string(); }, {}, {}};
   std::optional<hmi::StaticFiles> files;
   std::optional<hmi::Server> server;
   std::vector<PointCloud<Lidar>> clouds;

@@ -103,7 +103,7 @@ class FuzzedPanel {
   hmi::Replay replay_;
   hmi::SiteEditor editor_{folder_.path() / "site"};
   hmi::ApiContext context_{
-      access_, editor_, vehicle_, job_, replay_, [] { return std::string("2026-01-01T00:00:00Z"); }, {}};
+      access_, editor_, vehicle_, job_, replay_, [] { return std::string("2026-01-01T00:00:00Z"); }, {}, {}};
   std::optional<hmi::StaticFiles> files_;
   hmi::Router router_;
   std::optional<hmi::Gate> gate_;

@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   hmi::StaticFiles files(argv[2]);
   hmi::SiteEditor editor(argv[1]);
   hmi::ApiContext context{
-      access, editor, vehicle, job, replay, [] { return std::string("2026-01-01T00:00:00Z"); }, {}};
+      access, editor, vehicle, job, replay, [] { return std::string("2026-01-01T00:00:00Z"); }, {}, {}};
   hmi::ServerOptions options;
   options.port = static_cast<std::uint16_t>(std::atoi(argv[3]));
   const hmi::Server server(options, context, files);

@@ -55,6 +55,12 @@ export const api = {
   saveWalls: (edit: wire.WallsEdit) => put<wire.Saved>("/api/site/walls", edit),
   uploadDrawing: (file: File, options: Record<string, string>) =>
     request<wire.Job>("POST", `/api/site/drawing?${new URLSearchParams({ name: file.name, ...options }).toString()}`, undefined, file),
+  previewDrawing: (file: File) => request<wire.Job>("POST", `/api/site/drawing/preview?${new URLSearchParams({ name: file.name }).toString()}`, undefined, file),
+  preview: () => get<wire.RevisionPreview>("/api/site/drawing/preview"),
+  movePreview: (by: wire.PreviewMove) => post<wire.RevisionPreview>("/api/site/drawing/preview/move", by),
+  applyPreview: () => post("/api/site/drawing/preview/apply"),
+  dropPreview: () => request("DELETE", "/api/site/drawing/preview"),
+  restoreBackup: (file: File) => request<wire.Restored>("POST", "/api/site/backup", undefined, file),
   job: () => get<wire.Job>("/api/job"),
   cancelJob: () => request("DELETE", "/api/job"),
   scale: (measurements: wire.ScaleRequest) => post<wire.ScaleResult>("/api/site/scale", measurements),

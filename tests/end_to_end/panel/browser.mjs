@@ -130,6 +130,22 @@ export async function dragFinger(panel, from, to, steps = 6) {
   await session.detach();
 }
 
+/** Asks the server from within the page: `status` and `json` of its answer. */
+export const askServer = async (panel, method, path, body) => panel.page.evaluate(async ([how, where, what]) => {
+  const answer = await fetch(where, { method: how, body: what === undefined ? undefined : JSON.stringify(what) });
+  return { status: answer.status, json: await answer.json().catch(() => null) };
+}, [method, path, body]);
+
+/** Waits until `ask` holds; how long it took, seconds. */
+export async function until(what, ask, limit_ms = 20_000) {
+  const begun = Date.now();
+  while (Date.now() - begun < limit_ms) {
+    if (await ask()) return (Date.now() - begun) / 1000;
+    await new Promise((again) => setTimeout(again, 100));
+  }
+  throw new Error(`not within ${limit_ms / 1000} s: ${what}`);
+}
+
 export function expect(condition, message) {
   if (!condition) throw new Error(message);
 }

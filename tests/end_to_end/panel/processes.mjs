@@ -40,9 +40,9 @@ export function runToEnd(program, args) {
   return result.stdout;
 }
 
-/** Starts a program and waits until it has printed what `ready` matches. */
-export function start(program, args, ready) {
-  const child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"] });
+/** Starts a program and waits until it has printed what `ready` matches. `input`: whether it is written to. */
+export function start(program, args, ready, { input = false } = {}) {
+  const child = spawn(program, args, { stdio: [input ? "pipe" : "ignore", "pipe", "pipe"] });
   let output = "";
   let ended = false;
   running.push({

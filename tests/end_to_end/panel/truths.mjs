@@ -3,7 +3,7 @@
 // Usage: truths.mjs MADORI PAGE DATA SHOTS WIDTHxHEIGHT
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { expect, touch, touchMap, mapReady } from "./browser.mjs";
+import { askServer as api, expect, mapReady, touch, until } from "./browser.mjs";
 import { freeUdpPort, runToEnd, start, startComputer, temporaryFolder } from "./processes.mjs";
 import { given, openGivenPanel, picture, run } from "./program.mjs";
 
@@ -12,20 +12,6 @@ const kOperator = "2468";
 const state = (panel) => panel.page.locator("[data-state]").getAttribute("data-state");
 const cause = (panel) => panel.page.locator("[data-cause]").getAttribute("data-cause");
 const gauge = (panel, name) => panel.page.locator(".gauge", { hasText: name }).locator("dd").innerText();
-const api = async (panel, method, path, body) => panel.page.evaluate(async ([how, where, what]) => {
-  const answer = await fetch(where, { method: how, body: what === undefined ? undefined : JSON.stringify(what) });
-  return { status: answer.status, json: await answer.json().catch(() => null) };
-}, [method, path, body]);
-
-async function until(what, ask, limit_ms = 20_000) {
-  const begun = Date.now();
-  while (Date.now() - begun < limit_ms) {
-    if (await ask()) return (Date.now() - begun) / 1000;
-    await new Promise((again) => setTimeout(again, 100));
-  }
-  throw new Error(`not within ${limit_ms / 1000} s: ${what}`);
-}
-
 /** Sends the vehicle off and waits until its wheels turn; a fault of a busy machine is confirmed. */
 async function driveOff(panel, station) {
   await touch(panel, "Drive", { exact: true });
@@ -140,8 +126,6 @@ async function badDrawings(panel, world) {
     const chooser = panel.page.waitForEvent("filechooser");
     await touch(panel, "Another drawing");
     await (await chooser).setFiles(file);
-    await panel.page.getByRole("dialog").waitFor();  // 7: nothing is replaced without a word
-    await touch(panel, "Replace it");
     const toast = panel.page.locator(".toast");
     await toast.waitFor();
     const said = await toast.innerText();
@@ -151,19 +135,34 @@ async function badDrawings(panel, world) {
   }
 }
 
-/** 7: another drawing asks first, and what was before can be brought back. */
-async function replaceAndBringBack(panel) {
+/** A drawing of another building: rooms whose walls do not lie on the sample factory's. */
+function hallAsDxf() {
+  const corners = [[0, 0], [31, 0], [37, 17], [22, 29], [5, 23], [0, 0], [14, 11], [22, 29], [14, 11], [31, 0], [14, 11], [5, 23]];
+  const lines = corners.slice(1).flatMap(([x, y], i) => {
+    const [x0, y0] = corners[i];
+    const length = Math.hypot(x - x0, y - y0);
+    const [nx, ny] = [(-0.15 * (y - y0)) / length, (0.15 * (x - x0)) / length];  // both faces of a wall
+    return [-1, 1].map((side) => `0\nLINE\n8\nWALLS\n10\n${x0 + side * nx}\n20\n${y0 + side * ny}\n11\n${x + side * nx}\n21\n${y + side * ny}\n`);
+  });
+  return `0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n6\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n${lines.join("")}0\nENDSEC\n0\nEOF\n`;
+}
+
+/** 7: a drawing of another building asks first, and what was before can be brought back. */
+async function replaceAndBringBack(panel, world) {
   const before = (await api(panel, "GET", "/api/site/walls")).json;
-  const chooser = panel.page.waitForEvent("filechooser");
-  await touch(panel, "Another drawing");
-  await (await chooser).setFiles(join(data, "sample_factory/factory.dxf"));
-  await panel.page.getByRole("dialog").waitFor();
+  const other = join(world.folder, "other.dxf");
+  writeFileSync(other, hallAsDxf());
+  const choose = async () => {
+    const chooser = panel.page.waitForEvent("filechooser");
+    await touch(panel, "Another drawing");
+    await (await chooser).setFiles(other);
+    await panel.page.getByRole("dialog").waitFor({ timeout: 60_000 });
+  };
+  await choose();
   await picture(panel, "truth-7-question");
   await touch(panel, "Leave it as it is");
   expect((await api(panel, "GET", "/api/site/walls")).json.revision === before.revision, "7: the walls changed without a word");
-  const again = panel.page.waitForEvent("filechooser");
-  await touch(panel, "Another drawing");
-  await (await again).setFiles(join(data, "sample_factory/factory.dxf"));
+  await choose();
   await touch(panel, "Replace it");
   await until("the new drawing is there", async () => (await api(panel, "GET", "/api/site/walls")).json.revision !== before.revision, 30_000);
   await touch(panel, "Look back");
@@ -242,7 +241,7 @@ async function main(browser) {
   world.station = ["Press 1", "Lift"].map((name) => nodes.find((node) => node.name === name).id);  // to and fro: it never ends
   const checks = [["1, 16", () => stopAboveCards(panel, world)], ["2, 3", () => deadDevices(panel, world)], ["14", () => placeWaits(panel, world)], ["8, 13", () => lostIsNotShown(panel)], ["5, 6", () => whereAmI(panel)],
     ["9", async () => { await touch(panel, "Set up"); await panel.page.locator(".steps button").nth(0).tap(); await badDrawings(panel, world); }],
-    ["7", async () => { await touch(panel, "Set up"); await panel.page.locator(".steps button").nth(0).tap(); await replaceAndBringBack(panel); }], ["10", () => faultyRoutes(panel, world)], ["4", () => serverRestart(browser, world)]];
+    ["7", async () => { await touch(panel, "Set up"); await panel.page.locator(".steps button").nth(0).tap(); await replaceAndBringBack(panel, world); }], ["10", () => faultyRoutes(panel, world)], ["4", () => serverRestart(browser, world)]];
   const failed = [];
   const wanted = process.env["TRUTHS"]?.split(";");  // for whoever mends one of them
   for (const [number, check] of checks.filter(([name]) => !wanted || wanted.includes(name))) {

@@ -23,8 +23,14 @@ class PanelTest : public testing::Test {
     folder_.write("index.html", "<!doctype html><title>Madori</title>");
     files_.emplace(folder_.path());
     editor_.emplace(site());
-    context_.emplace(ApiContext{
-        access_, *editor_, vehicle_, job_, replay_, [] { return std::string("2026-01-01T00:00:00Z"); }, {}});
+    context_.emplace(ApiContext{access_,
+                                *editor_,
+                                vehicle_,
+                                job_,
+                                replay_,
+                                [] { return std::string("2026-01-01T00:00:00Z"); },
+                                {},
+                                {}});
     ServerOptions server;
     server.port = 0;
     server.live_rate_hz = 50.0;

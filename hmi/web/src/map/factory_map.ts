@@ -4,6 +4,7 @@ import View from "ol/View";
 import { LineString, Point } from "ol/geom";
 import ImageLayer from "ol/layer/Image";
 import VectorLayer from "ol/layer/Vector";
+import { createEmpty, extend } from "ol/extent";
 import { Projection } from "ol/proj";
 import ImageCanvas from "ol/source/ImageCanvas";
 import VectorSource from "ol/source/Vector";
@@ -121,10 +122,11 @@ export class FactoryMap {
     this.view();
   }
 
-  /** Shows the walls as large as the view allows. */
-  fitWalls(): void {
-    const extent = this.walls.getExtent();
-    if (this.walls.getFeatures().length === 0 || !extent) return;
+  /** Shows the walls, and what else is given, as large as the view allows. */
+  fitWalls(also: readonly VectorSource[] = []): void {
+    if (this.walls.getFeatures().length === 0) return;
+    const extent = createEmpty();
+    for (const source of [this.walls, ...also]) extend(extent, source.getExtent() ?? createEmpty());
     this.view = () => this.map.getView().fit(extent, { padding: this.room });
     this.view();
   }

@@ -4,10 +4,12 @@ import type { Event, Session } from "../api_types";
 import { kindText, noticeText, useText } from "../i18n";
 import { usePolled } from "../store";
 import { Icon } from "../ui/icon";
+import { Restore } from "../ui/restore";
 import { Stale } from "../ui/stale";
 import { Tabs, type Tab } from "../ui/tabs";
 import { Tool } from "../ui/tool";
 import { VersionsCard } from "../ui/versions_card";
+import { Watch } from "../ui/watch";
 
 type TabName = "events" | "statistics" | "files";
 
@@ -89,6 +91,7 @@ function Files({ may, restores }: { may: boolean; restores: boolean }) {
       <Stale age={age_s} limit={12} />
       <h2>{t("history.site")}</h2>
       <ul class="files">{link("/api/site/download", "site.tar", t("history.site.download"), t("history.site.what"))}</ul>
+      {restores && <div class="buttons"><Restore over done={() => undefined} /></div>}
       <VersionsCard may={restores} />
       <h2>{t("history.recordings")}</h2>
       {(value ?? []).length === 0 && <p class="quiet" role="status">{t(value === null ? "history.asking" : "history.none")}</p>}
@@ -115,6 +118,7 @@ export function HistoryPage({ role }: { role: Session["role"] }) {
         {tab === "statistics" && <StatisticsCard />}
         {tab === "files" && <Files may={role === "operator" || role === "integrator"} restores={role === "integrator"} />}
       </Tabs>
+      <Watch />
     </main>
   );
 }

@@ -25,7 +25,7 @@ function toneOf({ state, cause }: Live): string {
 }
 
 /** The devices that are silent, each with how long, in every state. */
-function Silent({ frame, age }: { frame: Frame; age: number }) {
+export function Silent({ frame, age }: { frame: Frame; age: number }) {
   const t = useText();
   return (
     <>

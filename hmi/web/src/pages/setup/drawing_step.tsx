@@ -2,7 +2,7 @@ import Feature from "ol/Feature";
 import { Point } from "ol/geom";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { api } from "../../api";
-import type { Job, Site, Walls } from "../../api_types";
+import type { Job, Routes, Site, Walls } from "../../api_types";
 import { useText } from "../../i18n";
 import type { FactoryMap } from "../../map/factory_map";
 import type { XY } from "../../map/geometry";
@@ -11,7 +11,12 @@ import { pickOn } from "../../map/pick";
 import { corners } from "../../map/snap";
 import { EditBar } from "../../ui/edit_bar";
 import type { IconName } from "../../ui/icon";
+import { Restore } from "../../ui/restore";
+import { attempt } from "../../ui/toast";
 import { Tool } from "../../ui/tool";
+import { AnotherDrawing, type Revised } from "./another_drawing";
+import { JobCard } from "./job_card";
+import { RevisionView } from "./revision_view";
 import { Upload } from "./upload";
 import { useEdit } from "./use_edit";
 import { addWall, eraseAt, eraseInside, totalLength, type WallRow } from "./wall_edit";
@@ -22,6 +27,7 @@ const kReach_px = 24;
 interface StepProps {
   site: Site;
   walls: Walls;
+  routes: Routes;
   changed: () => void;
   next: () => void;
 }
@@ -50,7 +56,13 @@ function Report({ report }: { report: NonNullable<Job["report"]> }) {
   );
 }
 
-function WallEditor({ site, walls, changed, next, report }: StepProps & { report: Job["report"] }) {
+interface EditorProps extends StepProps {
+  report: Job["report"];
+  revised: (revised: Revised) => void;
+  replace: (file: File) => void;
+}
+
+function WallEditor({ site, walls, next, report, revised, replace }: EditorProps) {
   const t = useText();
   const [tool, setTool] = useState<ToolName>("look");
   const map = useRef<FactoryMap | null>(null);
@@ -107,7 +119,7 @@ function WallEditor({ site, walls, changed, next, report }: StepProps & { report
           {choose("erase", "erase", t("drawing.erase"))}
           {choose("area", "select", t("drawing.area"))}
           {choose("add", "pen", t("drawing.add"))}
-          <Upload first={false} done={changed} />
+          <AnotherDrawing revised={revised} replace={replace} />
         </div>
         <p class="quiet">{t(`drawing.hint.${tool}`)}</p>
         <span class="spring" />
@@ -117,22 +129,36 @@ function WallEditor({ site, walls, changed, next, report }: StepProps & { report
   );
 }
 
-/** Step 1: a drawing file becomes walls, which a person may mend. */
+/** Step 1: a drawing file becomes walls, which a person may mend; another one is looked at before it is taken over. */
 export function DrawingStep(props: StepProps) {
   const t = useText();
   const { site, changed } = props;
   const [job, setJob] = useState<Job | null>(null);
+  const [working, setWorking] = useState(false);
+  const [revised, setRevised] = useState<Revised | null>(null);
   const done = (finished: Job) => {
     setJob(finished);
     changed();
   };
+  const send = (file: File) => {
+    setRevised(null);
+    void attempt(() => api.uploadDrawing(file, {})).then(setWorking);
+  };
+  const close = (taken: boolean) => {
+    setRevised(null);
+    if (taken) changed();
+  };
+  if (working) return <div class="centre"><JobCard kind="import" done={done} ended={() => setWorking(false)} /></div>;
   if (!site.drawing) {
     return (
       <div class="centre">
         <h2>{t("drawing.none")}</h2>
-        <Upload first done={done} />
+        <Upload send={send} />
+        <div class="buttons"><Restore over={false} done={changed} /></div>
       </div>
     );
   }
-  return <WallEditor key={site.drawing.file + site.drawing.width_px} {...props} report={job?.report ?? null} />;
+  if (revised)
+    return <RevisionView {...props} name={revised.file.name} preview={revised.preview} laid={(preview) => setRevised({ ...revised, preview })} asNew={() => send(revised.file)} close={close} />;
+  return <WallEditor key={site.drawing.file + site.drawing.width_px} {...props} report={job?.report ?? null} revised={setRevised} replace={send} />;
 }

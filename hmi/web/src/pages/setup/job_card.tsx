@@ -8,8 +8,16 @@ import { Tool } from "../../ui/tool";
 
 const kAsk_ms = 250;
 
+interface Props {
+  kind: string;
+  done: (job: Job) => void;
+  /** true where it says itself what went wrong */
+  failed?: (job: Job) => boolean;
+  ended?: () => void;
+}
+
 /** Follows the server's long work: shows how far it is until it ends, then calls `done`. */
-export function JobCard({ kind, done, ended }: { kind: string; done: (job: Job) => void; ended: () => void }) {
+export function JobCard({ kind, done, failed, ended }: Props) {
   const t = useText();
   const [job, setJob] = useState<Job | null>(null);
   useEffect(() => {
@@ -20,9 +28,9 @@ export function JobCard({ kind, done, ended }: { kind: string; done: (job: Job) 
         if (!open) return;
         setJob(state);
         if (state.running) return void setTimeout(() => void ask(), kAsk_ms);
-        if (state.error.text !== "") tell(state.error.values["kind"] ?? state.error.code, state.error.text, state.error.values);
-        else done(state);
-        ended();
+        if (state.error.text === "") done(state);
+        else if (!failed?.(state)) tell(state.error.values["kind"] ?? state.error.code, state.error.text, state.error.values);
+        ended?.();
       } catch {
         if (open) setTimeout(() => void ask(), 1000);
       }

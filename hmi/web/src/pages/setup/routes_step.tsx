@@ -1,34 +1,20 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { api } from "../../api";
 import type { Finding, Routes, Site, Walls } from "../../api_types";
-import { noticeText, useText } from "../../i18n";
+import { useText } from "../../i18n";
 import type { FactoryMap } from "../../map/factory_map";
 import type { XY } from "../../map/geometry";
 import { MapView } from "../../map/map_view";
 import { pickOn } from "../../map/pick";
 import { EditBar } from "../../ui/edit_bar";
-import { Icon } from "../../ui/icon";
 import { Tool } from "../../ui/tool";
 import { CsvCard } from "./csv_card";
+import { Findings } from "./findings";
 import { NodeCard, type NodeTool } from "./node_card";
 import { draw, faultyOf, headingTo, nodeAt, update, type RoutePlan } from "./route_edit";
 import { useEdit } from "./use_edit";
 
 const kReach_px = 28;
-
-function Findings({ findings }: { findings: readonly Finding[] }) {
-  const t = useText();
-  if (findings.length === 0) return <p class="quiet" role="status"><Icon name="good" /> {t("routes.good")}</p>;
-  return (
-    <div role="status"><ul class="findings">
-      {findings.map((finding, i) => (
-        <li key={i} class={finding.severity === "error" ? "bad" : ""}>
-          <Icon name="warning" /> {noticeText(t, "finding", { code: finding.code, values: finding.values, text: finding.message })}
-        </li>
-      ))}
-    </ul></div>
-  );
-}
 
 function useRoutes(site: Site, routes: Routes) {
   return useEdit<RoutePlan>({
@@ -116,7 +102,7 @@ export function RoutesStep({ site, walls, routes, changed, next }: { site: Site;
         )}
         {!node && <p class="quiet">{t(!drawing ? "routes.hint.select" : plan.nodes.length < 4 ? "routes.hint" : "routes.hint.short")}</p>}
         <p class="facts">{t("routes.count", { nodes: plan.nodes.length, stations: plan.nodes.filter((one) => one.station).length })}</p>
-        <Findings findings={findings} />
+        <Findings findings={findings} good={t("routes.good")} />
         {node && <NodeCard key={node.id} plan={plan} node={node} tool={tool} setTool={setTool} change={edit.change} close={() => setChosen(null)} />}
         <span class="spring" />
         {!node && <CsvCard saved={routes.nodes.length > 0} imported={() => { edit.loadTheirs(); changed(); }} />}

@@ -5,6 +5,7 @@ import { noticeText, useText } from "../../i18n";
 import { live } from "../../live/live_socket";
 import { usePolled, useStore } from "../../store";
 import { Icon } from "../../ui/icon";
+import { Watch } from "../../ui/watch";
 import { DrawingStep } from "./drawing_step";
 import { LocateStep } from "./locate_step";
 import { RoutesStep } from "./routes_step";
@@ -71,12 +72,13 @@ export function SetupPage({ site, walls, routes, changed, finished }: Props) {
       <StepBar shown={step} site={site} setup={setup} choose={setStep} />
       {locked && locked.text !== "" && <p class="caution locked" role="status"><Icon name="warning" /> {noticeText(t, "error", locked)}</p>}
       <div class="with-map step" key={step}>
-        {step === "drawing" && <DrawingStep site={site} walls={walls} changed={() => void changed()} next={saved} />}
+        {step === "drawing" && <DrawingStep site={site} walls={walls} routes={routes} changed={() => void changed()} next={saved} />}
         {step === "scale" && <ScaleStep key={site.scale?.m_per_px} site={site} walls={walls} next={next} saved={saved} />}
         {step === "routes" && <RoutesStep key={site.scale?.m_per_px} site={site} walls={walls} routes={routes} changed={() => void changed()} next={saved} />}
         {step === "vehicle" && <VehicleStep site={site} next={saved} />}
         {step === "locate" && <LocateStep key={walls.revision} site={site} walls={walls} finished={finished} />}
       </div>
+      <Watch />
     </main>
   );
 }
