@@ -53,11 +53,13 @@ export function StateCard({ frame }: { frame: Frame | null }) {
   }
   const { state, cause, remedy, since, goal } = frame.live;
   const key = `state.${state}`;
+  const words = key in en ? t(key as TextKey) : state;
+  const why = noticeText(t, "cause", cause);
   const tone = toneOf(frame.live);
   return (
     <section class={`card state ${tone}`} aria-live="polite" tabIndex={0} data-state={state} data-cause={cause.code}>
-      <h2>{tone !== "" && <Icon name="warning" />} {key in en ? t(key as TextKey) : state}</h2>
-      {cause.text !== "" && <p class="cause">{noticeText(t, "cause", cause)}</p>}
+      <h2>{tone !== "" && <Icon name="warning" />} {words}</h2>
+      {cause.text !== "" && why !== words && <p class="cause">{why}</p>}
       {remedy.text !== "" && <p class="remedy"><Icon name="next" /> {noticeText(t, "remedy", remedy)}</p>}
       <Silent frame={frame} age={age} />
       <p class="quiet">
