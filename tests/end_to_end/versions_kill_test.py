@@ -118,7 +118,7 @@ def main():
             before = len(site.known)
             process = subprocess.Popen([arguments.madori, *map(str, words)], stdout=subprocess.DEVNULL,
                                        stderr=subprocess.DEVNULL)
-            time.sleep(chance.uniform(0.0, 1.1 * spent[what]))
+            time.sleep(chance.uniform(0.0, 2.0 * spent[what]))  # also after its end: the machine may be busy
             process.kill()
             process.wait()
             site.check(kill)

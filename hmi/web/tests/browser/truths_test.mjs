@@ -46,6 +46,12 @@ async function small(number, size, check) {
   }
 }
 
+/** A standstill with a cause, a remedy and a goal: what made the state card grow, and all below it leave the screen. */
+async function standWithReason(panel) {
+  vehicle.say({ state: "waiting", goal: "Press 1", cause: { code: "held-back", values: {}, text: "x" }, remedy: { code: "look-and-resume", values: {}, text: "x" } });
+  await panel.page.locator(".state .cause").waitFor();
+}
+
 const kUsual = { "/api/session": { role: "integrator", needs_pin: false } };
 const kSmall = { width: 1024, height: 600 };
 const kPhone = { width: 390, height: 844 };
@@ -69,6 +75,7 @@ const failed = [
     await panel.page.locator("[data-state]").waitFor({ timeout: 4000 });
   })),
   ...(await small("11", kSmall, async (panel) => {
+    await standWithReason(panel);
     await touch(panel, "By hand", { role: "tab" });
     for (const name of ["Forward", "Backward", "Turn left", "Turn right"]) await within(panel, `button[aria-label="${name}"]`, { least_px: 92 });
   })),
@@ -85,6 +92,7 @@ const failed = [
     await within(panel, ".command.go-on", { least_px: 90 });
   })),
   ...(await small("15", kSmall, async (panel) => {
+    await standWithReason(panel);
     await panel.page.locator(".row", { hasText: "Press 1 → Dock 1" }).first().tap();
     await panel.page.getByRole("button", { name: "Earlier" }).waitFor();
     await panel.page.waitForTimeout(200);
