@@ -12,6 +12,7 @@
 #include "app/json_output.hpp"
 #include "app/learned/calibration_file.hpp"
 #include "app/learned/deviations.hpp"
+#include "app/learned/kept_memory.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "app/learned/living_map_file.hpp"
 #include "app/learned/map_layers.hpp"
@@ -24,7 +25,6 @@
 #include "core/median.hpp"
 #include "core/result.hpp"
 #include "localization/drawing_learner/drawing_learner.hpp"
-#include "localization/memory/memory_file.hpp"
 #include "localization/wall_reliability/reliability_file.hpp"
 #include "localization/warp/warp_file.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -50,31 +50,16 @@ struct LocalizeArguments {
   unsigned seed = 1;
 };
 
-constexpr const char* kMemoryFile = "memory.bin";
-
-/// What an earlier drive remembered on this site, where it is there and still of these walls.
-void recall(localization::Localizer& localizer, const std::filesystem::path& file,
-            const mapping::Walls& walls) {
-  if (!std::filesystem::exists(file)) return;
-  Result<localization::Memory> kept =
-      localization::parse_memory(mapping::file_content(file), mapping::walls_checksum(walls));
-  if (kept.ok()) {
-    localizer.recall(std::move(kept).value());
-  } else {
-    std::fprintf(stderr, "%s is not used: %s; a new one is begun\n", file.c_str(), kept.reason().c_str());
-  }
-}
-
 /// Kept only where the vehicle knew its place at the end.
-void keep(localization::Localizer& localizer, const PoseEstimate& last, const std::filesystem::path& file,
+void keep(localization::Localizer& localizer, const PoseEstimate& last, const std::filesystem::path& folder,
           const mapping::Walls& walls) {
   const LocalizationState state = last.health.state;
   if (state != LocalizationState::Localized && state != LocalizationState::Degraded) {
-    std::fprintf(stderr, "%s is left as it was: the drive ended %s\n", file.c_str(), to_string(state));
+    std::fprintf(stderr, "%s is left as it was: the drive ended %s\n", (folder / kMemoryFile).c_str(),
+                 to_string(state));
     return;
   }
-  mapping::write_file_atomically(
-      file, localization::memory_bytes(localizer.finished_memory(), mapping::walls_checksum(walls)));
+  save_memory(folder, localizer.finished_memory(), walls);
 }
 
 /// From the localizer's own memory, whose keyframes the lidar has tied together, where there is one.
@@ -118,7 +103,10 @@ void localize(const LocalizeArguments& arguments) {
   LivingMap begun = begin_living_map(folder, walls);
   if (!begun.message.empty()) std::fprintf(stderr, "%s\n", begun.message.c_str());
   localization::MapLearner map_learner(std::move(begun.map));
-  if (arguments.memory) recall(localizer, folder / kMemoryFile, walls);
+  KeptMemory kept;
+  if (arguments.memory) kept = load_memory(folder, walls);
+  if (!kept.message.empty()) std::fprintf(stderr, "%s\n", kept.message.c_str());
+  if (kept.memory) localizer.recall(*std::move(kept.memory));
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   std::string trajectory = kTumHead;
   HealthLog health;
@@ -151,7 +139,7 @@ void localize(const LocalizeArguments& arguments) {
   if (!arguments.plot.empty()) {
     mapping::write_file_atomically(arguments.plot, trajectory_plot(walls, estimates));
   }
-  if (arguments.memory && !estimates.empty()) keep(localizer, estimates.back(), folder / kMemoryFile, walls);
+  if (arguments.memory && !estimates.empty()) keep(localizer, estimates.back(), folder, walls);
   if (!arguments.walls_plot.empty()) {
     mapping::write_file_atomically(arguments.walls_plot, reliability_plot(walls, learner.reliability()));
   }

@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/cycle/site_config.hpp"
 #include "app/json_output.hpp"
+#include "app/learned/kept_memory.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "core/result.hpp"
 
@@ -22,8 +23,10 @@ struct ReplayArguments {
 
 void run(const ReplayArguments& arguments) {
   const auto loaded = load_for_driving(arguments.site);
+  LocalizerPoseOptions options;
+  options.memory = load_memory(arguments.run, loaded.walls).memory;
   const auto result = replay(arguments.run, loaded.config,
-                             std::make_unique<LocalizerPose>(loaded.walls, loaded.config.lidars));
+                             std::make_unique<LocalizerPose>(loaded.walls, loaded.config.lidars, options));
   const double speed = result.worked_s > 0.0 ? result.recorded_s / result.worked_s : 0.0;
   if (arguments.json_file != "-")
     std::printf("%llu steps, %.1f s of driving, replayed %.1f x as fast; %llu commands differ\n",

@@ -10,7 +10,8 @@
 
 namespace madori::localization {
 struct BentDrawing;
-}
+class Memory;
+}  // namespace madori::localization
 
 namespace madori::app {
 
@@ -39,6 +40,8 @@ class PoseSource {
   [[nodiscard]] virtual std::vector<PoseHypothesis> hypotheses() const = 0;
   /// How the drawing is believed to lie in the building; null: as drawn.
   [[nodiscard]] virtual std::shared_ptr<const localization::BentDrawing> bent() const { return nullptr; }
+  /// What it remembers of the building, for the next start; null where it is not sure enough to be kept.
+  [[nodiscard]] virtual std::shared_ptr<const localization::Memory> memory() const { return nullptr; }
 };
 
 }  // namespace madori::app

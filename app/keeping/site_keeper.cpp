@@ -4,6 +4,7 @@
 
 #include "app/learned/calibration_file.hpp"
 #include "app/learned/deviations.hpp"
+#include "app/learned/kept_memory.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "app/learned/living_map_file.hpp"
 #include "core/clock.hpp"
@@ -35,17 +36,25 @@ SiteKeeper::~SiteKeeper() {
 
 void SiteKeeper::observe(const CycleState& state, Stamp now) {
   if (!state.drive_heard) return;
-  if (state.pose.health.state == LocalizationState::Localized) bent_ = state.site->bent();
   const WheelCounters wheels = counters_of(state.drive);
   const bool stands = wheels == wheels_before_;
   const bool came_to_stand = stands && !stood_;
   wheels_before_ = wheels;
   stood_ = stands;
+  if (state.pose.health.state == LocalizationState::Localized) {
+    bent_ = state.site->bent();
+    if (came_to_stand || to_seconds(now - memory_taken_) >= kLearnedEveryS) take_memory(state, now);
+  }
   if (came_to_stand || to_seconds(now - pose_kept_) >= kPoseEveryS) keep_pose(state, now);
   if (watch_ && stands && to_seconds(now - learned_kept_) >= kLearnedEveryS) {
     if (learned_kept_ != Stamp{}) keep_learned();
     learned_kept_ = now;
   }
+}
+
+void SiteKeeper::take_memory(const CycleState& state, Stamp now) {
+  memory_taken_ = now;
+  if (auto memory = state.localization->memory()) memory_ = std::move(memory);
 }
 
 /// A vehicle that is lost may have been carried away with its wheels still: then no pose is better.
@@ -68,7 +77,9 @@ void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
 }
 
 void SiteKeeper::keep_learned() {
-  jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, map = map_watch_, bent = bent_] {
+  jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, map = map_watch_, bent = bent_,
+                        memory = memory_] {
+    if (memory) save_memory(site, *memory, walls);
     if (map) save_living_map(site, map->map(), walls);
     if (bent) localization::save_warp(site / kWarpFile, bent->fit, walls);
     mapping::write_file_atomically(site / kReliabilityFile, watch->reliability_text());

@@ -15,8 +15,8 @@ namespace madori::app {
 
 /// Keeps with the site what the next start wants to know: the pose (at most every second, and when the
 /// vehicle comes to stand), and what was learned of the drawing, its walls, how they stand in the building,
-/// and the living map (when it stands, at most every minute, and at the end). Files are written on a thread
-/// of its own, atomically.
+/// what the vehicle remembers, and the living map (when it stands, at most every minute, and at the end).
+/// Files are written on a thread of its own, atomically.
 class SiteKeeper {
  public:
   SiteKeeper(std::filesystem::path site, const mapping::Walls& walls, std::shared_ptr<const WallWatch> watch,
@@ -34,6 +34,7 @@ class SiteKeeper {
 
  private:
   void keep_pose(const CycleState& state, Stamp now);
+  void take_memory(const CycleState& state, Stamp now);
   void keep_learned();
 
   std::filesystem::path site_;
@@ -48,6 +49,8 @@ class SiteKeeper {
   bool pose_known_ = false;  ///< last_pose.yaml is of this run
   bool stood_ = false;
   std::shared_ptr<const localization::BentDrawing> bent_;  ///< as last believed while sure of the place
+  std::shared_ptr<const localization::Memory> memory_;     ///< likewise
+  Stamp memory_taken_{};
   BackgroundJobs jobs_;
 };
 

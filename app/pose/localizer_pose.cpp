@@ -32,6 +32,12 @@ LocalizerPose::LocalizerPose(const mapping::Walls& walls, std::vector<LidarModel
       newest_(lidars_.size()),
       localizer_(walls, std::nullopt, options.localizer) {
   for (const std::size_t i : place_lidars(lidars_)) looks_[i] = true;
+  if (options_.memory) localizer_.recall(*std::exchange(options_.memory, std::nullopt));
+}
+
+std::shared_ptr<const localization::Memory> LocalizerPose::memory() const {
+  return localizer_.is_worth_keeping() ? std::make_shared<const localization::Memory>(localizer_.memory())
+                                       : nullptr;
 }
 
 void LocalizerPose::give(Stamp stamp, const localization::ScanPoints& points,

@@ -16,6 +16,7 @@ namespace madori::app {
 struct LocalizerPoseOptions {
   localization::CloudWallOptions walls;
   localization::LocalizerOptions localizer = localization::driving_options();
+  std::optional<localization::Memory> memory;  ///< of an earlier drive
   /// Sees the points on walls of every revolution (Base frame) and the pose there; nothing comes back.
   std::function<void(const localization::ScanPoints&, const PoseEstimate&)> onlooker;
   /// Sees every sweep whole, with its lidar and the pose there; nothing comes back.
@@ -41,6 +42,7 @@ class LocalizerPose final : public PoseSource {
   [[nodiscard]] std::shared_ptr<const localization::BentDrawing> bent() const override {
     return localizer_.bent();
   }
+  [[nodiscard]] std::shared_ptr<const localization::Memory> memory() const override;
   /// From where the points on walls are seen: the lidar's place, the middle between several.
   [[nodiscard]] static Point2<Base> eye(const std::vector<LidarModel>& lidars);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/iso_time.hpp"
+#include "app/learned/kept_memory.hpp"
 #include "app/lidars.hpp"
 #include "app/panel/panel.hpp"
 #include "app/recording/recorder.hpp"
@@ -15,6 +16,7 @@
 #include "app/runner/site_lock.hpp"
 #include "app/runner/site_run.hpp"
 #include "core/clock.hpp"
+#include "mapping/site/atomic_file.hpp"
 
 namespace madori::app {
 namespace {
@@ -44,11 +46,13 @@ class Onlookers {
  public:
   explicit Onlookers(const DeviceRunOptions& options) : options_(options) {}
 
-  void begin(TransportRun& run, Panel* panel) {
+  /// `memory`: what the run begins with, without which it could not be replayed; empty: nothing.
+  void begin(TransportRun& run, const std::string& memory, Panel* panel) {
     end();
     if (options_.record) {
       folder_ = options_.site / "runs" / run_name();
       recorder_ = std::make_unique<Recorder>(folder_);
+      if (!memory.empty()) mapping::write_file_atomically(folder_ / kMemoryFile, memory);
     }
     if (panel != nullptr) panel->begin_run();
     run.set_tap([this, panel, &run](const auto& in, const auto& out, const auto& state) {
@@ -87,7 +91,7 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
                        [&](TransportRun& run) {
                          devices.set_wheels(run.config().odometry.wheels);
                          devices.set_sensors(sensors_of(options.site));
-                         onlookers.begin(run, looking_on);
+                         onlookers.begin(run, vehicle.memory_begun_with(), looking_on);
                        },
                    .closing = [&] { onlookers.end(); },
                    .idle =

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/cycle/stages.hpp"
+#include "app/learned/kept_memory.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "app/learned/living_map_file.hpp"
 #include "app/pose/localizer_pose.hpp"
@@ -61,6 +62,10 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
     options.sweep_onlooker = [map_watch](const auto& sweep, const auto& lidar, const auto& pose) {
       (void)map_watch->see(sweep, lidar, pose);
     };
+    KeptMemory kept = load_memory(site, loaded.site->walls);
+    if (!kept.message.empty()) spdlog::warn("{}", kept.message);
+    loaded.memory = std::move(kept.bytes);
+    options.memory = std::move(kept.memory);
     loaded.pose = std::make_unique<LocalizerPose>(loaded.site->walls, lidars, options);
     loaded.last = load_stored_pose(site, mapping::walls_fingerprint(loaded.site->walls));
     if (!loaded.last.message.empty()) spdlog::info("{}", loaded.last.message);
@@ -79,6 +84,7 @@ void SiteRun::take(Loaded loaded) {
                    [keeper = std::shared_ptr<SiteKeeper>(std::move(keeper_))]() mutable { keeper.reset(); });
   keeper_ = std::move(loaded.keeper);
   recall_ = PoseRecall(std::move(loaded.last.pose));
+  memory_ = std::move(loaded.memory);
   std::unique_ptr<TransportRun> next;
   std::vector<mapping::SensorRecord> sensors;
   if (loaded.missing.empty()) sensors = loaded.site->site.sensors;

@@ -64,6 +64,8 @@ class SiteRun {
   [[nodiscard]] std::string missing() const;
   /// The sensors of the site that is driven; empty before.
   [[nodiscard]] std::vector<mapping::SensorRecord> sensors() const;
+  /// memory.bin as the run that is about to begin has read it; empty: none. On the ticks' thread.
+  [[nodiscard]] const std::string& memory_begun_with() const { return memory_; }
   [[nodiscard]] std::string device_problem() const { return link_->problem(); }
 
  private:
@@ -72,7 +74,8 @@ class SiteRun {
     std::unique_ptr<PoseSource> pose;
     std::shared_ptr<WallWatch> watch;
     std::unique_ptr<SiteKeeper> keeper;
-    LoadedPose last;  ///< of the run before
+    LoadedPose last;     ///< of the run before
+    std::string memory;  ///< memory.bin as this run begins with it
     std::string missing;
   };
   [[nodiscard]] static Loaded load(const std::filesystem::path& site);
@@ -93,6 +96,7 @@ class SiteRun {
   // of the ticks' thread alone:
   std::unique_ptr<SiteKeeper> keeper_;
   PoseRecall recall_{std::nullopt};
+  std::string memory_;
   std::optional<Stamp> again_at_;  ///< a run that could not be begun is tried again
   std::future<void> kept_;         ///< what the run before learned is being written
 };

@@ -30,7 +30,7 @@ double surprise(const FullPose& expected, const Displacement& found, const Matri
 
 LandmarkAgent::LandmarkAgent(LandmarkHub& hub, const std::optional<FullPose>& rough_start,
                              const AgentOptions& options)
-    : hub_(&hub), options_(options) {
+    : hub_(&hub), options_(options), sense_(options.turning_point_rad) {
   if (!rough_start || hub.map().size() == 0) return;
   last_ = 0;
   left_last_ = true;
@@ -42,26 +42,11 @@ void LandmarkAgent::move(const FullPose& step) {
   since_ = added(since_, step);
   for (Guess& guess : guesses_) guess.since = added(guess.since, step);
   path_m_ += distance_m(step.motion);
-  driven_m_ += distance_m(step.motion);
-  yaw_rad_ += step.motion.yaw_rad;
-  headings_.push_back({driven_m_, yaw_rad_});
+  sense_.move(distance_m(step.motion), step.motion.yaw_rad);
 }
 
 FullPose LandmarkAgent::pose() const {
   return last_ >= 0 ? added(hub_->landmark(last_), since_) : since_;
-}
-
-/// A turning point, or a crossing: more ways lead on than before, and more than a corridor's two.
-bool LandmarkAgent::at_a_place(const Surroundings& seen) {
-  while (!headings_.empty() && driven_m_ - headings_.front().path_m > 0.5 * seen.corridor_width_m)
-    headings_.pop_front();
-  double turned = 0.0;
-  for (const Heading& h : headings_) turned = std::max(turned, std::abs(yaw_rad_ - h.yaw_rad));
-  const bool steady = seen.openings == openings_before_;
-  openings_before_ = seen.openings;
-  const bool crossing = steady && openings_ >= 0 && seen.openings > std::max(openings_, 2);
-  if (steady) openings_ = seen.openings;
-  return crossing || turned > options_.turning_point_rad;
 }
 
 std::optional<LandmarkAgent::Recognised> LandmarkAgent::recognise(const Surroundings& seen, bool is_place,
@@ -133,13 +118,13 @@ Sighting LandmarkAgent::arrive(Stamp stamp, const Recognised& found) {
 }
 
 std::optional<Sighting> LandmarkAgent::look(Stamp stamp, const Surroundings& seen) {
-  const bool is_place = at_a_place(seen);
+  const bool is_place = sense_.at_a_place(seen);
   left_last_ = left_last_ || distance_m(since_.motion) > 1.5 * seen.corridor_width_m;
   if (seen.descriptor.size() == 0) return std::nullopt;
   if (hub_->map().size() == 0) return arrive(stamp, hub_->add(seen.descriptor), false, {}, 1.0);
   if (last_ < 0) {
-    if (driven_m_ - looked_at_m_ < 0.5 * seen.corridor_width_m) return std::nullopt;
-    looked_at_m_ = driven_m_;
+    if (sense_.driven_m() - looked_at_m_ < 0.5 * seen.corridor_width_m) return std::nullopt;
+    looked_at_m_ = sense_.driven_m();
     const auto found = recognise_alone(seen);
     return found ? std::optional(arrive(stamp, *found)) : std::nullopt;
   }

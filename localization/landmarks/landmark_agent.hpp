@@ -6,6 +6,7 @@
 
 #include "core/stamp.hpp"
 #include "localization/landmarks/place_proposals.hpp"
+#include "localization/landmarks/place_sense.hpp"
 
 namespace madori::localization::landmarks {
 
@@ -19,8 +20,7 @@ struct Sighting {
 };
 
 struct AgentOptions {
-  double turning_point_rad =
-      1.0471975511965976;      ///< 60 degrees, within half a corridor's width (sheet of the paper)
+  double turning_point_rad = PlaceSense::kTurningPoint_rad;
   double least_quality = 0.6;  ///< of a match: set beforehand, see docs/explanation/landmarks.md
   double rival_quality = 0.9;  ///< share of the best at which another place is as good: no answer
   /// Squared sigmas between a match and the expected pose, 95 % of three. An alias lies anywhere in the
@@ -54,7 +54,6 @@ class LandmarkAgent {
     int landmark;
     DescriptorMatch match;
   };
-  [[nodiscard]] bool at_a_place(const Surroundings& seen);
   [[nodiscard]] std::optional<Recognised> recognise(const Surroundings& seen, bool is_place,
                                                     bool& near_known) const;
   [[nodiscard]] std::optional<Recognised> recognise_alone(const Surroundings& seen);
@@ -73,15 +72,9 @@ class LandmarkAgent {
   bool left_last_ = false;  ///< far enough from it to come back to it
   FullPose since_;          ///< the agent seen from it
   double path_m_ = 0.0;     ///< driven since
-  struct Heading {
-    double path_m, yaw_rad;
-  };
-  std::deque<Heading> headings_;  ///< of the last half corridor width
-  double driven_m_ = 0.0;
+  PlaceSense sense_;
   double looked_at_m_ = -1e9;  ///< driven at the last look without any idea of the place
   double yaw_rad_ = 0.0;
-  int openings_ = -1;         ///< of the last two scans that agreed
-  int openings_before_ = -1;  ///< of the scan before
   std::deque<Guess> guesses_;
   std::vector<Sighting> sightings_;
 };

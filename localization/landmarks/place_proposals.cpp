@@ -24,15 +24,19 @@ DescriptorMatch match_landmark(const Descriptor& landmark, const Surroundings& s
   return match;
 }
 
+std::optional<DescriptorMatch> recognise_anywhere(const Descriptor& landmark, const Surroundings& seen) {
+  const DescriptorMatch match = match_landmark(landmark, seen, {{}, seen.corridor_width_m, kHalfTurn_rad});
+  return match.quality < kLeastQuality ? std::nullopt : std::optional(match);
+}
+
 std::vector<PlaceProposal> propose_places(const LandmarkHub& hub, const Surroundings& seen) {
   std::vector<PlaceProposal> proposals;
   for (int i = 0; i < hub.map().size(); ++i) {
     const FullPose landmark = hub.landmark(i);
     if (landmark.uncertainty.is_unknown()) continue;
-    const DescriptorMatch match =
-        match_landmark(hub.map().descriptor(i), seen, {{}, seen.corridor_width_m, kHalfTurn_rad});
-    if (match.quality < kLeastQuality) continue;
-    proposals.push_back({i, match, added(landmark, {match.landmark_from_scan, match.uncertainty})});
+    const auto match = recognise_anywhere(hub.map().descriptor(i), seen);
+    if (match)
+      proposals.push_back({i, *match, added(landmark, {match->landmark_from_scan, match->uncertainty})});
   }
   std::sort(proposals.begin(), proposals.end(),
             [](const auto& a, const auto& b) { return a.match.quality > b.match.quality; });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "localization/landmarks/landmark_hub.hpp"
@@ -21,5 +22,9 @@ struct PlaceProposal {
 /// Matches a scan with one landmark; the uncertainty has the floor that no match is better than.
 [[nodiscard]] DescriptorMatch match_landmark(const Descriptor& landmark, const Surroundings& seen,
                                              const MatchWindow& window);
+
+/// Is this the landmark, nothing else speaking for it? Any heading, up to a corridor's width away.
+[[nodiscard]] std::optional<DescriptorMatch> recognise_anywhere(const Descriptor& landmark,
+                                                                const Surroundings& seen);
 
 }  // namespace madori::localization::landmarks

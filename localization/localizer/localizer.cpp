@@ -17,13 +17,12 @@ Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPos
 /// What was remembered lies elsewhere, or nobody knows where: a fresh memory, from the next scan on.
 void Localizer::begin_anew(const std::optional<StartPrior>& told, bool carried) {
   worker_.discard();
-  const bool was_sure = map_.placed && map_.evidence.here >= options_.health.localized;
-  if (map_.drawing && carried && was_sure) map_.drawing->left = map_.memory;
+  const bool was_sure = is_sure();
+  if (map_.drawing && carried && was_sure) map_.drawing->set_earlier(map_.memory);
   map_.memory = Memory(options_.memory);
   if (map_.drawing) {
     map_.drawing->belief.forget();
     if (started_ && !was_sure) map_.drawing->walls.straighten();  // what it was bent to may lie elsewhere
-    if (!carried) map_.drawing->left.reset(), map_.drawing->known.reset();  // a person knows better
   }
   map_.evidence = {};
   map_.evidence.has_drawing = map_.drawing.has_value();
@@ -98,8 +97,11 @@ ScanMatch Localizer::match(const SurfaceScan& scan, const OdometryStep& step) co
 }
 
 void Localizer::recall(Memory memory) {
-  if (started_ || !map_.told || memory.empty()) return;
-  map_.memory = std::move(memory);
+  if (started_ || memory.empty()) return;
+  if (map_.told)
+    map_.memory = std::move(memory);
+  else if (map_.drawing)
+    map_.drawing->set_earlier(std::move(memory));
 }
 
 void Localizer::start(SurfaceScan scan) {

@@ -39,8 +39,9 @@ class Localizer {
   /// Where the vehicle may be on the drawing at the newest reading, likeliest first.
   [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const;
 
-  /// Before the first scan: what an earlier drive remembered of this drawing. It is used where the first scan
-  /// fits into it near the start pose, and dropped otherwise.
+  /// Before the first scan: what an earlier drive remembered of this drawing. With a start pose it is used
+  /// where the first scan fits into it there, and dropped otherwise; without one the place is sought by it
+  /// too.
   void recall(Memory memory);
   [[nodiscard]] bool has_recalled() const { return recalled_; }
 
@@ -55,6 +56,10 @@ class Localizer {
   }
 
   [[nodiscard]] const Memory& memory() const { return map_.memory; }
+  /// Whether the memory lies right, and holds all that is known of the building.
+  [[nodiscard]] bool is_worth_keeping() const {
+    return is_sure() && !(map_.drawing && map_.drawing->earlier);
+  }
   /// At the end of a log: the memory after a last thorough look at all of it. Waits for it.
   [[nodiscard]] Memory finished_memory();
   [[nodiscard]] const HealthEvidence& evidence() const { return map_.evidence; }
@@ -63,6 +68,9 @@ class Localizer {
   [[nodiscard]] const OdometryModel& odometry_model() const { return model_; }
 
  private:
+  [[nodiscard]] bool is_sure() const {
+    return map_.placed && map_.evidence.here >= options_.health.localized;
+  }
   [[nodiscard]] PoseEstimate estimate(Stamp stamp, const Transform2<Map, Base>& map_from_base) const;
   [[nodiscard]] PoseEstimate on_late_scan(Stamp stamp, const SurfaceScan& scan);
   void follow(const SurfaceScan& scan, const OdometryStep& step);

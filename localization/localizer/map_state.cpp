@@ -4,17 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "localization/placement/known_building.hpp"
-
 namespace madori::localization {
 
-void OnDrawing::take_in_left() {
-  const DrawingFit& before = known ? *known : walls.standing();
-  mapping::Walls all = before.index().walls();
-  const mapping::Walls beside = seen_beside(before, *left);
-  all.insert(all.end(), beside.begin(), beside.end());
-  known = std::make_shared<const DrawingFit>(all);
-  left.reset();
+void OnDrawing::set_earlier(std::optional<Memory> memory) {
+  earlier = std::move(memory);
+  known.reset();
 }
 
 void MapState::think(const LocalizerOptions& options) {
@@ -66,6 +60,17 @@ void MapState::place(const LocalizerOptions& options) {
     evidence.here = evidence.around = std::min(evidence.here, options.unconfirmed);
   evidence.rival = drawing->belief.probability_elsewhere(at);
   evidence.mirrored = drawing->belief.probability_mirrored();
+  join_earlier(options);
+}
+
+/// Where the place is sure, by more than a look around, the memory that the vehicle had left is gone on with:
+/// the present one lies behind it, and loops will tie the two.
+void MapState::join_earlier(const LocalizerOptions& options) {
+  const bool sure = placed && evidence.here > options.health.localized && memory.size() >= options.young_size;
+  if (!drawing->earlier || !sure) return;
+  memory.put_behind(*drawing->earlier);
+  drawing->set_earlier(std::nullopt);
+  told.reset();
 }
 
 /// All places are compared while it is not sure which one it is, and now and then afterwards. The memory goes
@@ -73,8 +78,13 @@ void MapState::place(const LocalizerOptions& options) {
 void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options) {
   const bool unsure = !placed || evidence.here < options.health.localized;
   const bool everywhere = !evidence.looked || evidence.walls_seen > next_survey_walls;
-  if (drawing->left) drawing->take_in_left();
-  drawing->belief.weigh(drawing->to_find_by(), memory, cloud, told, memory.poses().back(), everywhere);
+  if (drawing->earlier && !drawing->known)
+    drawing->known = std::make_shared<const KnownBuilding>(drawing->walls.standing(), *drawing->earlier);
+  std::vector<Transform2<Map, Base>> recognised;
+  if (everywhere && drawing->known)
+    recognised = drawing->known->crossings.where(*memory.keyframes().back().scan);
+  drawing->belief.weigh(drawing->to_find_by(), memory, cloud, told, memory.poses().back(), everywhere,
+                        recognised);
   if (everywhere) {
     evidence.looked = true;
     next_survey_walls = evidence.walls_seen * (unsure ? options.survey_growth_unsure : options.survey_growth);
@@ -87,7 +97,7 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   if (leaves) {
     unconfirmed_size = memory.size();  // a place that was wrong once is believed when more agrees
     drawing->walls.straighten();
-    drawing->known.reset();
+    drawing->set_earlier(std::nullopt);
   }
   if (!placed || leaves) move(best->correction);
   placed = placed || clear || told.has_value();

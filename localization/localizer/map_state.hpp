@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "localization/localizer/options.hpp"
+#include "localization/placement/known_building.hpp"
 #include "localization/placement/placement.hpp"
 #include "localization/warp/bent_drawing.hpp"
 
@@ -16,13 +17,14 @@ struct OnDrawing {
 
   BendingDrawing walls;
   PlaceBelief belief;
-  std::optional<Memory> left;  ///< that lay right when the vehicle was carried off it, not yet in `known`
-  std::shared_ptr<const DrawingFit>
-      known;  ///< the walls as they stand and what earlier memories saw; null: nothing
+  /// A memory that lay right, of an earlier drive or of this one until the vehicle was carried off. The place
+  /// is sought by it, and it is gone on with where the place is sure again.
+  std::optional<Memory> earlier;
+  std::shared_ptr<const KnownBuilding> known;  ///< by `earlier`; null: not yet asked
 
+  void set_earlier(std::optional<Memory> memory);
   /// What the places are weighed by.
-  [[nodiscard]] const DrawingFit& to_find_by() const { return known ? *known : walls.drawn(); }
-  void take_in_left();
+  [[nodiscard]] const DrawingFit& to_find_by() const { return known ? known->walls : walls.drawn(); }
 };
 
 /// The memory and how it lies on the drawing: all that the slow work reads and changes. A copy is cheap.
@@ -49,6 +51,7 @@ struct MapState {
   void place(const LocalizerOptions& options);
   void weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options);
   void lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options);
+  void join_earlier(const LocalizerOptions& options);
   void move(const Transform2<Map, Map>& by);
   bool correct_recent_drift(const LocalizerOptions& options);
   [[nodiscard]] AlignmentWindow drift_window(const MemoryCloud& recent, std::size_t first,

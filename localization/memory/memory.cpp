@@ -97,6 +97,27 @@ void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& m
   broken_ = false;
 }
 
+void Memory::put_behind(Memory earlier) {
+  if (earlier.empty() || empty()) return;
+  const auto shift = static_cast<int>(earlier.size());
+  const double way_m = earlier.keyframes_.back().path_m + options_.break_open_m - keyframes_.front().path_m;
+  earlier.factors_.push_back(
+      {shift - 1, shift, {}, limited(Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero()), false});
+  for (Keyframe& keyframe : keyframes_) {
+    keyframe.path_m += way_m;
+    earlier.keyframes_.push_back(std::move(keyframe));
+  }
+  earlier.keyframes_[earlier.poses_.size()].after_break = true;
+  earlier.poses_.insert(earlier.poses_.end(), poses_.begin(), poses_.end());
+  for (const RelativeFactor& f : factors_)
+    earlier.factors_.push_back({f.from + shift, f.to + shift, f.motion, f.information, f.loop});
+  earlier.loops_ += loops_;
+  earlier.looked_back_ = static_cast<std::size_t>(shift);
+  earlier.broken_ = broken_;
+  earlier.recent_.reset();
+  *this = std::move(earlier);
+}
+
 int Memory::close_loops() {
   int closed = 0;
   for (; looked_back_ < size(); ++looked_back_) {

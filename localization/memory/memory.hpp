@@ -44,6 +44,9 @@ class Memory {
   /// The same where the poses' difference is what was measured, with its information (axes of the newest).
   void add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
            const Eigen::Matrix3d& motion_information);
+  /// What an earlier drive remembered, in the same frame, comes before all of this; the two are tied by
+  /// nothing but the loops that will be found.
+  void put_behind(Memory earlier);
   /// Looks for old keyframes near those added since the last time and ties them. Returns how many loops were
   /// closed.
   int close_loops();

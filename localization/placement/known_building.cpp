@@ -13,18 +13,22 @@ std::size_t unbroken(const Memory& memory) {
   return end;
 }
 
-}  // namespace
-
-mapping::Walls seen_beside(const DrawingFit& walls, const Memory& memory) {
-  mapping::Walls beside;
-  for (const CloudSurface& p : memory_cloud(memory, 0, unbroken(memory))) {
+/// The walls, and what the first `size` keyframes saw beside them: furniture, racks, walls that nobody drew.
+mapping::Walls with_seen_beside(const DrawingFit& walls, const Memory& memory, std::size_t size) {
+  mapping::Walls all = walls.index().walls();
+  for (const CloudSurface& p : memory_cloud(memory, 0, size)) {
     const WallIndex::Hit hit = walls.index().nearest(p.x_m, p.y_m, p.direction);
     if (hit.wall >= 0 && std::abs(hit.distance_m) < kSameWallM && hit.beyond_m < kSameWallM) continue;
     const double half_x = -0.5 * kVoxelM * p.normal_y, half_y = 0.5 * kVoxelM * p.normal_x;
-    beside.push_back({static_cast<int>(beside.size()) + 1,
-                      {{p.x_m - half_x, p.y_m - half_y}, {p.x_m + half_x, p.y_m + half_y}}});
+    all.push_back({static_cast<int>(all.size()) + 1,
+                   {{p.x_m - half_x, p.y_m - half_y}, {p.x_m + half_x, p.y_m + half_y}}});
   }
-  return beside;
+  return all;
 }
+
+}  // namespace
+
+KnownBuilding::KnownBuilding(const DrawingFit& standing, const Memory& memory)
+    : walls(with_seen_beside(standing, memory, unbroken(memory))), crossings(memory, unbroken(memory)) {}
 
 }  // namespace madori::localization

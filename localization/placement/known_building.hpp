@@ -1,13 +1,20 @@
 #pragma once
 
 #include "localization/drawing_fit/drawing_fit.hpp"
+#include "localization/landmarks/crossings.hpp"
 #include "localization/memory/memory.hpp"
 
 namespace madori::localization {
 
-/// What a memory that lay right saw beside the walls that are known, as short walls: furniture, racks, walls
-/// that nobody drew. A vehicle that was carried off finds its place by these where the drawing alone cannot
-/// tell it. What was seen after the chain of motions had broken is left out: it lies anywhere.
-[[nodiscard]] mapping::Walls seen_beside(const DrawingFit& walls, const Memory& memory);
+/// A building as far as it is known when the vehicle is sought in it: by its walls, and by what an earlier
+/// memory that lay right saw of it. A vehicle that was carried off, or switched on somewhere, finds its place
+/// by these where the drawing cannot tell it.
+struct KnownBuilding {
+  DrawingFit walls;                ///< as they stand, and what was seen beside them, as short walls
+  landmarks::Crossings crossings;  ///< that were driven through
+
+  /// What `memory` saw after the chain of motions had broken is left out: it lies anywhere.
+  KnownBuilding(const DrawingFit& standing, const Memory& memory);
+};
 
 }  // namespace madori::localization

@@ -153,7 +153,7 @@ void PlaceBelief::judge(const DrawingFit& fit, const Seen& seen, const std::opti
 
 void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const MemoryCloud& all,
                         const std::optional<StartPrior>& prior, const Transform2<Map, Base>& at,
-                        bool everywhere) {
+                        bool everywhere, const std::vector<Transform2<Map, Base>>& proposed) {
   Seen seen{sampled(all, kSurfaces), {}, free_ways(memory), at};
   seen.pieces = wall_pieces(seen.cloud);
   const Seen mirrored{mirror_image(seen.cloud), seen.pieces, mirror_image(seen.ways), mirror_image(at)};
@@ -163,6 +163,7 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
   const std::size_t known = found.size();  // they stay where they are as well as go where they are drawn to
   for (std::size_t i = 0; i < known; ++i) found.push_back(found[i]);
   if (prior) found.push_back({prior->map_from_base * memory.poses().front().inverse()});
+  for (const auto& place : proposed) found.push_back({place * at.inverse()});
   if (everywhere) {
     for (const auto& correction : survey(fit.index(), seen.cloud, at, kSurveyed))
       found.push_back({correction});

@@ -43,10 +43,12 @@ class PlaceBelief {
  public:
   explicit PlaceBelief(const mapping::Walls& walls);
 
-  /// Weighs the hypotheses known so far and the memory as it lies; with `everywhere` all places and turns of
-  /// the drawing and its mirror image are looked at anew. `at` is the vehicle, in the memory's frame.
+  /// Weighs the hypotheses known so far, the memory as it lies and the places that it would put the vehicle
+  /// (`proposed`); with `everywhere` all places and turns of the drawing and its mirror image are looked at
+  /// anew. `at` is the vehicle, in the memory's frame.
   void weigh(const DrawingFit& fit, const Memory& memory, const MemoryCloud& cloud,
-             const std::optional<StartPrior>& prior, const Transform2<Map, Base>& at, bool everywhere);
+             const std::optional<StartPrior>& prior, const Transform2<Map, Base>& at, bool everywhere,
+             const std::vector<Transform2<Map, Base>>& proposed = {});
   /// The memory was moved: what leads to a place from there.
   void moved(const Transform2<Map, Map>& by);
   /// Nothing is known of the place any more; whether the drawing is mirrored is not forgotten.

@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
   app.add_option("--dropouts", a.wishes.dropouts, "of lidar, encoders and drive link in turn");
   app.add_option("--crossings", a.wishes.crossing_share, "share of the deliveries with a person crossing");
   app.add_option("--pallets", a.wishes.pallet_share, "share of the deliveries with a pallet on the way");
+  app.add_option("--memory", a.day.memory, "folder in which the vehicle's memory goes on from day to day");
   app.add_option("--living-map", a.day.living_map, "folder in which the living map goes on from day to day");
   app.add_option("--json", a.json_file, "the figures of every day are appended, one line each");
   app.add_option("--trace", a.day.trace_s,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/learned/kept_memory.hpp"
 #include "app/learned/living_map_file.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/simulated/factory_link.hpp"
@@ -54,6 +55,7 @@ WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int numb
   transport.store_poll_s = 0.5;
   app::LocalizerPoseOptions pose;
   if (!options.living_map.empty()) watch_map(pose);
+  if (!options.memory.empty()) pose.memory = app::load_memory(options.memory, loaded_.walls).memory;
   run_ = std::make_unique<app::TransportRun>(
       loaded_.config, std::make_unique<app::LocalizerPose>(loaded_.walls, loaded_.config.lidars, pose),
       std::make_unique<app::FactoryLink>(factory_, loaded_.config.odometry.wheels, kStep), transport);
@@ -95,6 +97,8 @@ Figures WorkingDay::work(const std::atomic<bool>& stop) {
   for (const Delivery& delivery : plan_.deliveries)
     if (!stop) deliver(delivery);
   if (map_learner_) end_map();
+  if (const auto memory = run_->state().localization->memory(); memory && !options_.memory.empty())
+    app::save_memory(options_.memory, *memory, loaded_.walls);
   figures_.driven_m = factory_->distance_driven_m();
   figures_.simulated_s = to_seconds(factory_->now() - morning);
   figures_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();

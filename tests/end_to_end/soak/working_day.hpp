@@ -24,6 +24,7 @@ struct DayOptions {
   double limit_s = 900.0;          ///< for one order
   std::filesystem::path
       living_map;  ///< folder in which the living map is kept from day to day; empty: none is made
+  std::filesystem::path memory;  ///< folder in which the vehicle's memory goes on likewise; empty: forgotten
   bool verbose = false;
   std::pair<double, double> trace_s;  ///< every revolution between these times is told of; none by default
 };

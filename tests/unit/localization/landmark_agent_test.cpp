@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 #include <time.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "core/angle.hpp"
+#include "localization/landmarks/crossings.hpp"
 #include "localization/memory/pose_graph.hpp"
 #include "tests/support/ray_caster.hpp"
 
@@ -69,6 +71,33 @@ TEST_F(AgentInAnEll, RecognisesTheCornerAndTheStartOnItsWayBack) {
   EXPECT_NEAR(agent.pose().motion.x_m, off.x_m(), 0.1);
   EXPECT_NEAR(agent.pose().motion.y_m, off.y_m(), 0.1);
   EXPECT_NEAR(wrap_angle(agent.pose().motion.yaw_rad - off.yaw_rad()), 0.0, to_rad(2.0));
+}
+
+TEST_F(AgentInAnEll, ACrossingOfTheMemoryIsRecognisedFromBesideItInAnyDirection) {
+  Memory memory;
+  const auto remember = [&](const Transform2<madori::Map, Base>& pose) {
+    test::ScanSettings lidar = test::full_turn(360, 30.0);
+    lidar.range_sigma_m = 0.01;
+    const auto scan = test::simulate_scan(walls_, pose, lidar, random_);
+    SurfaceScan surfaces = make_surface_scan({}, {}, weighty_points(scan_points(scan, {})));
+    memory.add(SurfaceScan(surfaces), 0.4, pose, Eigen::Matrix3d::Identity());
+    return surfaces;
+  };
+  for (double x = 8.0; x > 0.0; x -= 0.4) (void)remember({x, 0.0, kPi});
+  for (double turned = 0.0; turned < 0.5 * kPi; turned += 0.25) (void)remember({0.0, 0.0, kPi - turned});
+  for (double y = 0.4; y < 6.0; y += 0.4) (void)remember({0.0, y, 0.5 * kPi});
+  const Crossings crossings(memory, memory.size());
+  ASSERT_GE(crossings.size(), 1U);
+  ASSERT_LE(crossings.size(), 3U);
+  for (const double yaw : {-2.5, -0.7, 0.4, 1.9}) {
+    const Transform2<madori::Map, Base> truth(0.2, 0.3, yaw);
+    const auto places = crossings.where(remember(truth));
+    const bool found = std::any_of(places.begin(), places.end(), [&](const auto& place) {
+      const auto off = truth.inverse() * place;
+      return std::hypot(off.x_m(), off.y_m()) < 0.1 && std::abs(off.yaw_rad()) < 0.05;
+    });
+    EXPECT_TRUE(found) << yaw << ": " << places.size() << " places";
+  }
 }
 
 TEST_F(AgentInAnEll, AFurtherAgentFindsItselfAndAddsEdges) {
