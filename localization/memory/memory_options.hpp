@@ -6,7 +6,9 @@ namespace madori::localization {
 struct MemoryOptions {
   double window_path_m = 12.0;  ///< keyframes this recent are matched against in any case
   int window_keyframes = 30;    ///< at most
-  double map_radius_m = 18.0;   ///< of the surfaces around the vehicle that are matched against
+  /// Of the surfaces around the vehicle that are matched against: as far as a scan reaches, and what is driven
+  /// until they are gathered anew. What lies beyond would count as not agreeing.
+  double map_radius_m = 32.0;
   double loop_radius_m = 3.5;   ///< how near an old keyframe must be to close a loop with it
   int loop_chain = 12;          ///< keyframes around the nearest one that make the piece to match against
   double loop_inliers = 0.55;   ///< share of the scan that must fit
