@@ -10,7 +10,7 @@
 
 namespace madori::localization {
 struct BentDrawing;
-class Memory;
+struct RememberedParts;
 }  // namespace madori::localization
 
 namespace madori::app {
@@ -41,7 +41,9 @@ class PoseSource {
   /// How the drawing is believed to lie in the building; null: as drawn.
   [[nodiscard]] virtual std::shared_ptr<const localization::BentDrawing> bent() const { return nullptr; }
   /// What it remembers of the building, for the next start; null where it is not sure enough to be kept.
-  [[nodiscard]] virtual std::shared_ptr<const localization::Memory> memory() const { return nullptr; }
+  [[nodiscard]] virtual std::shared_ptr<const localization::RememberedParts> remembered() const {
+    return nullptr;
+  }
 };
 
 }  // namespace madori::app

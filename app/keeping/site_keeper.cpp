@@ -54,7 +54,7 @@ void SiteKeeper::observe(const CycleState& state, Stamp now) {
 
 void SiteKeeper::take_memory(const CycleState& state, Stamp now) {
   memory_taken_ = now;
-  if (auto memory = state.localization->memory()) memory_ = std::move(memory);
+  if (auto memory = state.localization->remembered()) memory_ = std::move(memory);
 }
 
 /// A vehicle that is lost may have been carried away with its wheels still: then no pose is better.
@@ -79,7 +79,7 @@ void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
 void SiteKeeper::keep_learned() {
   jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, map = map_watch_, bent = bent_,
                         memory = memory_] {
-    if (memory) save_memory(site, *memory, walls);
+    if (memory) save_memory(site, memory->together(), walls);
     if (map) save_living_map(site, map->map(), walls);
     if (bent) localization::save_warp(site / kWarpFile, bent->fit, walls);
     mapping::write_file_atomically(site / kReliabilityFile, watch->reliability_text());

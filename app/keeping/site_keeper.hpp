@@ -48,8 +48,8 @@ class SiteKeeper {
   WheelCounters wheels_before_;
   bool pose_known_ = false;  ///< last_pose.yaml is of this run
   bool stood_ = false;
-  std::shared_ptr<const localization::BentDrawing> bent_;  ///< as last believed while sure of the place
-  std::shared_ptr<const localization::Memory> memory_;     ///< likewise
+  std::shared_ptr<const localization::BentDrawing> bent_;        ///< as last believed while sure of the place
+  std::shared_ptr<const localization::RememberedParts> memory_;  ///< likewise
   Stamp memory_taken_{};
   BackgroundJobs jobs_;
 };

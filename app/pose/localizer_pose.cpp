@@ -35,9 +35,9 @@ LocalizerPose::LocalizerPose(const mapping::Walls& walls, std::vector<LidarModel
   if (options_.memory) localizer_.recall(*std::exchange(options_.memory, std::nullopt));
 }
 
-std::shared_ptr<const localization::Memory> LocalizerPose::memory() const {
-  return localizer_.is_worth_keeping() ? std::make_shared<const localization::Memory>(localizer_.memory())
-                                       : nullptr;
+std::shared_ptr<const localization::RememberedParts> LocalizerPose::remembered() const {
+  auto parts = localizer_.remembered();
+  return parts ? std::make_shared<const localization::RememberedParts>(*std::move(parts)) : nullptr;
 }
 
 void LocalizerPose::give(Stamp stamp, const localization::ScanPoints& points,

@@ -42,7 +42,7 @@ class LocalizerPose final : public PoseSource {
   [[nodiscard]] std::shared_ptr<const localization::BentDrawing> bent() const override {
     return localizer_.bent();
   }
-  [[nodiscard]] std::shared_ptr<const localization::Memory> memory() const override;
+  [[nodiscard]] std::shared_ptr<const localization::RememberedParts> remembered() const override;
   /// From where the points on walls are seen: the lidar's place, the middle between several.
   [[nodiscard]] static Point2<Base> eye(const std::vector<LidarModel>& lidars);
 

@@ -17,9 +17,9 @@ Surroundings look_around(const SurfaceScan& scan) {
 
 }  // namespace
 
-Crossings::Crossings(const Memory& memory, std::size_t size) {
+Crossings::Crossings(const Memory& memory) {
   PlaceSense sense;
-  for (std::size_t i = 0; i < size; ++i) {
+  for (std::size_t i = 0; i < memory.size(); ++i) {
     const Transform2<madori::Map, Base>& at = memory.poses()[i];
     if (memory.keyframes()[i].after_break) sense = PlaceSense();
     if (i > 0 && !memory.keyframes()[i].after_break) {

@@ -12,9 +12,8 @@ namespace madori::localization::landmarks {
 /// longer knows the place asks them ("the crossing seen before"). Immutable once made.
 class Crossings {
  public:
-  /// Of the first `size` keyframes, in the order in which they were driven; none nearer to another than a
-  /// corridor's width.
-  Crossings(const Memory& memory, std::size_t size);
+  /// In the order in which they were driven; none nearer to another than a corridor's width.
+  explicit Crossings(const Memory& memory);
 
   [[nodiscard]] std::size_t size() const { return all_.size(); }
   /// Where a scan may have been taken, the best fitting first; any heading, up to a corridor's width beside a

@@ -18,11 +18,13 @@ Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPos
 void Localizer::begin_anew(const std::optional<StartPrior>& told, bool carried) {
   worker_.discard();
   const bool was_sure = is_sure();
-  if (map_.drawing && carried && was_sure) map_.drawing->set_earlier(map_.memory);
+  if (map_.drawing && carried && was_sure)
+    map_.drawing->set_earlier(std::make_shared<const Memory>(remembered()->together()));
   map_.memory = Memory(options_.memory);
   if (map_.drawing) {
     map_.drawing->belief.forget();
-    if (started_ && !was_sure) map_.drawing->walls.straighten();  // what it was bent to may lie elsewhere
+    if (started_ && !was_sure) map_.drawing->walls.straighten();   // what it was bent to may lie elsewhere
+    if (started_ && !carried) map_.drawing->set_earlier(nullptr);  // a person knows better
   }
   map_.evidence = {};
   map_.evidence.has_drawing = map_.drawing.has_value();
@@ -101,7 +103,13 @@ void Localizer::recall(Memory memory) {
   if (map_.told)
     map_.memory = std::move(memory);
   else if (map_.drawing)
-    map_.drawing->set_earlier(std::move(memory));
+    map_.drawing->set_earlier(std::make_shared<const Memory>(std::move(memory))),
+        map_.drawing->belief.exclude_mirror();
+}
+
+std::optional<RememberedParts> Localizer::remembered() const {
+  if (!is_sure()) return std::nullopt;
+  return RememberedParts{map_.memory, map_.drawing ? map_.drawing->earlier : nullptr};
 }
 
 void Localizer::start(SurfaceScan scan) {

@@ -56,10 +56,8 @@ class Localizer {
   }
 
   [[nodiscard]] const Memory& memory() const { return map_.memory; }
-  /// Whether the memory lies right, and holds all that is known of the building.
-  [[nodiscard]] bool is_worth_keeping() const {
-    return is_sure() && !(map_.drawing && map_.drawing->earlier);
-  }
+  /// What is remembered, by earlier drives too, for the next start; nothing while the place is not sure.
+  [[nodiscard]] std::optional<RememberedParts> remembered() const;
   /// At the end of a log: the memory after a last thorough look at all of it. Waits for it.
   [[nodiscard]] Memory finished_memory();
   [[nodiscard]] const HealthEvidence& evidence() const { return map_.evidence; }

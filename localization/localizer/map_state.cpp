@@ -6,7 +6,7 @@
 
 namespace madori::localization {
 
-void OnDrawing::set_earlier(std::optional<Memory> memory) {
+void OnDrawing::set_earlier(std::shared_ptr<const Memory> memory) {
   earlier = std::move(memory);
   known.reset();
 }
@@ -60,17 +60,6 @@ void MapState::place(const LocalizerOptions& options) {
     evidence.here = evidence.around = std::min(evidence.here, options.unconfirmed);
   evidence.rival = drawing->belief.probability_elsewhere(at);
   evidence.mirrored = drawing->belief.probability_mirrored();
-  join_earlier(options);
-}
-
-/// Where the place is sure, by more than a look around, the memory that the vehicle had left is gone on with:
-/// the present one lies behind it, and loops will tie the two.
-void MapState::join_earlier(const LocalizerOptions& options) {
-  const bool sure = placed && evidence.here > options.health.localized && memory.size() >= options.young_size;
-  if (!drawing->earlier || !sure) return;
-  memory.put_behind(*drawing->earlier);
-  drawing->set_earlier(std::nullopt);
-  told.reset();
 }
 
 /// All places are compared while it is not sure which one it is, and now and then afterwards. The memory goes
@@ -97,7 +86,7 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   if (leaves) {
     unconfirmed_size = memory.size();  // a place that was wrong once is believed when more agrees
     drawing->walls.straighten();
-    drawing->set_earlier(std::nullopt);
+    drawing->set_earlier(nullptr);
   }
   if (!placed || leaves) move(best->correction);
   placed = placed || clear || told.has_value();

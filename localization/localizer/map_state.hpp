@@ -17,14 +17,14 @@ struct OnDrawing {
 
   BendingDrawing walls;
   PlaceBelief belief;
-  /// A memory that lay right, of an earlier drive or of this one until the vehicle was carried off. The place
-  /// is sought by it, and it is gone on with where the place is sure again.
-  std::optional<Memory> earlier;
+  /// What was remembered where the place was sure: by earlier drives, and by this one until the vehicle was
+  /// carried off. The place is sought by it.
+  std::shared_ptr<const Memory> earlier;
   std::shared_ptr<const KnownBuilding> known;  ///< by `earlier`; null: not yet asked
 
-  void set_earlier(std::optional<Memory> memory);
   /// What the places are weighed by.
   [[nodiscard]] const DrawingFit& to_find_by() const { return known ? known->walls : walls.drawn(); }
+  void set_earlier(std::shared_ptr<const Memory> memory);
 };
 
 /// The memory and how it lies on the drawing: all that the slow work reads and changes. A copy is cheap.
@@ -51,7 +51,6 @@ struct MapState {
   void place(const LocalizerOptions& options);
   void weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options);
   void lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options);
-  void join_earlier(const LocalizerOptions& options);
   void move(const Transform2<Map, Map>& by);
   bool correct_recent_drift(const LocalizerOptions& options);
   [[nodiscard]] AlignmentWindow drift_window(const MemoryCloud& recent, std::size_t first,

@@ -97,6 +97,18 @@ void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& m
   broken_ = false;
 }
 
+void Memory::forget_broken_end() {
+  std::size_t end = size();
+  while (end > 0 && keyframes_[end - 1].after_break) --end;
+  if (end == size()) return;
+  keyframes_.resize(end);
+  poses_.resize(end);
+  std::erase_if(factors_,
+                [end](const RelativeFactor& f) { return std::max(f.from, f.to) >= static_cast<int>(end); });
+  looked_back_ = std::min(looked_back_, end);
+  recent_.reset();
+}
+
 void Memory::put_behind(Memory earlier) {
   if (earlier.empty() || empty()) return;
   const auto shift = static_cast<int>(earlier.size());
@@ -165,8 +177,10 @@ std::size_t Memory::bytes() const {
 Transform2<Map, Map> Memory::take_in(Memory other, std::size_t known) {
   const Transform2<Map, Map> by = other.poses_.back() * poses_[known - 1].inverse();
   const int shift = static_cast<int>(other.size()) - static_cast<int>(known);
+  const double way_m = other.keyframes_.back().path_m - keyframes_[known - 1].path_m;
   for (std::size_t i = known; i < size(); ++i) {
     other.keyframes_.push_back(keyframes_[i]);
+    other.keyframes_.back().path_m += way_m;
     other.poses_.push_back(by * poses_[i]);
   }
   for (const RelativeFactor& f : factors_) {  // loops are closed in the copy only
@@ -194,6 +208,15 @@ void Memory::move(const Transform2<Map, Map>& by, std::size_t first) {
   for (std::size_t i = first; i < poses_.size(); ++i) {
     poses_[i] = by * poses_[i];
   }
+}
+
+Memory RememberedParts::together() const {
+  Memory all = now;
+  all.forget_broken_end();
+  if (earlier) all.put_behind(*earlier);
+  all.skip_loops();
+  (void)all.fuse();
+  return all;
 }
 
 }  // namespace madori::localization

@@ -44,6 +44,8 @@ class Memory {
   /// The same where the poses' difference is what was measured, with its information (axes of the newest).
   void add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
            const Eigen::Matrix3d& motion_information);
+  /// Forgets the newest keyframes to which the chain of motions is broken: they lie anywhere.
+  void forget_broken_end();
   /// What an earlier drive remembered, in the same frame, comes before all of this; the two are tied by
   /// nothing but the loops that will be found.
   void put_behind(Memory earlier);
@@ -84,6 +86,15 @@ class Memory {
   double extra_open_m_ = 0.0;
   mutable std::shared_ptr<const LocalMap> recent_;  ///< of the last question, until the memory changes
   mutable Point2<Map> recent_centre_;
+};
+
+/// A memory and the one of before it, both where the place was sure. A copy is cheap.
+struct RememberedParts {
+  Memory now;
+  std::shared_ptr<const Memory> earlier;  ///< null: none
+
+  /// As one, thinned to what the building holds. Takes milliseconds.
+  [[nodiscard]] Memory together() const;
 };
 
 }  // namespace madori::localization

@@ -7,16 +7,10 @@ namespace {
 
 constexpr double kSameWallM = 0.2;  ///< a voxel: as near as a memory tells surfaces apart
 
-std::size_t unbroken(const Memory& memory) {
-  std::size_t end = memory.size();
-  while (end > 0 && memory.keyframes()[end - 1].after_break) --end;
-  return end;
-}
-
-/// The walls, and what the first `size` keyframes saw beside them: furniture, racks, walls that nobody drew.
-mapping::Walls with_seen_beside(const DrawingFit& walls, const Memory& memory, std::size_t size) {
+/// The walls, and what was seen beside them: furniture, racks, walls that nobody drew.
+mapping::Walls with_seen_beside(const DrawingFit& walls, const Memory& memory) {
   mapping::Walls all = walls.index().walls();
-  for (const CloudSurface& p : memory_cloud(memory, 0, size)) {
+  for (const CloudSurface& p : memory_cloud(memory)) {
     const WallIndex::Hit hit = walls.index().nearest(p.x_m, p.y_m, p.direction);
     if (hit.wall >= 0 && std::abs(hit.distance_m) < kSameWallM && hit.beyond_m < kSameWallM) continue;
     const double half_x = -0.5 * kVoxelM * p.normal_y, half_y = 0.5 * kVoxelM * p.normal_x;
@@ -29,6 +23,6 @@ mapping::Walls with_seen_beside(const DrawingFit& walls, const Memory& memory, s
 }  // namespace
 
 KnownBuilding::KnownBuilding(const DrawingFit& standing, const Memory& memory)
-    : walls(with_seen_beside(standing, memory, unbroken(memory))), crossings(memory, unbroken(memory)) {}
+    : walls(with_seen_beside(standing, memory)), crossings(memory) {}
 
 }  // namespace madori::localization

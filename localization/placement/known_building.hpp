@@ -13,7 +13,6 @@ struct KnownBuilding {
   DrawingFit walls;                ///< as they stand, and what was seen beside them, as short walls
   landmarks::Crossings crossings;  ///< that were driven through
 
-  /// What `memory` saw after the chain of motions had broken is left out: it lies anywhere.
   KnownBuilding(const DrawingFit& standing, const Memory& memory);
 };
 

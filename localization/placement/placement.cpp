@@ -217,6 +217,10 @@ void PlaceBelief::forget() {
   placements_.clear();
 }
 
+void PlaceBelief::exclude_mirror() {
+  log_mirrored_ = std::log(kLeastMirrored);
+}
+
 void PlaceBelief::moved(const Transform2<Map, Map>& by) {
   for (Placement& p : placements_)
     if (!p.mirrored) p.correction = p.correction * by.inverse();

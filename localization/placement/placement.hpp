@@ -54,6 +54,9 @@ class PlaceBelief {
   /// Nothing is known of the place any more; whether the drawing is mirrored is not forgotten.
   void forget();
 
+  /// An earlier drive lay on this drawing, and surely: it is not mirrored.
+  void exclude_mirror();
+
   [[nodiscard]] double area_m2() const { return area_m2_; }
   /// Likeliest first.
   [[nodiscard]] const std::vector<Placement>& placements() const { return placements_; }

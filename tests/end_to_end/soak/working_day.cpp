@@ -97,8 +97,8 @@ Figures WorkingDay::work(const std::atomic<bool>& stop) {
   for (const Delivery& delivery : plan_.deliveries)
     if (!stop) deliver(delivery);
   if (map_learner_) end_map();
-  if (const auto memory = run_->state().localization->memory(); memory && !options_.memory.empty())
-    app::save_memory(options_.memory, *memory, loaded_.walls);
+  if (const auto parts = run_->state().localization->remembered(); parts && !options_.memory.empty())
+    app::save_memory(options_.memory, parts->together(), loaded_.walls);
   figures_.driven_m = factory_->distance_driven_m();
   figures_.simulated_s = to_seconds(factory_->now() - morning);
   figures_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();

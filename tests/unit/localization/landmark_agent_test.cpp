@@ -86,7 +86,7 @@ TEST_F(AgentInAnEll, ACrossingOfTheMemoryIsRecognisedFromBesideItInAnyDirection)
   for (double x = 8.0; x > 0.0; x -= 0.4) (void)remember({x, 0.0, kPi});
   for (double turned = 0.0; turned < 0.5 * kPi; turned += 0.25) (void)remember({0.0, 0.0, kPi - turned});
   for (double y = 0.4; y < 6.0; y += 0.4) (void)remember({0.0, y, 0.5 * kPi});
-  const Crossings crossings(memory, memory.size());
+  const Crossings crossings(memory);
   ASSERT_GE(crossings.size(), 1U);
   ASSERT_LE(crossings.size(), 3U);
   for (const double yaw : {-2.5, -0.7, 0.4, 1.9}) {
