@@ -2,7 +2,8 @@
 
 What the first life learned is kept with the site: the wall reliability, and the pose together with the wheels'
 counters. The second life stands where the first one stopped, says so, and delivers. A third one, after the stored pose was
-made to lie about the wheels, looks for the place anew and finds it.
+made to lie about the wheels, looks for the place anew and finds it by what the others remembered; its recording is replayed
+bit for bit.
 
     restart_test.py MADORI DATA
 """
@@ -55,14 +56,15 @@ def demand(condition, what):
 class Life:
     """One life of `madori run`."""
 
-    def __init__(self, folder, site, devices, port, name):
+    def __init__(self, folder, site, devices, port, name, record=False):
         self.log = folder / f"{name}.txt"
         self.site, self.port, self.told = site, free_port(socket.SOCK_STREAM), 0.0
         page = folder / "page"
         page.mkdir(exist_ok=True)
         (page / "index.html").write_text("<p>panel</p>")
         self.process = subprocess.Popen(
-            [arguments.madori, "run", site, "--hmi", f"127.0.0.1:{self.port}", "--no-record", "--lidar", "127.0.0.1"]
+            [arguments.madori, "run", site, "--hmi", f"127.0.0.1:{self.port}", "--lidar", "127.0.0.1"]
+            + ([] if record else ["--no-record"])
             + ["--lidar-port", str(port), "--position-port", str(free_port(socket.SOCK_DGRAM))]
             + ["--drive", devices / "drive", "--panel-folder", page], stdout=open(self.log, "w"), stderr=subprocess.STDOUT)
         running.append(self.process)
@@ -152,9 +154,14 @@ def main():
 
         text = (site / "last_pose.yaml").read_text()
         (site / "last_pose.yaml").write_text(re.sub(r"left_turns: (-?\d+)", "left_turns: 32000", text))
-        third = Life(folder, site, devices, port, "third")
+        remembered = (site / "memory.bin").stat().st_size
+        demand(remembered > 100_000, f"it remembers {remembered} bytes")
+        third = Life(folder, site, devices, port, "third", record=True)
         third.deliver(13)
         said = third.end()
+        run = next((site / "runs").iterdir())
+        demand((run / "memory.bin").stat().st_size == remembered, "the recording does not hold what the run began with")
+        subprocess.run([arguments.madori, "replay", site, run], check=True, stdout=subprocess.DEVNULL)
         demand("the wheels have turned" in said, f"a lying pose was believed:\n{said}")
         sim.send_signal(signal.SIGINT)
         sim.wait(20)
