@@ -9,6 +9,7 @@
 #include "app/landmarks/corridor_files.hpp"
 #include "app/landmarks/landmark_files.hpp"
 #include "app/landmarks/log_run.hpp"
+#include "app/landmarks/on_drawing.hpp"
 #include "app/log_options.hpp"
 #include "app/pose_argument.hpp"
 #include "core/pose_hypothesis.hpp"
@@ -112,6 +113,7 @@ void map_log(const LandmarkArguments& arguments) {
   std::vector<AgentTrack> tracks{run_agent(arguments.log, site, hub, !arguments.wheels, map_from_origin)};
   for (const std::string& agent : arguments.agents)
     tracks.push_back(run_agent(agent, site, hub, !arguments.wheels, map_from_origin));
+  if (!walls.empty()) map_from_origin = landmarks_on_drawing(hub, walls, map_from_origin);
   std::vector<std::vector<StampedPose>> ways;
   std::string trajectory = kTumHead;
   nlohmann::json agents = nlohmann::json::array();

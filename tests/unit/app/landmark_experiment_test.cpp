@@ -2,10 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "app/landmarks/corridor_files.hpp"
 #include "app/landmarks/corridor_run.hpp"
 #include "app/landmarks/landmark_files.hpp"
+#include "app/landmarks/on_drawing.hpp"
+#include "localization/landmarks/surroundings.hpp"
+#include "tests/support/made_up_buildings.hpp"
+#include "tests/support/ray_caster.hpp"
 
 namespace madori::app {
 namespace {
@@ -35,6 +40,29 @@ TEST(LandmarkExperiment, AsPublished) {
   EXPECT_LE(all.worst_lap3_m, 0.01);
   EXPECT_LE(to_deg(all.worst_lap3_rad), 0.5);
   EXPECT_GT(all.mean_odometry_end_m, 0.05) << "odometry alone drifts";
+}
+
+TEST(LandmarkExperiment, LandmarksLieOnTheDrawingWhereTheStartWasGivenRoughly) {
+  mapping::Walls walls;
+  test::add_box(walls, 0.0, 0.0, 9.0, 6.0);
+  test::add_box(walls, 2.0, 2.0, 5.0, 4.5);
+  std::mt19937 random(5);
+  const std::vector<Transform2<Map, Base>> places{{1.0, 1.0, 0.3}, {7.0, 1.2, 1.4}, {7.2, 5.2, 3.0}};
+  localization::landmarks::LandmarkHub hub;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto scan = test::simulate_scan(walls, places[i], test::full_turn(360, 30.0), random);
+    EXPECT_EQ(hub.add(localization::landmarks::look_around(localization::scan_points(scan, {})).descriptor),
+              static_cast<int>(i));
+    const auto way = places[0].inverse() * places[i];
+    if (i > 0)
+      hub.measure(0, static_cast<int>(i),
+                  {{way.x_m(), way.y_m(), way.yaw_rad()},
+                   {localization::landmarks::Matrix3::diagonal(1e-4, 1e-4, 1e-5)}});
+  }
+  const auto found = landmarks_on_drawing(hub, walls, {1.5, 0.6, 0.4});
+  EXPECT_NEAR(found.x_m(), 1.0, 0.02);
+  EXPECT_NEAR(found.y_m(), 1.0, 0.02);
+  EXPECT_NEAR(found.yaw_rad(), 0.3, 0.005);
 }
 
 TEST(LandmarkExperiment, AnUnsureAgentReturnsToASureLandmark) {
