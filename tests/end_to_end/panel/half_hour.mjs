@@ -1,0 +1,93 @@
+// Two panels look on while the vehicle drives for half an hour, one of them on a processor throttled to a quarter: memory of
+// the page, bytes a second, frames a second. Usage: half_hour.mjs MADORI PAGE DATA SHOTS WIDTHxHEIGHT [MINUTES]
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { askServer as api, expect, touch } from "./browser.mjs";
+import { freeUdpPort, startFactory, startVehicle, temporaryFolder } from "./processes.mjs";
+import { given, openGivenPanel, picture, run } from "./program.mjs";
+
+const { madori, page, data } = given;
+const minutes = Number(process.argv[7] ?? "30");
+const kThrottle = 4;
+const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+
+/** Counts what comes over the wire and what is painted, from now on. */
+async function measure(panel, throttle) {
+  const session = await panel.context.newCDPSession(panel.page);
+  for (const domain of ["Network", "Performance", "HeapProfiler"]) await session.send(`${domain}.enable`);
+  if (throttle > 1) await session.send("Emulation.setCPUThrottlingRate", { rate: throttle });
+  const seen = { bytes: 0, throttle, session, rows: [] };
+  session.on("Network.webSocketFrameReceived", ({ response }) => { seen.bytes += response.opcode === 2 ? Math.floor((response.payloadData.length * 3) / 4) : response.payloadData.length; });
+  session.on("Network.dataReceived", ({ encodedDataLength }) => { seen.bytes += encodedDataLength; });
+  await panel.page.evaluate(() => {
+    window.painted = 0;
+    const tick = () => { ++window.painted; requestAnimationFrame(tick); };
+    requestAnimationFrame(tick);
+  });
+  return seen;
+}
+
+/** What a minute was like: heap after a collection, what came, what was painted. */
+async function minuteOf(panel, seen) {
+  const [bytes, begun, painted] = [seen.bytes, performance.now(), await panel.page.evaluate(() => window.painted)];
+  await panel.page.waitForTimeout(55_000);
+  const spent_s = (performance.now() - begun) / 1000;
+  const frames = (await panel.page.evaluate(() => window.painted)) - painted;
+  const row = { kB_s: (seen.bytes - bytes) / spent_s / 1000, fps: frames / spent_s };
+  await seen.session.send("HeapProfiler.collectGarbage");
+  const { metrics } = await seen.session.send("Performance.getMetrics");
+  const value = (name) => metrics.find((metric) => metric.name === name).value;
+  seen.rows.push({ ...row, heap_MB: value("JSHeapUsedSize") / 1e6, nodes: value("Nodes") });
+}
+
+/** An order without end; a fault of a busy machine is confirmed. */
+async function keepDriving(panel) {
+  const orders = (await api(panel, "GET", "/api/orders")).json ?? [];
+  if (!orders.some((order) => ["queued", "running"].includes(order.status))) {
+    const { nodes } = (await api(panel, "GET", "/api/site/routes")).json;
+    const stations = ["Press 1", "Machine M3"].map((name) => nodes.find((node) => node.name === name).id);
+    await api(panel, "POST", "/api/orders", { stations, repeat: 1000 });
+  }
+  for (const word of ["confirm", "resume"]) await api(panel, "POST", `/api/vehicle/${word}`, {});
+}
+
+function report(name, { rows, throttle }) {
+  const [first, last] = [rows.slice(0, Math.ceil(rows.length / 3)), rows.slice(-Math.ceil(rows.length / 3))].map((part) => median(part.map((row) => row.heap_MB)));
+  const rate = rows.reduce((sum, row) => sum + row.kB_s, 0) / rows.length;
+  const [fps, least] = [median(rows.map((row) => row.fps)), Math.min(...rows.map((row) => row.fps))];
+  console.log(`${name} (processor / ${throttle}): ${rate.toFixed(1)} kB/s; ${fps.toFixed(1)} frames/s (worst minute ${least.toFixed(1)}); heap ${first.toFixed(2)} MB in the first third, ${last.toFixed(2)} MB in the last; ${rows.at(-1).nodes} nodes`);
+  return { rate, fps, growth: last - first, first };
+}
+
+async function main(browser) {
+  const folder = temporaryFolder();
+  const lidar = await freeUdpPort();
+  const drive = await startFactory(madori, data, join(folder, "site"), lidar, join(data, "scenarios/demo.yaml"));
+  const address = await startVehicle(madori, page, join(folder, "site"), lidar, drive, ["--no-record"]);
+  const panels = [await openGivenPanel(browser, address), await openGivenPanel(browser, address)];
+  for (const panel of panels) await touch(panel, "Drive", { exact: true });
+  await panels[0].page.locator("[data-vehicle=shown]").waitFor({ timeout: 120_000 });
+  await keepDriving(panels[0]);
+  await panels[0].page.waitForTimeout(35_000);  // the page keeps 30 s to look back on: until then it grows
+  const seen = [await measure(panels[0], 1), await measure(panels[1], kThrottle)];
+  const odometer = async () => (await api(panels[0], "GET", "/api/statistics")).json.distance_m;
+  const begun_m = await odometer();
+  for (let i = 0; i < minutes; ++i) {
+    await Promise.all(panels.map((panel, k) => minuteOf(panel, seen[k])));
+    await keepDriving(panels[0]);
+  }
+  await picture(panels[1], "half-hour");
+  console.log(`${minutes} minutes, ${((await odometer()) - begun_m).toFixed(0)} m driven`);
+  const walls = (await api(panels[0], "GET", "/api/site/walls/seen")).json;
+  const states = walls.reduce((sum, { state, segment: [x1, y1, x2, y2] }) => ({ ...sum, [state]: (sum[state] ?? 0) + Math.hypot(x2 - x1, y2 - y1) }), {});
+  console.log(`metres of drawn wall: ${Object.entries(states).map(([state, m]) => `${state} ${m.toFixed(0)}`).join(", ")}`);
+  if (process.env["WALLS"]) writeFileSync(process.env["WALLS"], JSON.stringify(walls));
+  const figures = seen.map((one, k) => report(`panel ${k + 1}`, one));
+  for (const { rate, growth, first } of figures) {
+    expect(rate < 100, `${rate} kB/s`);
+    expect(growth < 0.05 * first, `the heap grew by ${growth} MB`);
+  }
+  expect(figures[1].fps >= 30, `${figures[1].fps} frames/s on a throttled processor`);
+}
+
+await run(main);
