@@ -39,10 +39,38 @@ std::vector<Beam> beams_of(const SurfaceScan& scan, const Transform2<Map, Base>&
   return beams;
 }
 
+/// The bearings between two ends, as the sensor sees them.
+struct Fan {
+  double from_rad = 0.0;
+  double width_rad = -1.0;  ///< below zero: none
+
+  [[nodiscard]] bool holds(double bearing_rad) const {
+    double turn = bearing_rad - from_rad;
+    if (turn < 0.0) turn += 2.0 * kPi;
+    return turn <= width_rad;
+  }
+};
+
+/// `margin`: share of it that is left out at either end.
+Fan fan_of(const Segment2<Map>& s, const Point2<Map>& sensor, double margin) {
+  const double a = std::atan2(s.a.y_m - sensor.y_m, s.a.x_m - sensor.x_m);
+  const double turn = wrap_angle(std::atan2(s.b.y_m - sensor.y_m, s.b.x_m - sensor.x_m) - a);
+  const double width = std::abs(turn);
+  return {wrap_angle((turn >= 0.0 ? a : a + turn) + margin * width), (1.0 - 2.0 * margin) * width};
+}
+
+/// What is left of a piece whose ends may be nearer by `slack_m` each; nothing of a short one.
+std::optional<Segment2<Map>> surely(const Segment2<Map>& s, double slack_m) {
+  const double share = slack_m / s.length_m();
+  if (share >= 0.5) return std::nullopt;
+  const double dx = share * (s.b.x_m - s.a.x_m), dy = share * (s.b.y_m - s.a.y_m);
+  return Segment2<Map>{{s.a.x_m + dx, s.a.y_m + dy}, {s.b.x_m - dx, s.b.y_m - dy}};
+}
+
 /// The sides of a piece of wall as the sensor sees them.
 struct Sight {
-  double from_rad = 0.0;
-  double width_rad = 0.0;
+  Fan fan;
+  Fan through;            ///< only what passes here passes through the wall, and not beside it
   double normal_x = 0.0;  ///< left of a -> b
   double normal_y = 0.0;
   double height_m = 0.0;  ///< of the sensor over the wall's line, signed along the normal
@@ -60,26 +88,20 @@ std::optional<Sight> sight_of(const Segment2<Map>& s, const Point2<Map>& sensor,
   if (distance > options.reach_m || std::abs(sight.height_m) < options.flattest_sine * distance ||
       std::abs(sight.height_m) < 0.1)
     return std::nullopt;
-  const double a = std::atan2(s.a.y_m - sensor.y_m, s.a.x_m - sensor.x_m);
-  const double turn = wrap_angle(std::atan2(s.b.y_m - sensor.y_m, s.b.x_m - sensor.x_m) - a);
   constexpr double kMargin = 0.05;  // of the piece at either end: there its neighbour may be meant
-  const double width = std::abs(turn);
-  sight.from_rad = wrap_angle((turn >= 0.0 ? a : a + turn) + kMargin * width);
-  sight.width_rad = (1.0 - 2.0 * kMargin) * width;
+  sight.fan = fan_of(s, sensor, kMargin);
   return sight;
 }
 
-/// Calls visit(beam) for the beams whose bearings lie within the sight.
+/// Calls visit(beam) for the beams whose bearings lie within the fan.
 template <class Visit>
-void for_each_beam(const std::vector<Beam>& beams, const Sight& sight, Visit&& visit) {
+void for_each_beam(const std::vector<Beam>& beams, const Fan& fan, Visit&& visit) {
   const auto by_bearing = [](const Beam& b, double bearing) { return b.bearing_rad < bearing; };
   const auto first = static_cast<std::size_t>(
-      std::lower_bound(beams.begin(), beams.end(), sight.from_rad, by_bearing) - beams.begin());
+      std::lower_bound(beams.begin(), beams.end(), fan.from_rad, by_bearing) - beams.begin());
   for (std::size_t k = 0; k < beams.size(); ++k) {
     const Beam& beam = beams[(first + k) % beams.size()];
-    double turn = beam.bearing_rad - sight.from_rad;
-    if (turn < 0.0) turn += 2.0 * kPi;
-    if (turn > sight.width_rad) return;
+    if (!fan.holds(beam.bearing_rad)) return;
     visit(beam);
   }
 }
@@ -92,11 +114,15 @@ class Looker {
 
   /// nullopt where nothing was learned.
   std::optional<WallLook> look(std::uint32_t cell, const std::vector<Beam>& beams, const Point2<Map>& base) {
-    const auto sight = sight_of(cells_.all()[cell].segment, sensor_, options_);
+    const Segment2<Map>& piece = cells_.all()[cell].segment;
+    auto sight = sight_of(piece, sensor_, options_);
     if (!sight) return std::nullopt;
+    const double along = sigma_m({sight->normal_y, -sight->normal_x}, piece, base);
+    if (const auto sure = surely(piece, options_.ends_m + 2.0 * along))
+      sight->through = fan_of(*sure, sensor_, 0.0);
     WallLook look{cell};
     offsets_.clear();
-    for_each_beam(beams, *sight, [&](const Beam& beam) { judge(beam, *sight, look); });
+    for_each_beam(beams, sight->fan, [&](const Beam& beam) { judge(beam, *sight, look); });
     look.ended = static_cast<int>(offsets_.size());
     if (look.ended + look.passed == 0) return std::nullopt;
     if (look.ended > 0) measure(*sight, base, look);
@@ -114,7 +140,7 @@ class Looker {
     if (std::abs(offset) <= options_.beside_m && knows && std::abs(cosine) >= options_.parallel_cosine &&
         belongs(beam, sight, look.cell, offset)) {
       offsets_.push_back(offset);
-    } else if (behind > options_.through_m) {
+    } else if (behind > options_.through_m && sight.through.holds(beam.bearing_rad)) {
       ++look.passed;
     }
   }
@@ -131,12 +157,17 @@ class Looker {
 
   void measure(const Sight& sight, const Point2<Map>& base, WallLook& look) {
     look.offset_m = median_of(offsets_);
-    const Segment2<Map>& s = cells_.all()[look.cell].segment;
+    const double pose = sigma_m({sight.normal_x, sight.normal_y}, cells_.all()[look.cell].segment, base);
+    look.sigma_m = std::hypot(options_.range_sigma_m, pose);
+  }
+
+  /// How far the pose lets a piece of wall be off in a direction.
+  [[nodiscard]] double sigma_m(const Eigen::Vector2d& direction, const Segment2<Map>& s,
+                               const Point2<Map>& base) const {
     const double rx = 0.5 * (s.a.x_m + s.b.x_m) - base.x_m;
     const double ry = 0.5 * (s.a.y_m + s.b.y_m) - base.y_m;
-    const Eigen::Vector3d slope(sight.normal_x, sight.normal_y, -sight.normal_x * ry + sight.normal_y * rx);
-    const double beams = options_.range_sigma_m * options_.range_sigma_m;
-    look.sigma_m = std::sqrt(beams + std::max(0.0, slope.dot(covariance_ * slope)));
+    const Eigen::Vector3d slope(direction.x(), direction.y(), direction.y() * rx - direction.x() * ry);
+    return std::sqrt(std::max(0.0, slope.dot(covariance_ * slope)));
   }
 
   const WallCells& cells_;

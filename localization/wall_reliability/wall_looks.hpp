@@ -15,7 +15,7 @@ namespace madori::localization {
 struct WallLook {
   std::uint32_t cell = 0;
   int ended = 0;   ///< beams that ended on a surface that runs as the wall does, in its place or beside it
-  int passed = 0;  ///< beams that went through where it is drawn, and on
+  int passed = 0;  ///< beams that went through where it is drawn, wherever its ends and the pose are, and on
   double offset_m = 0.0;  ///< median of the ended ones: how far beside, positive to the left of a -> b
   double sigma_m = 0.0;   ///< of the offset: by the beams and by the pose
 };
@@ -27,6 +27,7 @@ struct LookOptions {
   double parallel_cosine = 0.94;  ///< between the normals of surface and wall
   double flattest_sine = 0.17;    ///< of the angle between beam and wall, below which nothing is told
   double range_sigma_m = 0.02;
+  double ends_m = 0.15;  ///< a wall in place may end so much earlier than it is drawn
 };
 
 /// Sorts the beams of a scan at a pose, whose covariance is of (x, y, yaw) in the Map frame, onto the pieces

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -120,6 +122,26 @@ TEST(WallLooks, TheOffsetHasTheSignOfTheLeftSideAndThePosesUncertainty) {
       EXPECT_NEAR(look.sigma_m, std::hypot(0.02, 0.1), 1e-6);  // across the wall only y counts
     }
   }
+}
+
+/// A column half a metre wide, drawn a hand's breadth beside where it stands: beams that pass beside it are
+/// not beams through it, or it would never be believed to be there.
+TEST(WallLooks, WhatPassesBesideAColumnDoesNotPassThroughIt) {
+  const mapping::Walls drawn{{1, {{8.0, -0.25}, {8.0, 0.25}}}, {2, {{12.0, -4.0}, {12.0, 4.0}}}};
+  constexpr double kBesideM = 0.12;
+  std::vector<Point2<Base>> points;
+  for (double bearing = -0.3; bearing < 0.3; bearing += 0.003) {
+    const double y = 8.0 * std::tan(bearing);
+    const double x = y > -0.25 + kBesideM && y < 0.25 + kBesideM ? 8.0 : 12.0;
+    points.push_back({x, x * std::tan(bearing)});
+  }
+  const WallCells cells(drawn);
+  const auto looks = wall_looks(cells, WallIndex(drawn), make_surface_scan({}, {}, points), {0.0, 0.0, 0.0},
+                                sure({}).covariance);
+  const auto column = std::ranges::find(looks, 0U, &WallLook::cell);
+  ASSERT_NE(column, looks.end());
+  EXPECT_GT(column->ended, 5);
+  EXPECT_EQ(column->passed, 0);
 }
 
 TEST(WallReliability, TellsConfirmedMissingAndDisplacedWalls) {
