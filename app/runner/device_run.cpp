@@ -52,7 +52,7 @@ class Onlookers {
     if (options_.record) {
       folder_ = options_.site / "runs" / run_name();
       recorder_ = std::make_unique<Recorder>(folder_);
-      if (!memory.empty()) mapping::write_file_atomically(folder_ / kMemoryFile, memory);
+      keep_beginning(memory);
     }
     if (panel != nullptr) panel->begin_run();
     run.set_tap([this, panel, &run](const auto& in, const auto& out, const auto& state) {
@@ -72,6 +72,17 @@ class Onlookers {
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  /// A full disk is no reason not to drive.
+  void keep_beginning(const std::string& memory) const {
+    if (memory.empty()) return;
+    try {
+      std::filesystem::create_directories(folder_);
+      mapping::write_file_atomically(folder_ / kMemoryFile, memory);
+    } catch (const std::exception& e) {
+      spdlog::warn("the recording cannot be replayed: {}", e.what());
+    }
+  }
+
   const DeviceRunOptions& options_;
   std::filesystem::path folder_;
   std::unique_ptr<Recorder> recorder_;
