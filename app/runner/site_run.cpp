@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <set>
 #include <utility>
 
 #include "app/cycle/stages.hpp"
@@ -17,16 +18,21 @@
 namespace madori::app {
 namespace {
 
-/// Lends a link to one run after the other.
+/// Lends a link to one run after the other. The revolution that is under way when a run begins is not handed
+/// on: its first packets are not in the run's recording, which could not be replayed.
 class LentLink final : public VehicleLink {
  public:
   explicit LentLink(VehicleLink& link) : link_(link) {}
-  void collect(CycleInput& input) override { link_.collect(input); }
+  void collect(CycleInput& input) override {
+    link_.collect(input);
+    std::erase_if(input.clouds, [this](const auto& cloud) { return begun_.insert(cloud.lidar).second; });
+  }
   void send(const CycleOutput& output) override { link_.send(output); }
   [[nodiscard]] std::string problem() const override { return link_.problem(); }
 
  private:
   VehicleLink& link_;
+  std::set<std::size_t> begun_;  ///< lidars of which a first revolution has come
 };
 
 constexpr Duration kTryAgain = std::chrono::seconds(3);
