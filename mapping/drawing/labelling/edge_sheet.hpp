@@ -21,7 +21,6 @@ struct Edge {
 struct EdgeSheet {
   GrayImage grey;  ///< the drawing, with its colours, at the resolution that edges are looked for in; greys
                    ///< spread from 0 to 255, turned round where the ground is dark
-  bool dark_ground = false;
   double factor = 1;  ///< its pixels for one of the drawing
   std::vector<Edge> edges;
   std::vector<std::int32_t> edge_at;  ///< row-major; the edge that crosses a pixel, -1 where none does
@@ -40,8 +39,7 @@ struct EdgeSheet {
 
 /// Edges by the line segment detector of R. Grompone von Gioi et al., "LSD", IEEE PAMI 32 (2010), which needs
 /// no threshold of the drawing: a pale line is found as well as a bold one. Small drawings are enlarged
-/// twice, large ones reduced, so that a pen has about the same width. Throws Error where the drawing is
-/// noise.
+/// twice, large ones reduced, so that a pen has about the same width.
 [[nodiscard]] EdgeSheet find_edges(const GrayImage& drawing);
 
 }  // namespace madori::mapping

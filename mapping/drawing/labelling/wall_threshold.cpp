@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kAsGood = 0.99;  // of the largest expected F measure: nobody can tell these thresholds apart
 constexpr double kCertain = 1e-3;  // no judgement is more certain than that
-constexpr double kBlur = 1;        // of a probability, natural logarithm of its odds
+constexpr double kBlur = 0.3;      // of a probability, natural logarithm of its odds
 constexpr std::size_t kPlaces = 60;
 
 double odds(double p) {
@@ -33,9 +33,9 @@ double emptiest(double low, double high, const std::vector<float>& probabilities
   return std::clamp(1 / (1 + std::exp(-(from + static_cast<double>(least) * step))), low, high);
 }
 
-/// The threshold of the largest score, and the strictest one that nobody can tell from it.
+/// The threshold of the largest score, and those that nobody can tell from it.
 struct Range {
-  double best = 0.5, strictest = 0.5;
+  double best = 0.5, loosest = 0.5, strictest = 0.5;
 };
 
 Range best_range(const std::vector<float>& probabilities, const std::vector<Edge>& edges, double strictness) {
@@ -54,10 +54,12 @@ Range best_range(const std::vector<float>& probabilities, const std::vector<Edge
     scores.push_back(right / (strictness * taken + expected));  // grows with the F measure
     if (scores.back() > best) best = scores.back(), range.best = probabilities[i];
   }
-  range.strictest = range.best;
+  range.strictest = 0;
   for (std::size_t k = 0; k < order.size(); ++k)
-    if (scores[k] >= kAsGood * best)
-      range.strictest = std::max<double>(range.strictest, probabilities[order[k]]);
+    if (scores[k] >= kAsGood * best) {
+      range.loosest = probabilities[order[k]];
+      range.strictest = std::max(range.strictest, range.loosest);
+    }
   return range;
 }
 
@@ -67,7 +69,7 @@ double wall_threshold(const std::vector<float>& probabilities, const std::vector
                       double strictness) {
   const Range even = best_range(probabilities, edges, 1);
   const double between =
-      edges.empty() ? even.best : emptiest(even.best, even.strictest, probabilities, edges);
+      edges.empty() ? even.best : emptiest(even.loosest, even.strictest, probabilities, edges);
   if (strictness == 1) return between;
   // a person's strictness moves the threshold by as much as it moves the best one
   const double shift = odds(best_range(probabilities, edges, strictness).best) - odds(even.best);

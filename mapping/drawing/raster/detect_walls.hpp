@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mapping/drawing/gray_image.hpp"
+#include "mapping/drawing/labelling/label_lines.hpp"
 #include "mapping/drawing/pixel_segment.hpp"
 #include "mapping/drawing/raster/detection_options.hpp"
 
@@ -15,12 +16,12 @@ namespace madori::mapping {
 struct StageReport {
   std::string name;
   double milliseconds = 0;
-  std::size_t count = 0;  ///< how many things (edges, features, lines) it left
+  std::size_t count = 0;  ///< how many things (pixels, marks, lines) it left
 };
 
 struct DetectedWalls {
   std::vector<PixelSegment> walls;        ///< faces and single lines, Image frame
-  std::vector<double> probabilities;      ///< one a wall; empty where a vector drawing says it for sure
+  std::vector<double> probabilities;      ///< one a wall; empty where the rules decided
   std::vector<RejectedSegment> rejected;  ///< lines that were taken for something else
   double skew_deg = 0;  ///< how far the drawing's axes are turned, (-45, 45], counter-clockwise
   std::vector<StageReport> stages;
@@ -32,8 +33,8 @@ using StageSink = std::function<void(const std::string& stage, const GrayImage& 
 using Progress = std::function<void(const std::string& stage, double share)>;
 
 /// The walls of a drawing. An empty answer is no error: the caller says what to try next.
-/// Throws Error on invalid options, an empty picture or noise. docs/explanation/how-walls-are-found.md.
-[[nodiscard]] DetectedWalls read_drawing(const GrayImage& image, const DetectionOptions& options,
+/// Throws Error on invalid options or an empty picture. docs/explanation/how-walls-are-found.md.
+[[nodiscard]] DetectedWalls detect_walls(const GrayImage& image, const DetectionOptions& options,
                                          const StageSink& sink = {}, const Progress& progress = {});
 
 }  // namespace madori::mapping
