@@ -108,6 +108,7 @@ struct CycleInput {
   std::vector<LaserScan> scans;             ///< of planar lidars
   std::vector<std::int64_t> firings_us;     ///< the lidar's own time of each cloud's begin, for recordings
   std::vector<sensors::RawPacket> packets;  ///< what they were assembled from, for recordings
+  bool thinking = false;                    ///< localization's thinking beside the cycle is not finished
   bool protective_stop = false;             ///< a certified scanner's protective field is interrupted
   std::vector<OperatorCommand> commands;
   std::optional<Order> order;  ///< the running order as it is stored

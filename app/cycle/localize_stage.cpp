@@ -136,6 +136,7 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
 
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   bool restarted = false;
+  state.localization->set_thinking(input.thinking);
   for (const auto& status : input.drive) {
     const bool off = state.drive_heard && was_switched_off(state, status, input.now);
     restarted = restarted || off;

@@ -17,7 +17,7 @@ namespace madori::app {
 
 /// What the cycle asks of localization. Estimates are the building's metres, laid rigidly on the drawing;
 /// what a person says and reads are places on the drawing. Deterministic: the same calls give the same poses
-/// bit for bit.
+/// bit for bit, is_thinking() alone excepted.
 class PoseSource {
  public:
   PoseSource() = default;
@@ -35,6 +35,11 @@ class PoseSource {
   virtual void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) = 0;
   /// Forgets the pose: the place is sought anew on the whole drawing.
   virtual void search_anew() = 0;
+  /// Whether what it thinks over beside the cycle is not finished: an input of the next step, as time
+  /// decides.
+  [[nodiscard]] virtual bool is_thinking() const { return false; }
+  /// In this step that is so: nothing waits for it. Where it is not said, what is due is waited for.
+  virtual void set_thinking(bool /*thinking*/) {}
   /// Where the vehicle may be at the newest reading of the wheels, likeliest first; empty before a
   /// revolution.
   [[nodiscard]] virtual std::vector<PoseHypothesis> hypotheses() const = 0;

@@ -38,6 +38,8 @@ class LocalizerPose final : public PoseSource {
     localizer_.set_pose(map_from_base, sigma);
   }
   void search_anew() override { localizer_.search_anew(); }
+  [[nodiscard]] bool is_thinking() const override { return localizer_.is_thinking(); }
+  void set_thinking(bool thinking) override { localizer_.set_thinking(thinking); }
   [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return localizer_.hypotheses(); }
   [[nodiscard]] std::shared_ptr<const localization::BentDrawing> bent() const override {
     return localizer_.bent();

@@ -146,6 +146,7 @@ std::string input_text(const CycleInput& input, const PoseEstimate& pose) {
              {"pose", pose_json(pose)}};
   if (!input.scans.empty()) value["scans"] = scans_json(input);
   for (const auto& status : input.drive) value["drive"].push_back(status_json(status));
+  if (input.thinking) value["thinking"] = true;
   if (input.protective_stop) value["protective_stop"] = true;
   for (const auto& command : input.commands) value["words"].push_back(word_json(command));
   if (input.order) value["order"] = order_json(*input.order);
@@ -159,6 +160,7 @@ CycleInput input_from_text(const std::string& text) {
     CycleInput input;
     input.now = Stamp(Duration(value.at("now").get<std::int64_t>()));
     for (const json& status : value.value("drive", json::array())) input.drive.push_back(status_from(status));
+    input.thinking = value.value("thinking", false);
     input.protective_stop = value.value("protective_stop", false);
     for (const json& word : value.value("words", json::array())) input.commands.push_back(word_from(word));
     if (value.contains("order")) input.order = order_from(value.at("order"));

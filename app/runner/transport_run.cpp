@@ -21,7 +21,7 @@ TransportRun::TransportRun(CycleConfig config, std::unique_ptr<PoseSource> sourc
       store_(options.site / "madori.db"),
       events_(options.site / "madori.db"),
       state_(config_, std::move(source)) {
-  if (options_.detours_in_step)
+  if (options_.lock_step)
     detour_options_.free_space.max_checks = kDetourChecks;
   else
     planner_ = std::make_unique<planning::DetourPlanner>(config_.check, detour_options_);
@@ -104,6 +104,7 @@ void TransportRun::tick(Stamp now) {
   CycleInput input;
   input.now = now;
   link_->collect(input);
+  input.thinking = !options_.lock_step && state_.localization->is_thinking();
   work_on_store([&] { look_for_orders(now); });
   input.order = order_;
   input.detour = planner_ ? planner_->take() : std::exchange(answer_, std::nullopt);

@@ -30,8 +30,9 @@ struct VehicleView {
 
 struct TransportOptions {
   std::filesystem::path site;
-  bool detours_in_step =
-      false;  ///< plan detours within the tick, bounded by checks instead of time: lock-step runs
+  /// Lock-step runs: what a live run does beside its steps (detours, localization's thinking) is waited for,
+  /// and bounded by work instead of time.
+  bool lock_step = false;
   double store_poll_s = 0.5;  ///< how often new and cancelled orders are looked for
 };
 

@@ -23,8 +23,9 @@ namespace madori::localization {
 
 /// Odometry, scans and the drawing become map_from_base, the building's metres laid rigidly on the drawing:
 /// the one localizer, for logs and for driving, for 2D scans and for the wall points of a 3D lidar.
-/// Deterministic: the same readings in the same order give the same poses bit for bit, though the map is
-/// worked on in a thread beside. Causal: an estimate uses what was handed in before it.
+/// Deterministic: the same readings in the same order (and the same words of set_thinking) give the same
+/// poses bit for bit, though the map is worked on in a thread beside. Causal: an estimate uses what was
+/// handed in before it.
 class Localizer {
  public:
   /// Without `initial` the place is sought on the whole drawing from what is seen (global localization).
@@ -44,6 +45,12 @@ class Localizer {
   /// too.
   void recall(Memory memory);
   [[nodiscard]] bool has_recalled() const { return recalled_; }
+
+  /// Whether what is thought over beside the cycle is not finished; false where nothing is. The one thing of
+  /// this class that depends on time.
+  [[nodiscard]] bool is_thinking() const { return worker_.is_unfinished(); }
+  /// For the scans to come: what is not finished is not waited for, however due it is. Not said: it is.
+  void set_thinking(bool thinking) { thinking_ = thinking; }
 
   /// The pose at the reading; a reading older than its forerunner is answered but not used.
   PoseEstimate on_odometry(const OdometryReading& reading);
@@ -101,7 +108,8 @@ class Localizer {
   SurroundingsCheck surroundings_;
   Stamp begun_{};  ///< the memory, with its first scan
   int keyframes_since_thinking_ = 0;
-  MapWorker worker_;  ///< last: it ends first
+  bool thinking_ = false;  ///< as set_thinking() says
+  MapWorker worker_;       ///< last: it ends first
 };
 
 }  // namespace madori::localization

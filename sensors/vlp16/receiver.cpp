@@ -9,8 +9,9 @@ Receiver::Receiver(const ReceiverOptions& options, FrameSink sink, Tap tap)
   // Only the data thread touches the assembler; what others may ask for is copied under the lock.
   const auto on_data = [this](std::span<const std::uint8_t> bytes, Stamp received, const io::Sender& sender) {
     if (!admits(sender, received)) return;
-    const PushVerdict verdict = assembler_.push(bytes, received);
+    // Before the revolution that it completes: who collects both never has a revolution without its packets.
     if (tap_ && bytes.size() == kDataBytes) tap_(bytes, received);
+    const PushVerdict verdict = assembler_.push(bytes, received);
     const std::lock_guard lock(mutex_);
     counters_ = assembler_.counters();
     foreign_sensor_ = assembler_.foreign_sensor();

@@ -2,7 +2,8 @@
 
 What the first life learned is kept with the site: the wall reliability, and the pose together with the wheels'
 counters. The second life stands where the first one stopped, says so, and delivers. A third one, after the stored pose was
-made to lie about the wheels, looks for the place anew and finds it by what the others remembered, which its recording holds.
+made to lie about the wheels, looks for the place anew and finds it by what the others remembered; its recording is replayed
+bit for bit.
 
     restart_test.py MADORI DATA
 """
@@ -160,6 +161,7 @@ def main():
         said = third.end()
         run = next((site / "runs").iterdir())
         demand((run / "memory.bin").stat().st_size == remembered, "the recording does not hold what the run began with")
+        subprocess.run([arguments.madori, "replay", site, run], check=True, stdout=subprocess.DEVNULL)
         demand("the wheels have turned" in said, f"a lying pose was believed:\n{said}")
         sim.send_signal(signal.SIGINT)
         sim.wait(20)

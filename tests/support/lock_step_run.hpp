@@ -28,7 +28,7 @@ class LockStepRun {
       : factory(std::make_shared<simulation::Factory>(setup)), begun_(factory->now()) {
     app::TransportOptions options;
     options.site = database_.path();
-    options.detours_in_step = true;
+    options.lock_step = true;
     options.store_poll_s = 0.1;
     run = std::make_unique<app::TransportRun>(
         site.config,

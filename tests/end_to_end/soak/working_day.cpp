@@ -51,7 +51,7 @@ WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int numb
   factory_ = std::make_shared<simulation::Factory>(setup);
   app::TransportOptions transport;
   transport.site = options.database;
-  transport.detours_in_step = true;
+  transport.lock_step = true;
   transport.store_poll_s = 0.5;
   app::LocalizerPoseOptions pose;
   if (!options.living_map.empty()) watch_map(pose);

@@ -65,6 +65,7 @@ TEST(InputText, ComesBackToTheLastBit) {
   input.now = stamp_from_seconds(1.7e9 + 0.123456789);
   input.drive.push_back(
       {.sequence = 7, .faults = 3, .time_us = 123, .left_angle = 16383, .battery_mv = 25'000});
+  input.thinking = true;
   input.protective_stop = true;
   input.commands.push_back({OperatorWord::Jog, {0.1, -1.0 / 3.0}});
   input.commands.push_back({OperatorWord::SetPose, {}, {{1.0 / 3.0, -7.1}, 1.0 / 7.0, {0.3, 0.1}}});
@@ -74,6 +75,7 @@ TEST(InputText, ComesBackToTheLastBit) {
   EXPECT_EQ(back.now, input.now);
   ASSERT_EQ(back.drive.size(), 1U);
   EXPECT_EQ(back.drive[0].left_angle, 16383);
+  EXPECT_TRUE(back.thinking);
   EXPECT_TRUE(back.protective_stop);
   EXPECT_EQ(back.commands[0].jog, input.commands[0].jog);
   EXPECT_EQ(back.commands[1].given_pose, input.commands[1].given_pose);

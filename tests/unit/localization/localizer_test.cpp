@@ -98,6 +98,31 @@ TEST(Localizer, TheSameReadingsGiveTheSamePosesBitForBit) {
   }
 }
 
+TEST(Localizer, WhereThinkingIsNotWaitedForTheSameWordsGiveTheSamePoses) {
+  std::mt19937 engine(14);
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  const InitialPose begin{moments.front().truth};
+  Localizer live(walls, begin), again(walls, begin), waiting(walls, begin);
+  int unfinished = 0, otherwise = 0;
+  for (const auto& m : moments) {
+    for (Localizer* l : {&live, &again, &waiting}) (void)l->on_odometry(m.odometry);
+    if (!m.has_scan) continue;
+    const bool thinking = live.is_thinking();  // the scans come faster than thoughts: nothing holds them up
+    unfinished += thinking ? 1 : 0;
+    live.set_thinking(thinking);
+    again.set_thinking(thinking);
+    const ScanPoints points = scan_points(m.scan, {});
+    const auto pose = live.on_scan(m.scan.stamp, points).map_from_base;
+    const auto same = again.on_scan(m.scan.stamp, points).map_from_base;
+    ASSERT_EQ(pose.x_m(), same.x_m());
+    ASSERT_EQ(pose.yaw_rad(), same.yaw_rad());
+    otherwise += waiting.on_scan(m.scan.stamp, points).map_from_base.x_m() != pose.x_m() ? 1 : 0;
+  }
+  EXPECT_GT(unfinished, 0);
+  EXPECT_GT(otherwise, 0);
+}
+
 TEST(Localizer, SurvivesEmptyScansAndLateReadings) {
   std::mt19937 engine(15);
   const mapping::Walls walls = test::laboratory_hall();
