@@ -16,14 +16,19 @@ import subprocess
 import sys
 
 import yaml
+from PIL import Image
 
+Image.MAX_IMAGE_PIXELS = None
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BENCH = ROOT / "build/release/tests/bench"
 # The older drawings, which the shipped model must know: metres a pixel, how near its truth a line is a wall (they are
 # scored with 0.15 m; the truth of the hotel lies beside its walls by about that), weight beside a drawing of the corpus.
 HOME = {"office": (0.00846, 0.1, 10), "clinic": (0.02692, 0.1, 10), "hotel_L1": (0.05568, 0.15, 5),
         "mlstruct_7db30954": (0.00474825, 0.1, 10), "mlstruct_8888a588": (0.00272847, 0.1, 10)}
-SKETCHES = 80  # plans of a few rooms
+# Plans of the draughtsman of one kind: option, how many, first seed.
+KINDS = {"sketches": (80, 10001), "factories": (120, 20001)}
+COARSER = 0.7  # of the size that the import reduces a drawing to, or of its own
+SHEET_PX = 7e6
 GROUPS = 5  # models that leave sources out: each leaves out every fifth source at least
 
 
@@ -56,18 +61,40 @@ def rows(data):
     yield "sample_factory", "home", 10, factory / "factory_scan.png", factory / "true_walls_scan_px.csv", 4, "faces", ""
 
 
+def coarser(row, folder):
+    """The same drawing as a coarser scan has it, with half the weight: what is a wall does not hang on the resolution."""
+    name, source, weight, drawing, walls, tolerance, truth, boxes = row
+    drawn = Image.open(drawing).convert("RGBA")
+    picture = Image.new("RGBA", drawn.size, "white")
+    picture.alpha_composite(drawn)
+    picture = picture.convert("RGB")
+    scale = COARSER * min(1, (SHEET_PX / (picture.width * picture.height)) ** 0.5)
+    out = folder / f"{name}_coarser.png"
+    picture.resize((round(scale * picture.width), round(scale * picture.height)), Image.Resampling.BOX).save(out)
+    with open(walls, encoding="utf-8") as file:
+        lines = [",".join(str(scale * float(line[key])) for key in ("u1", "v1", "u2", "v2")) for line in csv.DictReader(file)]
+    out.with_suffix(".csv").write_text("\n".join(["u1,v1,u2,v2", *lines, ""]), encoding="utf-8")
+    return (f"{name}_coarser", source, weight / 2, out, out.with_suffix(".csv"), scale * tolerance, truth,
+            " ".join(str(scale * float(value)) for value in boxes.split()))
+
+
 def measure(args):
     args.sheets.mkdir(parents=True, exist_ok=True)
     plans = args.sheets / "plans"
     if not (plans / "list.csv").exists():
         subprocess.run([BENCH / "draughtsman", plans, "--plans", str(args.plans)], check=True)
-        subprocess.run([BENCH / "draughtsman", plans / "sketches", "--plans", str(SKETCHES), "--first-seed", "10001",
-                        "--sketches"], check=True)
+    for kind, (count, seed) in KINDS.items():
+        if not (plans / kind / "list.csv").exists():
+            subprocess.run([BENCH / "draughtsman", plans / kind, "--plans", str(count), "--first-seed", str(seed), f"--{kind}"],
+                           check=True)
     with open(args.sheets / "real.csv", "w", encoding="utf-8", newline="") as file:
         file.write("name,source,weight,drawing,walls,tolerance_px,truth,ignore\n")
-        csv.writer(file, lineterminator="\n").writerows(rows(args.data))
-    for table in (args.sheets / "real.csv", plans / "list.csv", plans / "sketches/list.csv"):
-        subprocess.run([BENCH / "measure_sheets", table, args.sheets], check=True, stdout=subprocess.DEVNULL)
+        real = list(rows(args.data))
+        csv.writer(file, lineterminator="\n").writerows([*real, *(coarser(row, plans) for row in real)])
+    tables = [args.sheets / "real.csv", plans / "list.csv", *(plans / kind / "list.csv" for kind in KINDS)]
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        list(pool.map(lambda table: subprocess.run([BENCH / "measure_sheets", table, args.sheets], check=True,
+                                                   stdout=subprocess.DEVNULL), tables))
 
 
 def main():

@@ -1,5 +1,5 @@
 // Draws plans in many styles, their walls known: what the wall model is trained on beside real drawings.
-//   draughtsman FOLDER --plans N [--first-seed S] [--sketches]
+//   draughtsman FOLDER --plans N [--first-seed S] [--sketches | --factories]
 // writes FOLDER/plan_SEED.png, plan_SEED.csv (u1,v1,u2,v2) and FOLDER/list.csv (the rows that train_walls
 // reads). A seed is a plan: the same seed draws the same picture.
 #include <algorithm>
@@ -27,16 +27,19 @@ struct Placed {
 
 class Plan {
  public:
-  Plan(unsigned seed, bool sketch)
-      : chance_(seed), style_(sketch ? random_sketch(chance_) : random_style(chance_)) {
+  Plan(unsigned seed, PlanStyle (*style)(Chance&)) : chance_(seed), style_(style(chance_)) {
     choose_wings();
     Box whole = extent();
-    const double margin = chance_.between(12, 60) + (style_.dimensions > 0 ? 45 : 0);
-    const double most = chance_.scaled(420, 2400), longest = std::max(whole.width, whole.height);
+    double margin = chance_.between(12, 60) + (style_.dimensions > 0 ? 45 : 0);
+    double most = chance_.scaled(420, 2400);
+    const double longest = std::max(whole.width, whole.height);
+    if (style_.light)
+      most = std::max(most, chance_.scaled(800, 2000)), margin += most * chance_.between(0.05, 0.2);
     style_.px_per_m = std::clamp(most / longest, 7.0, 90.0);
     // what is thinner than some pixels cannot be told from a pen
     style_.outer_m = std::max(style_.outer_m, 4.5 / style_.px_per_m);
     style_.inner_m = std::max(style_.inner_m, 3.5 / style_.px_per_m);
+    if (style_.light) style_.light->thickness_m = std::max(style_.light->thickness_m, 1.8 / style_.px_per_m);
     if (chance_.one_in(0.3)) style_.text_px = std::min(40.0, style_.text_px * style_.px_per_m / 25);
     origin_ = Point(margin, margin) - whole.tl() * style_.px_per_m;
     sheet_ = {whole.width * style_.px_per_m + 2 * margin, whole.height * style_.px_per_m + 2 * margin};
@@ -45,8 +48,10 @@ class Plan {
 
   cv::Mat draw(std::vector<std::pair<Point, Point>>& truth) {
     PlanCanvas canvas(sheet_, style_);
-    canvas.stand_at({0, 0}, 0);
-    frame_sheet(canvas, style_, {0, 0, canvas.metres(sheet_.width), canvas.metres(sheet_.height)}, chance_);
+    canvas.stand_at({0, 0}, style_.light && std::abs(style_.turn_rad) < 0.06 ? style_.turn_rad : 0);
+    const Box sheet(0, 0, canvas.metres(sheet_.width), canvas.metres(sheet_.height));
+    style_.light ? frame_large_sheet(canvas, style_, sheet, chance_)
+                 : frame_sheet(canvas, style_, sheet, chance_);
     for (const Placed& p : wings_) {
       stand(canvas, p);
       annotate(canvas, style_, {0, 0, p.wing.width, p.wing.height}, chance_);
@@ -57,9 +62,10 @@ class Plan {
       for (const Box& room : p.wing.rooms) furnish(canvas, style_, room, chance_);
       columns(canvas, p.wing);
       for (const PlanWall& wall : p.wing.walls)
-        if (is_thick(wall)) thick(canvas, wall);
+        if (is_thick(wall) && !wall.light) thick(canvas, wall);
     }
     canvas.draw_bodies(chance_);
+    if (style_.light) light_walls(canvas);
     for (const Placed& p : wings_) {
       stand(canvas, p);
       for (const PlanWall& wall : p.wing.walls) openings(canvas, wall);
@@ -95,6 +101,8 @@ class Plan {
     for (int k = 0; k < count; ++k) {
       const auto [w, h] = size();
       wings_.push_back({random_wing(style_, w, h, chance_), at, turn});
+      if (style_.light)
+        for (PlanWall& wall : wings_.back().wing.walls) wall.light = !wall.outer && chance_.one_in(0.6);
       // the next wing starts at a corner of this one, and turns away from it
       const Point end = chance_.one_in(0.5) ? Point(w, 0) : Point(w, h * chance_.between(0.2, 0.8));
       at += Point(std::cos(turn) * end.x - std::sin(turn) * end.y,
@@ -150,8 +158,18 @@ class Plan {
       }
   }
 
+  void light_walls(PlanCanvas& canvas) {
+    for (const Placed& p : wings_) {
+      stand(canvas, p);
+      for (const PlanWall& wall : p.wing.walls)
+        if (wall.light) thick(canvas, wall);
+      for (const Box& room : p.wing.rooms) partition(canvas, style_, room, chance_);
+    }
+    canvas.draw_bodies(*style_.light);
+  }
+
   [[nodiscard]] double half_of(const PlanWall& wall) const {
-    return 0.5 * (wall.outer ? style_.outer_m : style_.inner_m);
+    return 0.5 * (wall.light ? style_.light->thickness_m : wall.outer ? style_.outer_m : style_.inner_m);
   }
   [[nodiscard]] static std::vector<Point> strip(Point a, Point b, double half) {
     const Point d = (b - a) / cv::norm(b - a), n(-d.y * half, d.x * half);
@@ -262,7 +280,7 @@ class Plan {
 int main(int count, char** words) {
   std::string folder;
   unsigned first = 1, plans = 0;
-  bool sketches = false;
+  PlanStyle (*style)(Chance&) = random_style;
   for (int i = 1; i < count; ++i) {
     const std::string word = words[i];
     if (word == "--plans" && i + 1 < count) {
@@ -270,20 +288,22 @@ int main(int count, char** words) {
     } else if (word == "--first-seed" && i + 1 < count) {
       first = static_cast<unsigned>(std::stoul(words[++i]));
     } else if (word == "--sketches") {
-      sketches = true;
+      style = random_sketch;
+    } else if (word == "--factories") {
+      style = random_factory;
     } else {
       folder = word;
     }
   }
   if (folder.empty() || plans == 0) {
-    std::fprintf(stderr, "draughtsman FOLDER --plans N [--first-seed S] [--sketches]\n");
+    std::fprintf(stderr, "draughtsman FOLDER --plans N [--first-seed S] [--sketches | --factories]\n");
     return 2;
   }
   std::filesystem::create_directories(folder);
   std::ofstream list(folder + "/list.csv");
   list << "name,source,weight,drawing,walls,tolerance_px,truth,ignore\n";
   for (unsigned seed = first; seed < first + plans; ++seed) {
-    Plan plan(seed, sketches);
+    Plan plan(seed, style);
     const std::string stem = folder + "/plan_" + std::to_string(seed);
     std::vector<std::pair<Point, Point>> truth;
     cv::imwrite(stem + ".png", plan.draw(truth));

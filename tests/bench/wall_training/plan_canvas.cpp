@@ -129,7 +129,15 @@ void PlanCanvas::draw_bodies(Chance& chance) {
   } else if (style_.body != Body::Double && style_.body != Body::MixedDouble && style_.body != Body::Single) {
     picture_.setTo(style_.wall_fill, bodies_);
   }
-  outline_bodies();
+  outline_bodies(style_.outline, style_.wall_pen,
+                 style_.body == Body::Double || style_.body == Body::Hatched ||
+                     style_.body == Body::FilledOutlined || style_.body == Body::MixedDouble);
+}
+
+void PlanCanvas::draw_bodies(const LightWalls& light) {
+  bodies_.setTo(0, drawn_);
+  picture_.setTo(light.body == Body::Double ? style_.ground : light.fill, bodies_);
+  outline_bodies(light.outline, light.pen, light.body != Body::Filled);
 }
 
 void PlanCanvas::hatch_bodies(Chance& chance) {
@@ -145,22 +153,22 @@ void PlanCanvas::hatch_bodies(Chance& chance) {
 }
 
 /// The outlines of the bodies are drawn, where the style draws them, and are what is true.
-void PlanCanvas::outline_bodies() {
+void PlanCanvas::outline_bodies(const cv::Scalar& colour, double pen_px, bool outlined) {
   std::vector<std::vector<cv::Point>> outlines;
   cv::findContours(bodies_, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_SIMPLE);
-  const bool outlined = style_.body == Body::Double || style_.body == Body::Hatched ||
-                        style_.body == Body::FilledOutlined || style_.body == Body::MixedDouble;
   for (auto& outline : outlines) {
     std::vector<cv::Point> corners;
     cv::approxPolyDP(outline, corners, 0.8 * fine_, true);
     if (corners.size() < 2) continue;
-    if (outlined) cv::polylines(picture_, corners, true, style_.outline, pen(style_.wall_pen));
+    if (outlined) cv::polylines(picture_, corners, true, colour, pen(pen_px));
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const cv::Point &a = corners[k], &b = corners[(k + 1) % corners.size()];
       truth_.emplace_back(Point((a.x + 0.5) / fine_, (a.y + 0.5) / fine_),
                           Point((b.x + 0.5) / fine_, (b.y + 0.5) / fine_));
     }
   }
+  drawn_ = bodies_.clone();
+  bodies_.setTo(0);
 }
 
 cv::Mat PlanCanvas::copied(Chance& chance) const {

@@ -37,6 +37,8 @@ class PlanCanvas {
   /// Walls are gathered before they are drawn, so that they run into each other at corners.
   void wall_body(const std::vector<Point>& points, bool cut);
   void draw_bodies(Chance& chance);
+  /// What was gathered since, in another way; where there are walls already they stay.
+  void draw_bodies(const LightWalls& light);
   void wall_line(Point a, Point b, const cv::Scalar& colour, double pen_px);
   void truth_line(Point a, Point b) { truth_.emplace_back(on_sheet(a), on_sheet(b)); }
 
@@ -49,12 +51,12 @@ class PlanCanvas {
   [[nodiscard]] cv::Point fine(Point metres) const;
   [[nodiscard]] int pen(double px) const;
   void hatch_bodies(Chance& chance);
-  void outline_bodies();
+  void outline_bodies(const cv::Scalar& colour, double pen_px, bool outlined);
 
   const PlanStyle& style_;
   double fine_ = 3;
   cv::Size sheet_;
-  cv::Mat picture_, bodies_;
+  cv::Mat picture_, bodies_, drawn_;
   Point origin_;
   double cosine_ = 1, sine_ = 0;
   std::vector<std::pair<Point, Point>> truth_;

@@ -38,7 +38,7 @@ class Splitter {
 
  private:
   void wall(Point a, Point b, bool outer = false) {
-    if (cv::norm(b - a) > 0.2) wing_.walls.push_back({a, b, outer, {}});
+    if (cv::norm(b - a) > 0.2) wing_.walls.push_back({a, b, outer, false, {}});
   }
 
   /// The outline, here and there with a step or a corner cut off.

@@ -13,7 +13,7 @@ struct Opening {
 
 struct PlanWall {
   Point a, b;
-  bool outer = false;
+  bool outer = false, light = false;
   std::vector<Opening> openings;  ///< in order, apart
 
   [[nodiscard]] double length() const { return cv::norm(b - a); }

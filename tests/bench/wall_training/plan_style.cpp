@@ -153,4 +153,29 @@ PlanStyle random_sketch(Chance& chance) {
   return s;
 }
 
+PlanStyle random_factory(Chance& chance) {
+  PlanStyle s = random_style(chance);
+  s.building = chance.one_in(0.6)   ? Building::Hall
+               : chance.one_in(0.5) ? Building::Warehouse
+                                    : Building::Office;
+  s.body = chance.of<Body>({Body::Hatched, Body::Hatched, Body::FilledOutlined, Body::Double, Body::Filled});
+  if (s.body == Body::Filled) s.wall_fill = s.wall;
+  s.wall_pen = std::min(s.wall_pen, 3.0);
+  s.room_colours = chance.one_in(0.2) ? 1 : 0;
+  s.dimensions = chance.between(0, 1.5);
+  s.axes = chance.between(0, 1.5);
+  s.frame = chance.between(0.5, 3);
+  s.title = 1;
+  if (chance.one_in(0.5)) s.turn_rad = chance.between(-0.05, 0.05);
+  LightWalls light;
+  light.body = chance.of<Body>({Body::Double, Body::Double, Body::FilledOutlined, Body::Filled});
+  light.outline = chance.one_in(0.5) ? s.outline : blend(s.outline, s.ground, chance.between(0.1, 0.6));
+  light.fill =
+      light.body == Body::Filled ? light.outline : blend(s.ground, light.outline, chance.between(0.1, 0.6));
+  light.pen = s.wall_pen * chance.between(0.4, 1);
+  light.thickness_m = chance.between(0.06, 0.2);
+  s.light = light;
+  return s;
+}
+
 }  // namespace madori::training

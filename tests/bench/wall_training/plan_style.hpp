@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "tests/bench/wall_training/chance.hpp"
 
@@ -9,6 +10,13 @@ namespace madori::training {
 enum class Building { Flat, Office, Hall, Warehouse };
 /// How walls are drawn. Mixed: outer walls thick, inner ones single lines.
 enum class Body { Single, Double, Filled, Hatched, FilledOutlined, MixedFilled, MixedDouble };
+
+/// How light walls of a factory are drawn beside its masonry: those of inner rooms, cabins, screens.
+struct LightWalls {
+  Body body = Body::Double;
+  cv::Scalar fill, outline;
+  double pen = 1, thickness_m = 0.1;
+};
 
 /// How a draughtsman draws a plan: pens in pixels of the sheet, lengths in metres, colours blue-green-red.
 struct PlanStyle {
@@ -26,6 +34,7 @@ struct PlanStyle {
          zones = 0, scale_bar = 0;
   double overhead = 0.12;  ///< share of rooms with a dashed line above
   bool few_rooms = false;
+  std::optional<LightWalls> light;  ///< a factory's sheet: with a title block, creases, cabins, screens
   double turn_rad = 0;
   bool aliased = false;
   double blur_px = 0, noise = 0, shade = 0, fold = 0;
@@ -40,6 +49,8 @@ struct PlanStyle {
 [[nodiscard]] PlanStyle random_style(Chance& chance);
 /// A few rooms and hardly anything in them, mostly with a single pen.
 [[nodiscard]] PlanStyle random_sketch(Chance& chance);
+/// A hall or a works with its offices, on a large sheet with a title block.
+[[nodiscard]] PlanStyle random_factory(Chance& chance);
 /// A colour between two others.
 [[nodiscard]] cv::Scalar blend(const cv::Scalar& a, const cv::Scalar& b, double t);
 [[nodiscard]] cv::Scalar bright_colour(Chance& chance);
