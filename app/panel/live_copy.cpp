@@ -40,6 +40,14 @@ bool is_fresh(const std::optional<Stamp>& heard, Stamp now) {
   return heard && to_seconds(now - *heard) < kSilent_s;
 }
 
+/// Who stands learns nothing more: as soon as there are ranked places a person is asked, however unsure they
+/// are.
+std::string locate_state(LocalizationState known, bool sees, bool has_places) {
+  if (known == LocalizationState::Localized || known == LocalizationState::Degraded) return "located";
+  if (!sees) return "blind";
+  return has_places ? "ambiguous" : "searching";
+}
+
 std::uint64_t cell_of(const Point2<Base>& at) {
   const auto half = [](double value) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::lround(value / kScanCell_m)));
@@ -133,11 +141,12 @@ void LiveCopy::take_devices(Stamp now, const std::vector<LidarModel>& lidars,
     live_.devices.push_back({"devices", "link", false, 0.0, std::nullopt, uncoded(problem)});
 }
 
-void LiveCopy::show(const CycleInput& input, const CycleState& state, const TransportRun& run) {
+void LiveCopy::show(const CycleInput& input, const CycleState& state, const CycleConfig& config,
+                    const std::string& device_problem) {
   const std::scoped_lock lock(mutex_);
   mode_ = state.mode;
   count_revolutions(input);
-  take_scan(input, run.config().lidars, state.site->on_drawing(state.pose.map_from_base));
+  take_scan(input, config.lidars, state.site->on_drawing(state.pose.map_from_base));
   if (!due(input.now)) return;
   enter(to_string(state.mode), input.now);
   live_.drivable = true;
@@ -154,14 +163,13 @@ void LiveCopy::show(const CycleInput& input, const CycleState& state, const Tran
   live_.battery_v.reset();
   if (state.drive.battery_mv > 0 && is_fresh(state.drive_heard, input.now))
     live_.battery_v = state.drive.battery_mv / 1000.0;
-  live_.goal =
-      state.way.target ? node_name(run.config().routes, state.way.stop.node).value_or("") : std::string();
+  live_.goal = state.way.target ? node_name(config.routes, state.way.stop.node).value_or("") : std::string();
   live_.path.clear();
   for (const auto& point : state.way.plain.points)
     live_.path.push_back(state.site->on_drawing(point.position));
   live_.blocked.clear();
   if (state.way.blocked_since) live_.blocked.push_back(state.site->on_drawing(state.way.check.where));
-  take_devices(input.now, run.config().lidars, state.drive_heard, run.view().device_problem);
+  take_devices(input.now, config.lidars, state.drive_heard, device_problem);
   take_places(state, input.now);
 }
 
@@ -178,18 +186,8 @@ void LiveCopy::take_places(const CycleState& state, Stamp now) {
   live_.particles.clear();
   if (locate_.places.size() > 1)
     for (const auto& place : locate_.places) live_.particles.push_back(place.map_from_base);
-  switch (state.pose.health.state) {
-    case LocalizationState::Localized:
-    case LocalizationState::Degraded:
-      locate_.state = "located";
-      break;
-    case LocalizationState::Ambiguous:
-      locate_.state = "ambiguous";
-      break;
-    case LocalizationState::Lost:
-      locate_.state = is_fresh(state.lidar_heard, now) ? "searching" : "blind";
-      break;
-  }
+  locate_.state =
+      locate_state(state.pose.health.state, is_fresh(state.lidar_heard, now), !locate_.places.empty());
 }
 
 void LiveCopy::show_setup(const CycleInput& input, const std::string& problem) {
@@ -217,7 +215,9 @@ void LiveCopy::show_setup(const CycleInput& input, const std::string& problem) {
     return stamps.empty() ? std::nullopt : std::optional(stamps.back());
   };
   take_devices(input.now, lidars, newest(reports_), problem);
-  locate_ = {};
+  const bool sees =
+      std::ranges::any_of(heard_, [&](const auto& lidar) { return is_fresh(lidar.second, input.now); });
+  locate_ = {sees ? "setting-up" : "blind", {}};
 }
 
 void LiveCopy::set_odometer(double metres) {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/runner/transport_run.hpp"
+#include "app/cycle/cycle.hpp"
 #include "hmi/server/vehicle.hpp"
 
 namespace madori::app {
@@ -15,7 +15,8 @@ namespace madori::app {
 class LiveCopy {
  public:
   /// On the cycle's thread, after every step.
-  void show(const CycleInput& input, const CycleState& state, const TransportRun& run);
+  void show(const CycleInput& input, const CycleState& state, const CycleConfig& config,
+            const std::string& device_problem);
   /// On the same thread while the site cannot be driven yet: what the devices say.
   void show_setup(const CycleInput& input, const std::string& problem);
   /// The vehicle's odometer, metres; added to what is shown.

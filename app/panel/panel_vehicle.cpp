@@ -48,7 +48,7 @@ hmi::LiveState PanelVehicle::live() const {
 
 void PanelVehicle::observe(const CycleInput& input, const CycleState& state, const TransportRun& run) {
   meter_.count(input, state);
-  copy_.show(input, state, run);
+  copy_.show(input, state, run.config(), run.view().device_problem);
   if (state.lidar_heard == input.now) copy_.set_odometer(meter_.sums().distance_m);
 }
 

@@ -25,8 +25,9 @@ class TruePose : public app::PoseSource {
   void on_cloud(const PointCloud<Base>& /*cloud*/, const Transform2<Odom, Base>& /*odom*/) override {}
   void set_pose(const Transform2<Map, Base>& pose, const PoseSigma& /*sigma*/) override { given = pose; }
   void search_anew() override {}
-  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return {}; }
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses() const override { return places; }
   std::optional<Transform2<Map, Base>> given;
+  std::vector<PoseHypothesis> places;
   LocalizationState state = LocalizationState::Localized;
 
  private:

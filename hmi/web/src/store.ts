@@ -27,12 +27,24 @@ export function useStore<T>(store: Store<T>): T {
   return value;
 }
 
-/** Asks again every `period_ms` while the component is shown; keeps the last answer when one fails, and tells its age. */
-export function usePolled<T>(ask: () => Promise<T>, period_ms: number): { value: T | null; refresh: () => void; age_s: number } {
+/** What `select` makes of a store's value: the component is drawn anew only when that is another one. */
+export function useSelected<T, S extends string | number | boolean>(store: Store<T>, select: (value: T) => S): S {
+  const [value, setValue] = useState(() => select(store.value));
+  useEffect(() => {
+    setValue(select(store.value));
+    return store.watch((next) => setValue(select(next)));
+    // eslint-disable-next-line -- `select` is a function of its argument alone
+  }, [store]);
+  return value;
+}
+
+/** Asks again every `period_ms` while the component is shown and it is `wanted`; keeps the last answer when one fails, and tells its age. */
+export function usePolled<T>(ask: () => Promise<T>, period_ms: number, wanted = true): { value: T | null; refresh: () => void; age_s: number } {
   const [value, setValue] = useState<T | null>(null);
   const [turn, setTurn] = useState(0);
   const [age_s, setAge] = useState(0);
   useEffect(() => {
+    if (!wanted) return undefined;
     let shown = true;
     let came_ms = performance.now();
     const came = (answer: T) => {
@@ -49,6 +61,6 @@ export function usePolled<T>(ask: () => Promise<T>, period_ms: number): { value:
       clearInterval(timer);
     };
     // eslint-disable-next-line -- `ask` is a method of api
-  }, [turn, period_ms]);
+  }, [turn, period_ms, wanted]);
   return { value, refresh: () => setTurn((n) => n + 1), age_s };
 }

@@ -1,6 +1,6 @@
 // Two panels look on while the vehicle drives for half an hour, one of them on a processor throttled to a quarter: memory of
-// the page, bytes a second, frames a second. Usage: half_hour.mjs MADORI PAGE DATA SHOTS WIDTHxHEIGHT [MINUTES]
-import { writeFileSync } from "node:fs";
+// the page, bytes a second, frames a second, beside a page that holds nothing but two canvases as large. Usage: half_hour.mjs MADORI PAGE DATA SHOTS WIDTHxHEIGHT [MINUTES]
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { askServer as api, expect, touch } from "./browser.mjs";
 import { freeUdpPort, startFactory, startVehicle, temporaryFolder } from "./processes.mjs";
@@ -40,6 +40,37 @@ async function minuteOf(panel, seen) {
   seen.rows.push({ ...row, heap_MB: value("JSHeapUsedSize") / 1e6, nodes: value("Nodes") });
 }
 
+/** Frames a second of a page with nothing but the map's two canvases, drawn as often, throttled alike: what the machine can do. */
+async function emptyPage(browser, map) {
+  const page = await (await browser.newContext({ viewport: { width: given.width, height: given.height } })).newPage();
+  await page.setContent(`<canvas width=${map.width} height=${map.height} style="position:absolute"></canvas>`.repeat(2));
+  const session = await page.context().newCDPSession(page);
+  await session.send("Emulation.setCPUThrottlingRate", { rate: kThrottle });
+  const fps = await page.evaluate(() => new Promise((done) => {
+    const contexts = [...document.querySelectorAll("canvas")].map((canvas) => canvas.getContext("2d"));
+    const [{ canvas: { width, height } }] = contexts;
+    let painted = 0;
+    let drawn = 0;
+    const tick = () => { ++painted; requestAnimationFrame(tick); };
+    requestAnimationFrame(tick);
+    const timer = setInterval(() => requestAnimationFrame(() => {
+      if (++drawn % 2) contexts[0].putImageData(new ImageData(width, height), 0, 0);
+      contexts[1].clearRect(0, 0, width, height);
+      contexts[1].fillRect((7 * drawn) % width, height / 2, 30, 30);
+    }), 100);
+    setTimeout(() => { clearInterval(timer); done(painted / 10); }, 10_000);
+  }));
+  await page.context().close();
+  return fps;
+}
+
+/** Resident memory of all pages' processes, MB. */
+async function residentMB(browser) {
+  const { processInfo } = await (await browser.newBrowserCDPSession()).send("SystemInfo.getProcessInfo");
+  const kB = (id) => Number(readFileSync(`/proc/${id}/status`, "utf8").match(/VmRSS:\s+(\d+)/)[1]);
+  return processInfo.filter(({ type }) => type === "renderer").reduce((sum, { id }) => sum + kB(id) / 1000, 0);
+}
+
 /** An order without end; a fault of a busy machine is confirmed. */
 async function keepDriving(panel) {
   const orders = (await api(panel, "GET", "/api/orders")).json ?? [];
@@ -70,12 +101,18 @@ async function main(browser) {
   await keepDriving(panels[0]);
   await panels[0].page.waitForTimeout(35_000);  // the page keeps 30 s to look back on: until then it grows
   const seen = [await measure(panels[0], 1), await measure(panels[1], kThrottle)];
+  const map = await panels[0].page.locator(".map-canvas").first().boundingBox();
+  const resident = [];
   const odometer = async () => (await api(panels[0], "GET", "/api/statistics")).json.distance_m;
   const begun_m = await odometer();
   for (let i = 0; i < minutes; ++i) {
     await Promise.all(panels.map((panel, k) => minuteOf(panel, seen[k])));
     await keepDriving(panels[0]);
+    resident.push(await residentMB(browser));
+    console.log(`minute ${i + 1}: ${seen.map(({ rows }) => rows.at(-1)).map(({ kB_s, fps, heap_MB }) => `${kB_s.toFixed(0)} kB/s ${fps.toFixed(1)} frames/s ${heap_MB.toFixed(2)} MB`).join("; ")}; resident ${resident.at(-1).toFixed(0)} MB`);
   }
+  const empty = await emptyPage(browser, map);
+  console.log(`a page with nothing but two canvases of ${map.width} x ${map.height}, processor / ${kThrottle}: ${empty.toFixed(1)} frames/s; resident ${resident[0].toFixed(0)} to ${resident.at(-1).toFixed(0)} MB, both panels`);
   await picture(panels[1], "half-hour");
   console.log(`${minutes} minutes, ${((await odometer()) - begun_m).toFixed(0)} m driven`);
   const walls = (await api(panels[0], "GET", "/api/site/walls/seen")).json;

@@ -112,6 +112,14 @@ async function whereAmI(panel) {
   await panel.page.locator("[data-said]").waitFor();
   await new Promise((later) => setTimeout(later, 1500));
   expect(await panel.page.locator("[data-said]").isVisible(), "5: what became of the word is gone");
+  await touch(panel, "Place by hand");
+  let asked = "";
+  await until("5: places are offered", async () => {
+    const [words, places] = await panel.page.evaluate(() => [document.querySelector(".where [data-locate]").dataset.locate, document.querySelectorAll(".where [role=group] button").length]);
+    asked = words;
+    return places > 0;
+  });
+  expect(asked !== "searching", "5: ranked places are offered, and the card says to wait while it compares");
   await touch(panel, "Close");
   await api(panel, "POST", "/api/locate/search", {});
 }

@@ -110,7 +110,7 @@ function drawState(context: CanvasRenderingContext2D, live: Live, vehicle: Vehic
   for (const [x = 0, y = 0] of live.blocked) drawBlocked(context, to(x, y));
 }
 
-/** A canvas above an OpenLayers map: what moves does not make the map draw its walls again. */
+/** Two canvases above an OpenLayers map: what moves does not make the map draw its walls again, nor a vehicle the scan. */
 export class LiveOverlay {
   readonly canvas = document.createElement("canvas");
   private readonly scanCanvas = document.createElement("canvas");
@@ -118,6 +118,9 @@ export class LiveOverlay {
   private readonly scanContext = this.scanCanvas.getContext("2d");
   private pixels: ImageData | null = null;
   private moving: Moving | null = null;
+  /** what the scan on the canvas was drawn from */
+  private drawn: readonly unknown[] = [];
+  private wanted = 0;
 
   constructor(private readonly map: OlMap) {
     for (const canvas of [this.scanCanvas, this.canvas]) {
@@ -133,7 +136,17 @@ export class LiveOverlay {
     const word = (is: boolean) => (!is ? "hidden" : moving.stale ? "old" : "shown");
     target?.setAttribute("data-vehicle", word(moving.vehicleShown));
     target?.setAttribute("data-scan", word(moving.scanShown));
-    this.draw();
+    this.wanted ||= requestAnimationFrame(() => this.draw());  // messages that came late together are drawn once
+  }
+
+  /** The scan comes half as often as the state, and its canvas is the larger work: it is drawn when it or the view changed. */
+  private drawScan(moving: Moving, pixels: ImageData): void {
+    const view = this.map.getView();
+    const { x, y, yaw } = moving.scanAt ?? moving.scan;
+    const now = [moving.scan, x, y, yaw, moving.scanShown, moving.stale, pixels, palette(), view.getCenter()?.join(), view.getResolution()];
+    if (now.every((each, i) => each === this.drawn[i])) return;
+    this.drawn = now;
+    if (this.scanContext) drawPoints(this.scanContext, pixels, moving, this.map);
   }
 
   private fitSize(): boolean {
@@ -150,8 +163,10 @@ export class LiveOverlay {
   }
 
   private draw(): void {
-    if (!this.moving || !this.context || !this.scanContext || !this.fitSize() || !this.pixels) return;
-    drawPoints(this.scanContext, this.pixels, this.moving, this.map);
+    cancelAnimationFrame(this.wanted);
+    this.wanted = 0;
+    if (!this.moving || !this.context || !this.fitSize() || !this.pixels) return;
+    this.drawScan(this.moving, this.pixels);
     this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     this.canvas.style.opacity = this.moving.stale ? "0.35" : "1";
     const [cx = 0, cy = 0] = this.map.getView().getCenter() ?? [];

@@ -4,7 +4,7 @@ import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { api } from "../api";
 import type { Hypothesis, Locate, Site } from "../api_types";
 import { live } from "../live/live_socket";
-import { usePolled, useStore } from "../store";
+import { usePolled } from "../store";
 import { fitAt, piecesOf, type Fit } from "./contradictions";
 import { dragOn } from "./drag_gesture";
 import type { FactoryMap } from "./factory_map";
@@ -40,21 +40,25 @@ export interface Placing {
 
 /** Ranked places and a scan that a finger can lay onto the walls: what the Drive page's card and the last step of Set up share. */
 export function usePlacing(site: Site, walls: readonly number[][], shown: boolean): Placing {
-  const { value: locate, refresh, age_s } = usePolled(api.locate, 1000);
+  const { value: locate, refresh, age_s } = usePolled(api.locate, 1000, shown);
   const [chosen, choose] = useState(0);
   const [byHand, setByHand] = useState<Pose | null>(null);
   const [fit, setFit] = useState<Fit | null>(null);
   const map = useRef<FactoryMap | null>(null);
-  const frame = useStore(live.newest);
   const pieces = useMemo(() => piecesOf(walls), [walls]);
   const places = locate?.hypotheses ?? [];
   const pose = byHand ?? places[chosen] ?? places[0] ?? null;
   const now = useRef({ byHand, pose, shown });
   now.current = { byHand, pose, shown };
   useEffect(() => {
-    const scan = live.newest.value?.scan;
-    if (shown && map.current && scan && pose) map.current.live.show({ scan, scanAt: pose, live: null, vehicle: site.vehicle, stale: false, vehicleShown: true, scanShown: true });
-  }, [shown, frame, pose?.x, pose?.y, pose?.yaw]);
+    if (!shown || !pose) return undefined;
+    const show = () => {
+      const scan = live.newest.value?.scan;
+      if (scan) map.current?.live.show({ scan, scanAt: pose, live: null, vehicle: site.vehicle, stale: false, vehicleShown: true, scanShown: true });
+    };
+    show();
+    return live.newest.watch(show);
+  }, [shown, pose?.x, pose?.y, pose?.yaw]);
   useEffect(() => {
     if (!shown) {
       map.current?.sketch.clear();

@@ -1,3 +1,4 @@
+import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { api } from "../api";
 import type { Routes, Session, Site, Walls } from "../api_types";
@@ -6,7 +7,7 @@ import { live, type Frame } from "../live/live_socket";
 import type { FactoryMap } from "../map/factory_map";
 import { MapView } from "../map/map_view";
 import { usePlacing } from "../map/use_placing";
-import { usePolled, useStore } from "../store";
+import { usePolled, useSelected, useStore } from "../store";
 import { faultyOf } from "./setup/route_edit";
 import { Camera } from "../ui/camera";
 import { Gauges, heardAgo } from "../ui/gauges";
@@ -18,6 +19,8 @@ import { STALE_S, Stale, useAge } from "../ui/stale";
 import { StateCard, kLost_s } from "../ui/state_card";
 import { Tabs, type Tab } from "../ui/tabs";
 import { WhereCard } from "../ui/where_card";
+
+const kLate_ms = 250;
 
 type TabName = "orders" | "hand" | "replay" | "camera";
 
@@ -31,8 +34,10 @@ function Legend() {
 }
 
 /** Says on the map that the scan or all of it is of before, or that nobody knows where the vehicle is. */
-function OldBanner({ frame, back, lidar_s, age_s }: { frame: Frame | null; back: number; lidar_s: number; age_s: number }) {
+function OldBanner({ frame, back }: { frame: Frame | null; back: number }) {
   const t = useText();
+  const age_s = useAge(frame);
+  const lidar_s = heardAgo(frame, "lidar", age_s);
   const banner = (name: string, text: string, age?: number) => <p class="banner caution" role="status" data-banner={name}><Icon name="warning" /> {text} {age !== undefined && <Stale age={age} />}</p>;
   if (back > 0) return <p class="banner caution" role="status"><Icon name="history" /> {t("drive.replay.banner", { age: back.toFixed(0) })}</p>;
   if (!frame) return null;
@@ -40,6 +45,9 @@ function OldBanner({ frame, back, lidar_s, age_s }: { frame: Frame | null; back:
   if (lidar_s > STALE_S) return banner("no-scan", t("drive.no_scan"), lidar_s);
   return frame.live.drivable && frame.live.pose.health === "LOST" ? banner("lost", t("drive.lost")) : null;
 }
+
+/** What changes ten times a second: drawn by itself, so that the page around it is not. */
+const Newest = ({ children }: { children: (frame: Frame | null) => ComponentChildren }) => <>{children(useStore(live.newest))}</>;
 
 /** The operator's page: where the vehicle is, what it does, why it stands, and what to send it next. */
 export function DrivePage({ site, walls, routes, role, changed }: { site: Site; walls: Walls; routes: Routes; role: Session["role"]; changed: () => Promise<unknown> }) {
@@ -51,9 +59,7 @@ export function DrivePage({ site, walls, routes, role, changed }: { site: Site; 
   const replayed = useRef<Frame | null>(null);
   const follow = useRef(false);
   follow.current = following;
-  const frame = useStore(live.newest);
-  const age_s = useAge(frame);
-  const lidar_s = heardAgo(frame, "lidar", age_s);
+  const camera = useSelected(live.newest, (frame) => frame?.live.camera ?? false);
   const [asking, setAsking] = useState(false);
   const placing = usePlacing(site, walls.walls, asking);
   const asked = useRef(asking);
@@ -84,20 +90,25 @@ export function DrivePage({ site, walls, routes, role, changed }: { site: Site; 
       end();
     };
   };
-  useEffect(show, [following, asking, age_s > kLost_s, lidar_s > STALE_S]);
+  useEffect(() => {
+    show();
+    const timer = setInterval(() => performance.now() - (live.newest.value?.received_ms ?? 0) > kLate_ms && show(), kLate_ms);  // it grows old without a message
+    return () => clearInterval(timer);
+  }, [following, asking]);
   const { value: pieces } = usePolled(api.wallsSeen, 5000);
-  useEffect(() => map.current?.showSeen(pieces ?? []), [pieces]);
+  const look = (pieces ?? []).map(({ segment, state }) => `${state} ${segment.join()}`).join();  // a share that changed is not seen
+  useEffect(() => map.current?.showSeen(pieces ?? []), [look]);
   const may = role === "operator" || role === "integrator";
   const tabs: Tab<TabName>[] = [{ name: "orders", icon: "list", label: t("drive.orders") }];
   if (may) tabs.push({ name: "hand", icon: "hand", label: t("drive.jog") });
   tabs.push({ name: "replay", icon: "history", label: t("drive.replay") });
-  if (frame?.live.camera) tabs.push({ name: "camera", icon: "camera", label: t("drive.camera") });
+  if (camera) tabs.push({ name: "camera", icon: "camera", label: t("drive.camera") });
   return (
     <main class="page with-map">
       <MapView ready={ready} above={<>
         <div class="map-top">
-          <Gauges frame={frame} />
-          {asking && placing.byHand ? <p class="banner card" role="status">{t("locate.hint.hand")}</p> : <OldBanner frame={frame} back={back} lidar_s={lidar_s} age_s={age_s} />}
+          <Newest>{(frame) => <Gauges frame={frame} />}</Newest>
+          {asking && placing.byHand ? <p class="banner card" role="status">{t("locate.hint.hand")}</p> : <Newest>{(frame) => <OldBanner frame={frame} back={back} />}</Newest>}
         </div>
         {(pieces ?? []).some((piece) => piece.state !== "unseen") && <Legend />}
       </>}>
@@ -105,8 +116,8 @@ export function DrivePage({ site, walls, routes, role, changed }: { site: Site; 
         <button type="button" class="target where-button" aria-pressed={asking} onClick={() => setAsking(!asking)}><Icon name="pin" /> {t("where.title")}</button>
       </MapView>
       <aside>
-        <StateCard frame={frame} />
-        {asking && <WhereCard placing={placing} frame={frame} role={role} walls={walls} changed={() => void changed()} close={() => setAsking(false)} />}
+        <Newest>{(frame) => <StateCard frame={frame} />}</Newest>
+        {asking && <WhereCard placing={placing} role={role} walls={walls} changed={() => void changed()} close={() => setAsking(false)} />}
         {!asking && <Tabs label={t("drive.tabs")} tabs={tabs} shown={tab} choose={setTab}>
           {tab === "orders" && <OrdersCard nodes={routes.nodes} may={may} />}
           {tab === "hand" && <Jog />}

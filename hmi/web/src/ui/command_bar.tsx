@@ -2,7 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import { api } from "../api";
 import { useText } from "../i18n";
 import { live } from "../live/live_socket";
-import { useStore } from "../store";
+import { useSelected, useStore } from "../store";
 import { Icon, type IconName } from "./icon";
 import { isStay } from "./state_card";
 import { forgetStop, pressStop, unheardStop } from "./stop";
@@ -35,8 +35,8 @@ function Unheard() {
  */
 export function CommandBar({ role }: { role: string }) {
   const t = useText();
-  const newest = useStore(live.newest);
-  const state = newest?.live.state ?? "";
+  const state = useSelected(live.newest, (frame) => frame?.live.state ?? "");
+  const stays = useSelected(live.newest, (frame) => frame !== null && isStay(frame.live));
   const may = role === "operator" || role === "integrator";
   const button = (name: CommandName, icon: IconName, useful: boolean) => (
     <button type="button" class={`target command ${name}`} disabled={!useful} onClick={() => void attempt(() => api.command(name))}>
@@ -46,7 +46,6 @@ export function CommandBar({ role }: { role: string }) {
   );
   const moving = ["driving", "detouring", "waiting", "localizing", "idle"].includes(state);
   const held = state === "emergency_stop" || state === "fault";
-  const stays = newest !== null && isStay(newest.live);
   return (
     <footer class="command-bar">
       <Unheard />

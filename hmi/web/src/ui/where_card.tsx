@@ -4,7 +4,8 @@ import type { Session, Walls } from "../api_types";
 import { distanceToSegment } from "../map/geometry";
 import type { Placing } from "../map/use_placing";
 import { noticeText, useText } from "../i18n";
-import type { Frame } from "../live/live_socket";
+import { live } from "../live/live_socket";
+import { useStore } from "../store";
 import { Stale } from "./stale";
 import { attempt, tell } from "./toast";
 import { Tool } from "./tool";
@@ -21,8 +22,9 @@ function without(walls: readonly number[][], pieces: readonly number[][]): numbe
 }
 
 /** What became of the place that was said last. */
-function Said({ frame }: { frame: Frame | null }) {
+function Said() {
   const t = useText();
+  const frame = useStore(live.newest);
   const pose = frame?.live.pose;
   if (!pose) return null;
   const good = pose.health === "LOCALIZED" || pose.health === "DEGRADED";
@@ -32,9 +34,9 @@ function Said({ frame }: { frame: Frame | null }) {
 }
 
 /** "Where am I?": ranked places laid on the map, the scan dragged onto the walls, and what to do where a wall contradicts. */
-export function WhereCard(props: { placing: Placing; frame: Frame | null; role: Session["role"]; walls: Walls; changed: () => void; close: () => void }) {
+export function WhereCard(props: { placing: Placing; role: Session["role"]; walls: Walls; changed: () => void; close: () => void }) {
   const t = useText();
-  const { placing, frame, role, walls } = props;
+  const { placing, role, walls } = props;
   const { locate, places, chosen, byHand, pose, fit } = placing;
   const [said, setSaid] = useState(false);
   const may = role === "operator" || role === "integrator";
@@ -54,7 +56,7 @@ export function WhereCard(props: { placing: Placing; frame: Frame | null; role: 
   };
   return (
     <section class="where" aria-label={t("where.title")}>
-      <p class="facts" role="status" data-locate={locate?.state ?? ""}>{t(`locate.state.${locate?.state ?? "blind"}`)} <Stale age={placing.age_s} limit={3} /></p>
+      <p class="facts" role="status" data-locate={locate?.state ?? ""}>{locate ? t(`locate.state.${locate.state}`) : "…"} <Stale age={placing.age_s} limit={3} /></p>
       {!byHand && places.length > 0 && (
         <div class="buttons" role="group" aria-label={t("locate.places")}>
           {places.slice(0, 3).map((place, i) => (
@@ -69,7 +71,7 @@ export function WhereCard(props: { placing: Placing; frame: Frame | null; role: 
         <Tool icon="hand" label={t("locate.by_hand")} pressed={byHand !== null} onClick={placing.toggleHand} />
         {may && <Tool icon="search" label={t("locate.again")} onClick={() => void attempt(api.searchAnew).then(placing.refresh)} />}
       </div>
-      {said && <Said frame={frame} />}
+      {said && <Said />}
       <p class={contradicted.length > 0 ? "bad" : "quiet"} data-contradicted={contradicted.length}>
         {fit && pose ? t("locate.score", { score: (100 * fit.share).toFixed(0) }) : t("where.no_scan")}
         {contradicted.length > 0 && ` ${t("where.contradicted", { count: contradicted.length })}`}

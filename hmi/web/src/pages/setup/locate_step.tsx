@@ -6,7 +6,7 @@ import { live } from "../../live/live_socket";
 import type { FactoryMap } from "../../map/factory_map";
 import { MapView } from "../../map/map_view";
 import { usePlacing, type Pose } from "../../map/use_placing";
-import { useStore } from "../../store";
+import { useSelected } from "../../store";
 import { Stale } from "../../ui/stale";
 import { attempt } from "../../ui/toast";
 import { Tool } from "../../ui/tool";
@@ -41,7 +41,7 @@ function Places(props: { places: readonly Hypothesis[]; chosen: number; choose: 
 export function LocateStep({ site, walls, finished }: { site: Site; walls: Walls; finished: () => void }) {
   const t = useText();
   const placing = usePlacing(site, walls.walls, true);
-  const frame = useStore(live.newest);
+  const drivable = useSelected(live.newest, (frame) => frame?.live.drivable ?? false);
   const { locate, byHand, pose, fit } = placing;
   const ready = (made: FactoryMap) => {
     made.showSite(site, api.drawingUrl(site.walls_revision));
@@ -58,7 +58,7 @@ export function LocateStep({ site, walls, finished }: { site: Site; walls: Walls
     <>
       <MapView ready={ready} above={byHand && <p class="banner card" role="status">{t("locate.hint.hand")}</p>} />
       <aside>
-        <p class="facts" role="status" data-locate={locate?.state ?? ""}>{t(`locate.state.${locate?.state ?? "blind"}`)} <Stale age={placing.age_s} limit={3} /></p>
+        <p class="facts" role="status" data-locate={locate?.state ?? ""}>{locate ? t(`locate.state.${locate.state}`) : "…"} <Stale age={placing.age_s} limit={3} /></p>
         {!byHand && <Places places={placing.places} chosen={placing.chosen} choose={placing.choose} />}
         {byHand && <p class="quiet"><PlaceText pose={byHand} /></p>}
         {contradicted > 0 && <p class="bad" data-contradicted={contradicted}>{t("where.contradicted", { count: contradicted })}</p>}
@@ -69,7 +69,7 @@ export function LocateStep({ site, walls, finished }: { site: Site; walls: Walls
         <span class="spring" />
         <div class="buttons finish">
           <Tool icon="good" label={t("locate.accept")} primary disabled={pose === null} onClick={accept} />
-          <Tool icon="next" label={t("setup.next")} disabled={!frame?.live.drivable} onClick={finished} />
+          <Tool icon="next" label={t("setup.next")} disabled={!drivable} onClick={finished} />
         </div>
       </aside>
     </>
