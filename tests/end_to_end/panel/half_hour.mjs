@@ -1,6 +1,7 @@
 // Two panels look on while the vehicle drives for half an hour, one of them on a processor throttled to a quarter: memory of
 // the page, bytes a second, frames a second, beside a page that holds nothing but two canvases as large. Usage: half_hour.mjs MADORI PAGE DATA SHOTS WIDTHxHEIGHT [MINUTES]
-import { readFileSync, writeFileSync } from "node:fs";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { getPriority, setPriority } from "node:os";
 import { join } from "node:path";
 import { askServer as api, expect, touch } from "./browser.mjs";
 import { freeUdpPort, startFactory, startVehicle, temporaryFolder } from "./processes.mjs";
@@ -46,6 +47,7 @@ async function emptyPage(browser, map) {
   await page.setContent(`<canvas width=${map.width} height=${map.height} style="position:absolute"></canvas>`.repeat(2));
   const session = await page.context().newCDPSession(page);
   await session.send("Emulation.setCPUThrottlingRate", { rate: kThrottle });
+  await samePriority(browser);
   const fps = await page.evaluate(() => new Promise((done) => {
     const contexts = [...document.querySelectorAll("canvas")].map((canvas) => canvas.getContext("2d"));
     const [{ canvas: { width, height } }] = contexts;
@@ -64,11 +66,23 @@ async function emptyPage(browser, map) {
   return fps;
 }
 
+async function processes(browser) {
+  const session = await browser.newBrowserCDPSession();
+  const { processInfo } = await session.send("SystemInfo.getProcessInfo");
+  await session.detach();
+  return processInfo;
+}
+
 /** Resident memory of all pages' processes, MB. */
 async function residentMB(browser) {
-  const { processInfo } = await (await browser.newBrowserCDPSession()).send("SystemInfo.getProcessInfo");
   const kB = (id) => Number(readFileSync(`/proc/${id}/status`, "utf8").match(/VmRSS:\s+(\d+)/)[1]);
-  return processInfo.filter(({ type }) => type === "renderer").reduce((sum, { id }) => sum + kB(id) / 1000, 0);
+  return (await processes(browser)).filter(({ type }) => type === "renderer").reduce((sum, { id }) => sum + kB(id) / 1000, 0);
+}
+
+/** Chromium sets the priority of its threads itself; here they get this program's (`nice -n -10 node half_hour.mjs` on a busy machine). */
+async function samePriority(browser) {
+  for (const { id } of await processes(browser))
+    for (const thread of readdirSync(`/proc/${id}/task`)) setPriority(Number(thread), getPriority());
 }
 
 /** An order without end; a fault of a busy machine is confirmed. */
@@ -99,6 +113,7 @@ async function main(browser) {
   for (const panel of panels) await touch(panel, "Drive", { exact: true });
   await panels[0].page.locator("[data-vehicle=shown]").waitFor({ timeout: 120_000 });
   await keepDriving(panels[0]);
+  await samePriority(browser);
   await panels[0].page.waitForTimeout(35_000);  // the page keeps 30 s to look back on: until then it grows
   const seen = [await measure(panels[0], 1), await measure(panels[1], kThrottle)];
   const map = await panels[0].page.locator(".map-canvas").first().boundingBox();
