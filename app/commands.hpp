@@ -26,6 +26,7 @@ void add_replay(CLI::App& app);
 void add_run(CLI::App& app);
 void add_scale(CLI::App& app);
 void add_tiles(CLI::App& app);
+void add_service(CLI::App& app);
 void add_sim(CLI::App& app);
 void add_diff(CLI::App& app);
 void add_doctor(CLI::App& app);

@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   madori::app::add_replay(app);
   madori::app::add_run(app);
   madori::app::add_scale(app);
+  madori::app::add_service(app);
   madori::app::add_sim(app);
   madori::app::add_tiles(app);
   madori::app::add_doctor(app);

@@ -18,6 +18,7 @@
 
 #include "core/clock.hpp"
 #include "core/result.hpp"
+#include "core/thread_role.hpp"
 
 namespace madori::io {
 namespace {
@@ -50,7 +51,10 @@ class AsioLink final : public StreamLink {
 
   void start() override {
     asio::post(context_, [this] { open(); });
-    thread_ = std::thread([this] { context_.run(); });
+    thread_ = std::thread([this] {
+      (void)take_role("stream link", ThreadRole::Device);
+      context_.run();
+    });
   }
   bool write(std::span<const std::uint8_t> bytes) override {
     if (!open_ || pending_ + bytes.size() > options_.max_pending_bytes) return false;

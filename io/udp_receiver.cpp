@@ -8,6 +8,7 @@
 
 #include "core/clock.hpp"
 #include "core/result.hpp"
+#include "core/thread_role.hpp"
 
 namespace madori::io {
 
@@ -63,7 +64,10 @@ UdpReceiver::UdpReceiver(const std::string& address, std::uint16_t port, Packet 
   }
   state_->packet = std::move(packet);
   state_->receive();
-  state_->thread = std::thread([this] { state_->context.run(); });
+  state_->thread = std::thread([this] {
+    (void)take_role("udp receiver", ThreadRole::Device);
+    state_->context.run();
+  });
 }
 
 UdpReceiver::~UdpReceiver() {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/result.hpp"
-#include "hmi/server/thread_priority.hpp"
+#include "core/thread_role.hpp"
 #ifdef MADORI_WITH_CAMERA
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -60,7 +60,7 @@ std::string as_jpeg(cv::Mat picture) {
 CameraCapture::CameraCapture(std::string source) : source_(std::move(source)), thread_([this] { run(); }) {}
 
 void CameraCapture::run() {
-  (void)hmi::run_behind_the_cycle();
+  (void)take_role("camera", ThreadRole::Behind);
   cv::VideoCapture camera;
   cv::Mat frame;
   Clock::time_point tried = Clock::now() - std::chrono::seconds(10);

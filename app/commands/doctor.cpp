@@ -1,84 +1,26 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "app/commands.hpp"
-#include "app/cycle/site_config.hpp"
 #include "app/lidars.hpp"
-#include "app/orders/order_store.hpp"
 #include "app/runner/device_run.hpp"
+#include "app/runner/self_test.hpp"
 #include "core/result.hpp"
-#include "planning/route_graph/route_check.hpp"
 
 namespace madori::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct DoctorArguments {
   std::string site;
   SocketOptions devices;
   bool no_devices = false;
 };
-
-constexpr std::uintmax_t kRoomForRecordings = 5'000'000'000;
-
-/// Prints one line a check; what fails says what is missing and the mend.
-class Checkup {
- public:
-  void check(const char* what, const std::function<std::string()>& look) {
-    try {
-      std::printf("ok       %-10s %s\n", what, look().c_str());
-    } catch (const std::exception& e) {
-      std::printf("MISSING  %-10s %s\n", what, e.what());
-      ++missing_;
-    }
-  }
-  [[nodiscard]] int missing() const { return missing_; }
-
- private:
-  int missing_ = 0;
-};
-
-std::string look_at_routes(const fs::path& site, const SiteForDriving& loaded) {
-  planning::RouteCheckOptions options;
-  options.half_width_m = loaded.config.check.vehicle.half_width_m;
-  options.tree_file = (site / "routes/tree.csv").string();
-  options.path_file = (site / "routes/path.csv").string();
-  for (const auto& finding :
-       planning::check_routes(loaded.config.routes, loaded.config.walls->walls(), options))
-    if (finding.severity == planning::Severity::Error) throw Error(finding.text());
-  return std::to_string(loaded.config.routes.nodes().size()) + " nodes, every station can be reached";
-}
-
-/// What a scanner surely sees against what the vehicle needs to stand.
-std::string look_at_sight(const CycleConfig& config) {
-  const double speed_mps = config.limits.max_speed_mps;
-  const double needs_m = config.braking.horizon_m(speed_mps);
-  char text[160];
-  std::snprintf(text, sizeof text, "a leg of %.0f mm is sure to %.1f m; at %.1f m/s the vehicle needs %.1f m",
-                kLegM * 1000.0, config.sure_range_m, speed_mps, needs_m);
-  if (needs_m <= config.sure_range_m) return text;
-  char mend[120];
-  std::snprintf(mend, sizeof mend,
-                "set max_speed_mps to %.2f (no faster is driven), or mount a lidar with a finer step",
-                std::floor(100.0 * config.braking.speed_within(config.sure_range_m)) / 100.0);
-  throw Error("site.yaml", text, mend);
-}
-
-std::string look_at_disk(const fs::path& site) {
-  const auto free = fs::space(site).available;
-  if (free < kRoomForRecordings)
-    throw Error(site.string(), "has only " + std::to_string(free / 1'000'000) + " MB left for recordings",
-                "free some disk space");
-  return std::to_string(free / 1'000'000'000) + " GB left";
-}
 
 /// Listens for a moment: both devices speak by themselves.
 std::string look_at_devices(const SocketOptions& devices, const SiteForDriving& loaded) {
@@ -115,27 +57,20 @@ std::string look_at_devices(const SocketOptions& devices, const SiteForDriving& 
 }
 
 void run(const DoctorArguments& arguments) {
-  const fs::path site(arguments.site);
-  Checkup checkup;
-  std::unique_ptr<SiteForDriving> loaded;
-  checkup.check("site", [&] {
-    loaded = std::make_unique<SiteForDriving>(load_for_driving(site));
-    return loaded->site.name + ", " + std::to_string(loaded->walls.size()) + " walls";
-  });
-  if (loaded) checkup.check("routes", [&] { return look_at_routes(site, *loaded); });
-  if (loaded) checkup.check("sight", [&] { return look_at_sight(loaded->config); });
-  checkup.check("orders", [&] {
-    const OrderStore store(site / "madori.db");
-    if (const auto verdict = store.integrity(); verdict != "ok")
-      throw Error((site / "madori.db").string(), verdict, "restore a backup, or move the file away");
-    return std::to_string(store.list(true).size()) + " open";
-  });
-  checkup.check("disk", [&] { return look_at_disk(site); });
-  if (loaded && !arguments.no_devices)
-    checkup.check("devices", [&] { return look_at_devices(arguments.devices, *loaded); });
-  if (checkup.missing() > 0)
-    throw Error(arguments.site, std::to_string(checkup.missing()) + " thing(s) missing",
-                "see the lines above");
+  SelfTest test = look_at_site(arguments.site);
+  if (test.site && !arguments.no_devices) {
+    Finding devices{"devices", "", false};
+    try {
+      devices.text = look_at_devices(arguments.devices, *test.site);
+    } catch (const std::exception& e) {
+      devices = {"devices", e.what(), true};
+    }
+    test.findings.push_back(std::move(devices));
+  }
+  for (const Finding& f : test.findings)
+    std::printf("%-8s %-10s %s\n", f.missing ? "MISSING" : "ok", f.what.c_str(), f.text.c_str());
+  if (const auto missing = std::ranges::count_if(test.findings, &Finding::missing); missing > 0)
+    throw Error(arguments.site, std::to_string(missing) + " thing(s) missing", "see the lines above");
   std::puts("the vehicle is ready");
 }
 

@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "hmi/server/thread_priority.hpp"
+#include "core/thread_role.hpp"
 
 namespace madori::app {
 
@@ -37,7 +37,7 @@ std::string BackgroundJobs::problem() const {
 }
 
 void BackgroundJobs::run() {
-  (void)hmi::run_behind_the_cycle();
+  (void)take_role("keeping", ThreadRole::Behind);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stop_ || !waiting_.empty(); });

@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "hmi/server/thread_priority.hpp"
+#include "core/thread_role.hpp"
 
 namespace madori::app {
 
@@ -40,7 +40,7 @@ class LatestLook {
 
  private:
   void run() {
-    (void)hmi::run_behind_the_cycle();
+    (void)take_role("learning", ThreadRole::Behind);
     std::unique_lock lock(mailbox_);
     while (true) {
       wake_.wait(lock, [this] { return stop_ || waiting_; });

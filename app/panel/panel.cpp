@@ -53,7 +53,8 @@ class ServedPanel final : public Panel {
                  [site = options.site](mapping::SiteTransaction& change, double factor) {
                    stage_scaled_routes(site, change, factor);
                  },
-                 preview_drawing},
+                 preview_drawing,
+                 options.metrics},
         server_(server, context_, files_) {}
 
   void begin_run() override { vehicle_.begin_run(); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -30,7 +31,8 @@ struct PanelOptions {
   std::string host_port = "127.0.0.1:8080";  ///< "off": no panel
   std::filesystem::path web;  ///< the built page; where it was never built: no panel, and that is said
   SocketOptions devices;
-  std::string camera;  ///< instead of the one that site.yaml names
+  std::string camera;                              ///< instead of the one that site.yaml names
+  std::function<std::string()> metrics = nullptr;  ///< of the program, for Prometheus; from any thread
 };
 
 /// Serves the panel of `run`. PINs lie in `site`/pins; without loopback one is needed. Throws Error on a bad

@@ -8,6 +8,7 @@
 
 #include "app/recording/input_text.hpp"
 #include "app/recording/state_bytes.hpp"
+#include "core/thread_role.hpp"
 #include "sensors/rosbag/writer.hpp"
 
 namespace madori::app {
@@ -178,6 +179,7 @@ void Recorder::give_up_segment() {
 }
 
 void Recorder::run() {
+  (void)take_role("recorder", ThreadRole::Ordinary);
   std::unique_lock lock(mutex_);
   while (true) {
     wake_.wait(lock, [this] { return stop_ || !waiting_.empty(); });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <future>
 #include <memory>
 #include <utility>
 
@@ -13,9 +14,12 @@
 #include "app/panel/panel.hpp"
 #include "app/recording/recorder.hpp"
 #include "app/runner/real_time.hpp"
+#include "app/runner/self_test.hpp"
 #include "app/runner/site_lock.hpp"
 #include "app/runner/site_run.hpp"
+#include "app/runner/watchdog.hpp"
 #include "core/clock.hpp"
+#include "core/thread_role.hpp"
 #include "mapping/site/atomic_file.hpp"
 
 namespace madori::app {
@@ -109,8 +113,9 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
                        [&](const CycleInput& input) {
                          if (looking_on != nullptr) looking_on->idle(input);
                        }});
-  const auto panel =
-      open_panel(vehicle, {options.site, options.hmi, options.panel_folder, options.devices, options.camera});
+  CycleTimes times(!options.cycle_times.empty());
+  const auto panel = open_panel(vehicle, {options.site, options.hmi, options.panel_folder, options.devices,
+                                          options.camera, [&] { return times.prometheus(); }});
   looking_on = panel.get();
   if (panel)
     spdlog::info("panel at {}", panel->address());
@@ -118,14 +123,32 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
     vehicle.load_now();  // nobody could complete the site
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
+  // Beside: it reads every file of the site.
+  const auto self_test = std::async(std::launch::async, [site = options.site] {
+    (void)take_role("self-test", ThreadRole::Behind);
+    for (const Finding& f : look_at_site(site).findings)
+      spdlog::log(f.missing ? spdlog::level::warn : spdlog::level::info, "self-test: {} {}: {}", f.what,
+                  f.missing ? "is MISSING" : "ok", f.text);
+  });
   const Stamp begun = clock_now();
-  CycleTimes times;
+  Watchdog watchdog({.told = [](const std::string& text) { spdlog::critical("{}", text); }});
   run_in_real_time(
       [&](Stamp now) { vehicle.tick(now); }, interrupted,
       {.done =
            [&] { return options.duration_s > 0.0 && to_seconds(clock_now() - begun) > options.duration_s; },
        .told = [&](const std::string& text) { vehicle.tell(text); },
-       .times = options.cycle_times.empty() ? nullptr : &times});
+       .placed =
+           [&](bool first) {
+             if (first)
+               spdlog::info("the cycle comes before ordinary work; memory is {}",
+                            lock_memory() ? "kept from swapping" : "not kept from swapping");
+             else
+               spdlog::warn(
+                   "other programs can hold the cycle up: this user may not set real-time priorities "
+                   "- see docs/how-to/drive.md");
+           },
+       .came_round = [&] { watchdog.beat(); },
+       .times = &times});
   if (!options.cycle_times.empty()) times.write(options.cycle_times);
   return onlookers.folder();
 }

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "core/thread_role.hpp"
+
 namespace madori::app {
 
 EventLog::EventLog(const std::filesystem::path& database) : store_(database), thread_([this] { run(); }) {}
@@ -26,6 +28,7 @@ void EventLog::add(EventRecord event) {
 }
 
 void EventLog::run() {
+  (void)take_role("event log", ThreadRole::Behind);
   std::unique_lock lock(mutex_);
   while (true) {
     wake_.wait(lock, [this] { return stop_ || !waiting_.empty(); });

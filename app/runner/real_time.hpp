@@ -14,7 +14,10 @@ namespace madori::app {
 struct RealTimeHooks {
   std::function<bool()> done;                         ///< ends it, as `stop` does
   std::function<void(const std::string& text)> told;  ///< what the computer's clocks did, in words
-  CycleTimes* times = nullptr;                        ///< gets what each tick took
+  std::function<void(bool first)> placed =
+      nullptr;  ///< once, at the beginning: whether it comes before ordinary work
+  std::function<void()> came_round = nullptr;  ///< after each tick
+  CycleTimes* times = nullptr;                 ///< gets what each tick took
 };
 
 /// Calls `tick` with the time of `clock` every 20 ms until `stop` or `done()`; a tick that takes longer

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/clock.hpp"
+#include "core/thread_role.hpp"
 
 namespace madori::app {
 namespace {
@@ -91,6 +92,7 @@ void WorkMeter::write() {
 }
 
 void WorkMeter::run() {
+  (void)take_role("work meter", ThreadRole::Behind);
   bool stop = false;
   while (!stop) {
     {

@@ -24,6 +24,7 @@ struct ApiContext {
   std::function<std::string()> iso_time;  ///< for what is recorded with a date
   mapping::StageScaled stage_scaled;      ///< what else of the site changes with its scale: the routes
   MakeDrawingPreview preview_drawing;     ///< a new revision of the site's drawing, before it is taken over
+  std::function<std::string()> metrics = nullptr;  ///< of the program, in Prometheus' text format
 };
 
 /// Every address below /api but the live socket (docs/reference/panel.md).

@@ -68,6 +68,10 @@ void add_history_routes(Router& router, ApiContext& context) {
   router.add(
       "GET", "/api/statistics", Role::Viewer,
       [&](const Request&) { return answer(to_wire(vehicle.statistics())); }, Work::Worker);
+  // No more than how busy the computer is: a scraper has no PIN.
+  router.add("GET", "/api/metrics", Role::None, [metrics = context.metrics](const Request&) {
+    return Response{200, "text/plain; version=0.0.4", metrics ? metrics() : "", {}, {}};
+  });
   router.add(
       "GET", "/api/replay", Role::Viewer,
       [&](const Request&) {

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/result.hpp"
+#include "core/thread_role.hpp"
 #include "hmi/server/exchange.hpp"
 #include "hmi/server/origin.hpp"
 #include "hmi/server/server_parts.hpp"
@@ -95,7 +96,7 @@ Server::Server(const ServerOptions& options, ApiContext& context, const StaticFi
   asio::co_spawn(impl_->io, impl_->accept_connections(), asio::detached);
   asio::co_spawn(impl_->io, impl_->keep_feed(), asio::detached);
   impl_->thread = std::thread([this] {
-    (void)run_behind_the_cycle();
+    (void)take_role("panel", ThreadRole::Behind);
     impl_->io.run();
   });
 }

@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/thread_role.hpp"
 #include "hmi/server/gate.hpp"
 #include "hmi/server/live_feed.hpp"
 #include "hmi/server/server.hpp"
-#include "hmi/server/thread_priority.hpp"
 
 namespace madori::hmi {
 
@@ -42,7 +42,7 @@ struct ServerParts {
   template <class Work>
   auto on_worker(Work work) -> boost::asio::awaitable<decltype(work())> {
     const auto behind = [work]() -> boost::asio::awaitable<decltype(work())> {
-      thread_local const bool lowered = run_behind_the_cycle();
+      thread_local const bool lowered = take_role("panel worker", ThreadRole::Behind);
       (void)lowered;
       co_return work();
     };

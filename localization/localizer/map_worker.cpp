@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "core/thread_role.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -26,6 +28,7 @@ void MapWorker::start(Stamp now, MapState state, const LocalizerOptions& options
   asked_ = 0;
   known_ = state.memory.size();
   answer_ = std::async(std::launch::async, [state = std::move(state), options]() mutable {
+    (void)take_role("thinking", ThreadRole::Ordinary);
     state.think(options);
     return std::move(state);
   });

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/angle.hpp"
+#include "core/thread_role.hpp"
 
 namespace madori::planning {
 namespace {
@@ -178,6 +179,7 @@ std::optional<DetourAnswer> DetourPlanner::take() {
 }
 
 void DetourPlanner::run() {
+  (void)take_role("detour planner", ThreadRole::Ordinary);
   std::unique_lock lock(mutex_);
   while (true) {
     wake_.wait(lock, [this] { return stop_ || request_.has_value(); });

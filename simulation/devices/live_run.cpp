@@ -4,6 +4,8 @@
 #include <chrono>
 #include <thread>
 
+#include "core/thread_role.hpp"
+
 namespace madori::simulation {
 namespace {
 
@@ -21,6 +23,8 @@ double seconds_since(Clock::time_point start) {
 
 LiveReport run_live(Factory& factory, DeviceHub& hub, TruthServer& truth, const LiveOptions& options,
                     const std::atomic<bool>& stop, const std::function<void(const GroundTruth&)>& on_truth) {
+  (void)take_role("virtual factory",
+                  ThreadRole::Cycle);  // stands for devices that have computers of their own
   LiveReport report;
   const Clock::time_point start = Clock::now();
   const Stamp first = factory.now();
@@ -41,6 +45,7 @@ LiveReport run_live(Factory& factory, DeviceHub& hub, TruthServer& truth, const 
     truth.poll();
     report.simulated_s = to_seconds(factory.now() - first);
   }
+  (void)take_role("madori", ThreadRole::Ordinary);
   report.wall_s = seconds_since(start);
   return report;
 }

@@ -23,9 +23,11 @@ parser.add_argument("madori")
 parser.add_argument("data", type=pathlib.Path)
 parser.add_argument("--seeds", type=int, default=1)
 parser.add_argument("--only", default="", help="faults whose name holds this")
+parser.add_argument("--short", action="store_true", help="ten of them, for ./test")
 parser.add_argument("--table", type=pathlib.Path, help="writes what was measured as a table")
 arguments = parser.parse_args()
 OFF_ROUTE_M = 0.3
+STATES = {"localizing", "driving", "detouring", "waiting", "paused", "emergency_stop", "fault", "idle", "manual"}
 
 
 def stands_after(factory, moment, end):
@@ -37,13 +39,19 @@ def stands_after(factory, moment, end):
 
 def try_fault(scene, routes, fault):
     """One fault; what was seen, and what of it is wrong."""
-    name, act, expected, words, limit_s = fault
+    name, expected, words, limit_s = fault.name, fault.expected, fault.told, fault.limit_s
     factory, run = scene.factory, scene.run
     wait_for(lambda: factory.truth.newest()["linear_mps"] > 0.9 or run.process.poll() is not None,
              f"{name}: it does not drive:\n{run.log.read_text()[-2000:]}", 90)
     before, done, moment = run.last_event(), run.stops_done(), time.time()
-    act(scene)
+    fault.act(scene)
     acted_s = time.time() - moment
+    run = scene.run  # it may be another life
+    if fault.then:
+        wait_for(lambda: factory.speed() < STANDS_MPS, f"{name}: it does not come to stand", 30)
+        time.sleep(1.0)
+        for word in fault.then:
+            run.say(word)
     begun = time.monotonic()
     end = begun + 120
     while run.stops_done() <= done and run.process.poll() is None and time.monotonic() < end:
@@ -65,6 +73,10 @@ def try_fault(scene, routes, fault):
         wrong.append(f"nobody was told: {log}")
     if off_m > OFF_ROUTE_M:
         wrong.append(f"{off_m:.2f} m off its route")
+    # Every line that an operator reads of a standstill says what to do: cause - remedy.
+    silent = [event for event in log if event.split(":")[0] in STATES and " - " not in event]
+    if silent:
+        wrong.append(f"without a remedy: {silent}")
     if factory.truth.newest()["collisions"]:
         wrong.append("collided")
     return {"fault": name, "stood_s": stood_s, "told": told, "off_m": off_m, "again_s": time.monotonic() - begun,
@@ -77,23 +89,28 @@ def campaign(seed, rows):
         make_site(arguments.madori, arguments.data, site, quiet=True)
         routes, factory = Routes(site), Factory(arguments.madori, folder, site)
         run_port = free_port()
+        begin = iter(range(1, 1000))
         lidar, drive = LidarWire(factory.lidar_port, run_port), DriveWire(factory.devices / "drive")
-        run = Run(arguments.madori, folder, site, factory, lidar_port=run_port, drive=drive.name)
-        scene = Scene(arguments.madori, site, factory, run, lidar, drive, seed)
+
+        def life():
+            return Run(arguments.madori, folder, site, factory, name=f"run{next(begin)}", lidar_port=run_port, drive=drive.name)
+
+        run = life()
+        scene = Scene(arguments.madori, site, factory, run, lidar, drive, seed, life)
         try:
             run.order([13, 15], repeat=900)
             run.resume()
             for fault in FAULTS:
-                if arguments.only in fault[0]:
+                if arguments.only in fault.name and (not arguments.short or fault.short):
                     rows.append({**try_fault(scene, routes, fault), "seed": seed})
                     row = rows[-1]
                     stood = f"stood after {row['stood_s']:.2f} s" if row["stood_s"] is not None else "drove on"
                     print(f"{row['fault']:>50}: {stood}; {row['off_m']:.2f} m off; {'; '.join(row['wrong']) or 'good'}",
                           flush=True)
-            run.cancel_orders()
-            run.end()
+            scene.run.cancel_orders()
+            scene.run.end()
         finally:
-            run.kill()
+            scene.run.kill()
             factory.end()
 
 

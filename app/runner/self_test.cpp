@@ -1,0 +1,84 @@
+#include "app/runner/self_test.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <utility>
+
+#include "app/lidars.hpp"
+#include "app/orders/order_store.hpp"
+#include "core/result.hpp"
+#include "planning/route_graph/route_check.hpp"
+
+namespace madori::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kRoomForRecordings = 5'000'000'000;
+
+std::string look_at_routes(const fs::path& site, const SiteForDriving& loaded) {
+  planning::RouteCheckOptions options;
+  options.half_width_m = loaded.config.check.vehicle.half_width_m;
+  options.tree_file = (site / "routes/tree.csv").string();
+  options.path_file = (site / "routes/path.csv").string();
+  for (const auto& finding :
+       planning::check_routes(loaded.config.routes, loaded.config.walls->walls(), options))
+    if (finding.severity == planning::Severity::Error) throw Error(finding.text());
+  return std::to_string(loaded.config.routes.nodes().size()) + " nodes, every station can be reached";
+}
+
+/// What a scanner surely sees against what the vehicle needs to stand.
+std::string look_at_sight(const CycleConfig& config) {
+  const double speed_mps = config.limits.max_speed_mps;
+  const double needs_m = config.braking.horizon_m(speed_mps);
+  char text[160];
+  std::snprintf(text, sizeof text, "a leg of %.0f mm is sure to %.1f m; at %.1f m/s the vehicle needs %.1f m",
+                kLegM * 1000.0, config.sure_range_m, speed_mps, needs_m);
+  if (needs_m <= config.sure_range_m) return text;
+  char mend[120];
+  std::snprintf(mend, sizeof mend,
+                "set max_speed_mps to %.2f (no faster is driven), or mount a lidar with a finer step",
+                std::floor(100.0 * config.braking.speed_within(config.sure_range_m)) / 100.0);
+  throw Error("site.yaml", text, mend);
+}
+
+std::string look_at_disk(const fs::path& site) {
+  const auto free = fs::space(site).available;
+  if (free < kRoomForRecordings)
+    throw Error(site.string(), "has only " + std::to_string(free / 1'000'000) + " MB left for recordings",
+                "free some disk space");
+  return std::to_string(free / 1'000'000'000) + " GB left";
+}
+
+std::string look_at_orders(const fs::path& site) {
+  const OrderStore store(site / "madori.db");
+  if (const auto verdict = store.integrity(); verdict != "ok")
+    throw Error((site / "madori.db").string(), verdict, "restore a backup, or move the file away");
+  return std::to_string(store.list(true).size()) + " open";
+}
+
+}  // namespace
+
+SelfTest look_at_site(const fs::path& site) {
+  SelfTest test;
+  const auto look = [&](const char* what, const std::function<std::string()>& at) {
+    try {
+      test.findings.push_back({what, at(), false});
+    } catch (const std::exception& e) {
+      test.findings.push_back({what, e.what(), true});
+    }
+  };
+  look("site", [&] {
+    test.site = std::make_unique<SiteForDriving>(load_for_driving(site));
+    return test.site->site.name + ", " + std::to_string(test.site->walls.size()) + " walls";
+  });
+  if (test.site) look("routes", [&] { return look_at_routes(site, *test.site); });
+  if (test.site) look("sight", [&] { return look_at_sight(test.site->config); });
+  look("orders", [&] { return look_at_orders(site); });
+  look("disk", [&] { return look_at_disk(site); });
+  return test;
+}
+
+}  // namespace madori::app

@@ -1,0 +1,74 @@
+#include "app/runner/service_unit.hpp"
+
+#include <fmt/format.h>
+
+#include "core/result.hpp"
+
+namespace madori::app {
+
+std::string quoted_for_systemd(const std::string& word) {
+  std::string quoted = "\"";
+  for (const char c : word) {
+    if (static_cast<unsigned char>(c) < 0x20)
+      throw Error("'" + word + "'", "holds a line break or another control character", "name it otherwise");
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (c == '%' || c == '$') quoted += c;  // else a specifier, a variable
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string service_unit(const ServiceOptions& options) {
+  std::string command = quoted_for_systemd(options.program) + " run " + quoted_for_systemd(options.site);
+  for (const std::string& word : options.run_options) command += " " + quoted_for_systemd(word);
+  return fmt::format(R"([Unit]
+Description=Madori drives the vehicle of {name}
+After=network.target
+StartLimitIntervalSec=0
+
+[Service]
+Type=notify
+ExecStart={command}
+User={user}
+SupplementaryGroups=dialout video
+Restart=always
+RestartSec=2
+WatchdogSec=5
+TimeoutStopSec=30
+LimitRTPRIO=20
+LimitMEMLOCK=infinity
+UMask=0027
+ReadWritePaths={site}
+ProtectSystem=strict
+ProtectHome=read-only
+PrivateTmp=yes
+NoNewPrivileges=yes
+CapabilityBoundingSet=
+DevicePolicy=closed
+DeviceAllow=char-ttyUSB rw
+DeviceAllow=char-ttyACM rw
+DeviceAllow=char-ttyS rw
+DeviceAllow=char-pts rw
+DeviceAllow=char-video4linux rw
+ProtectClock=yes
+ProtectHostname=yes
+ProtectKernelTunables=yes
+ProtectKernelModules=yes
+ProtectKernelLogs=yes
+ProtectControlGroups=yes
+ProtectProc=invisible
+RestrictNamespaces=yes
+RestrictSUIDSGID=yes
+RestrictAddressFamilies=AF_INET AF_INET6 AF_UNIX
+LockPersonality=yes
+SystemCallArchitectures=native
+SystemCallFilter=@system-service
+
+[Install]
+WantedBy=multi-user.target
+)",
+                     fmt::arg("name", options.site.filename().string()), fmt::arg("command", command),
+                     fmt::arg("user", options.user), fmt::arg("site", quoted_for_systemd(options.site)));
+}
+
+}  // namespace madori::app
