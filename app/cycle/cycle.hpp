@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -199,6 +200,13 @@ struct Navigation {
   std::vector<std::pair<std::pair<std::size_t, std::size_t>, Stamp>> blocked_legs;
 };
 
+/// When a lidar was heard, and when it last saw anything in each direction ahead.
+struct Hearing {
+  static constexpr std::size_t kBearings = 9;  ///< every 15 degrees within 60 of ahead
+  std::optional<Stamp> heard;
+  std::array<std::optional<Stamp>, kBearings> seen;
+};
+
 /// Everything the cycle remembers. It moves from step to step.
 struct CycleState {
   CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> source);
@@ -215,10 +223,10 @@ struct CycleState {
   control::wire::Status drive;
   std::optional<Stamp> drive_heard;
   sensors::DeviceClock drive_clock;
-  std::int64_t drive_us = 0;                       ///< the controller's clock, unwrapped
-  std::vector<std::optional<Stamp>> lidars_heard;  ///< each
-  std::optional<Stamp> lidar_heard;                ///< since when something that driving needs is missing
-  Stamp looked{};                                  ///< of the newest sweep that the way was checked with
+  std::int64_t drive_us = 0;          ///< the controller's clock, unwrapped
+  std::vector<Hearing> lidars_heard;  ///< each
+  std::optional<Stamp> lidar_heard;   ///< since when something that driving needs is missing
+  Stamp looked{};                     ///< of the newest sweep that the way was checked with
   std::optional<Stamp> previous;
   std::optional<Stamp> gap;  ///< the first step after a time without steps, until something was measured anew
   bool protective_stop = false;

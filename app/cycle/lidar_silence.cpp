@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "app/cycle/stages.hpp"
 #include "core/angle.hpp"
@@ -6,10 +7,19 @@
 namespace madori::app {
 namespace {
 
+constexpr double kAheadRad = to_rad(60.0);
+constexpr double kStepRad = to_rad(15.0);
+
+double bearing_of(std::size_t direction) {
+  return static_cast<double>(direction) * kStepRad - kAheadRad;
+}
+
 /// The younger of what several lidars told; nothing where none has told anything.
-std::optional<Stamp> youngest(const CycleState& state, const std::vector<std::size_t>& lidars) {
+template <class Told>
+std::optional<Stamp> youngest(const CycleState& state, const std::vector<std::size_t>& lidars,
+                              const Told& told) {
   std::optional<Stamp> newest;
-  for (const std::size_t i : lidars) newest = std::max(newest, state.lidars_heard[i]);
+  for (const std::size_t i : lidars) newest = std::max(newest, told(state.lidars_heard[i]));
   return newest;
 }
 
@@ -32,13 +42,32 @@ std::vector<std::size_t> place_lidars(const std::vector<LidarModel>& lidars) {
   return spinning.empty() ? all : spinning;
 }
 
+void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarModel& lidar, Stamp now) {
+  hearing.heard = now;
+  for (const auto& point : sweep.points) {
+    const double bearing = std::atan2(static_cast<double>(point.y_m) - lidar.mounting.y_m,
+                                      static_cast<double>(point.x_m) - lidar.mounting.x_m);
+    const double direction = (bearing + kAheadRad) / kStepRad;
+    if (direction < -0.5 || direction >= Hearing::kBearings - 0.5) continue;
+    hearing.seen[static_cast<std::size_t>(std::lround(direction))] = now;
+  }
+}
+
+/// A lidar with lasers that look down sees at least the floor wherever it looks: a direction in which it saw
+/// something, and sees nothing any more, is lost, be it by packets that do not come or by what covers it. A
+/// level one may look into an open hall.
 std::optional<Stamp> heard_all(const CycleState& state, const CycleConfig& config) {
-  constexpr double kAheadRad = to_rad(60.0);
-  constexpr double kStepRad = to_rad(15.0);
   if (state.lidars_heard.size() != config.lidars.size()) return std::nullopt;
-  std::optional<Stamp> oldest = youngest(state, place_lidars(config.lidars));
-  for (double bearing = -kAheadRad; bearing <= kAheadRad + 1e-9; bearing += kStepRad)
-    oldest = std::min(oldest, youngest(state, looking_at(config.lidars, bearing)));
+  std::optional<Stamp> oldest =
+      youngest(state, place_lidars(config.lidars), [](const Hearing& h) { return h.heard; });
+  for (std::size_t i = 0; i < Hearing::kBearings; ++i) {
+    const auto looking = looking_at(config.lidars, bearing_of(i));
+    const bool sees_floor = std::ranges::any_of(
+        looking, [&](std::size_t lidar) { return config.lidars[lidar].kind == LidarKind::Spinning; });
+    oldest = std::min(oldest, youngest(state, looking, [&](const Hearing& h) {
+                        return sees_floor && h.seen[i] ? h.seen[i] : h.heard;
+                      }));
+  }
   return oldest;
 }
 

@@ -118,7 +118,7 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
   if (cloud.lidar >= config.lidars.size() || is_too_old(cloud, state.track)) return;
   const PointCloud<Base> base = in_base(cloud, state.track, config);
   state.lidars_heard.resize(config.lidars.size());
-  state.lidars_heard[cloud.lidar] = input.now;
+  note_heard(state.lidars_heard[cloud.lidar], base, config.lidars[cloud.lidar], input.now);
   if (ends_gap(state, base.stamp, input.now, config)) state.gap.reset();
   const auto odom_from_base =
       state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);

@@ -8,8 +8,8 @@
 namespace madori::app {
 namespace {
 
-static_assert(kCauses.size() == static_cast<std::size_t>(Cause::HeightUnseen) + 1);
-static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::LookAndGoOn) + 1);
+static_assert(kCauses.size() == static_cast<std::size_t>(Cause::LidarBlind) + 1);
+static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::UncoverLidar) + 1);
 
 Notice filled(const CatalogueEntry& entry, std::map<std::string, std::string> values) {
   std::string text = fill_in(entry.english, values);

@@ -53,6 +53,7 @@ enum class Cause : std::uint8_t {
   Stopped,
   StoppedOrder,
   HeightUnseen,
+  LidarBlind,
 };
 
 /// What a person can do about it.
@@ -79,6 +80,7 @@ enum class Remedy : std::uint8_t {
   ClearWay,
   LookAndResume,
   LookAndGoOn,
+  UncoverLidar,
 };
 
 inline constexpr std::array kCauses{
@@ -113,6 +115,7 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"stopped", "stopped at a panel"},
     CatalogueEntry{"stopped-order", "stopped at a panel; order {order} was cancelled"},
     CatalogueEntry{"height-unseen", "no lidar sees whether the door or lift ahead is open high enough"},
+    CatalogueEntry{"lidar-blind", "the lidar sees nothing any more in a direction ahead"},
 };
 
 inline constexpr std::array kRemedies{
@@ -138,6 +141,7 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"clear-way", "clear the way: {reason}"},
     CatalogueEntry{"look-and-resume", "look, clear the way, then press Resume"},
     CatalogueEntry{"look-and-go-on", "look whether it is open, then press Go on"},
+    CatalogueEntry{"uncover-lidar", "clean the lidar, take away what covers it, check its network cable"},
 };
 
 /// An event of the cycle, not the cause of a standstill.

@@ -46,6 +46,8 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
 
 /// Confirmed columns around the vehicle, Map frame: their corners.
 [[nodiscard]] std::vector<Point2<Map>> obstacle_points(const CycleState& state);
+/// A sweep came: which directions ahead it tells of.
+void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarModel& lidar, Stamp now);
 /// When all that driving needs of the lidars had last been heard: the way ahead in somebody's field of view,
 /// and a lidar by which the vehicle knows its place. Nothing before that.
 [[nodiscard]] std::optional<Stamp> heard_all(const CycleState& state, const CycleConfig& config);

@@ -36,8 +36,12 @@ Standstill why_deaf(const CycleState& state, Stamp now, const CycleConfig& confi
   if (silent(state.drive_heard, config.drive_silent_s))
     return because(Cause::DriveSilent, Remedy::CheckDrive, now);
   const bool asks_person = state.mode == Mode::EmergencyStop || state.mode == Mode::Fault;
-  if (!asks_person && silent(state.lidar_heard, config.lidar_silent_s))
+  if (!asks_person && silent(state.lidar_heard, config.lidar_silent_s)) {
+    const bool speaks = std::ranges::none_of(
+        state.lidars_heard, [&](const Hearing& h) { return silent(h.heard, config.lidar_silent_s); });
+    if (state.lidar_heard && speaks) return because(Cause::LidarBlind, Remedy::UncoverLidar, now);
     return because(state.lidar_heard ? Cause::LidarSilent : Cause::NoScan, Remedy::CheckLidar, now);
+  }
   return {};
 }
 

@@ -10,7 +10,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 8;
+constexpr std::uint32_t kFormat = 9;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;

@@ -408,7 +408,7 @@ LIDAR_FAULTS = [
     Fault("packets of a wrong length in between", lambda s: s.lidar_does(lambda p: [p[:1000], p, p + b"x"], 3.0), "goes on"),
     Fault("noise in place of the lidar's packets", lambda s: s.lidar_does(lambda p: [s.chance.randbytes(1206)], 3.0),
           "stands", 1.0, SILENT),
-    Fault("another model on the lidar's port", lambda s: s.lidar_does(edited(lambda p: put(p, 1205, 0x21, 1)), 3.0),
+    Fault("another model on the lidar's port", lambda s: s.lidar_does(edited(lambda p: put(p, 1205, 0x28, 1)), 3.0),
           "stands", 1.0, ["lidar"]),
     Fault("packets of another sender, turned by 90 degrees", lambda s: s.lidar_does(s.lidar.spoof, 5.0), "goes on", short=True),
     Fault("noise of another sender beside", lambda s: s.lidar_does(

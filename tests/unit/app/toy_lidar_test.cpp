@@ -110,8 +110,39 @@ CycleState heard_at(const CycleConfig& config, const test::RollingVehicle& rolli
                     const std::vector<std::optional<double>>& seconds) {
   CycleState state(config, std::make_unique<test::TruePose>(rolling));
   for (const auto& s : seconds)
-    state.lidars_heard.push_back(s ? std::optional(stamp_from_seconds(*s)) : std::nullopt);
+    state.lidars_heard.push_back({s ? std::optional(stamp_from_seconds(*s)) : std::nullopt, {}});
   return state;
+}
+
+/// Returns all around at 5 m, but for a sector (degrees, Base frame).
+PointCloud<Base> all_around(double from_deg, double to_deg) {
+  PointCloud<Base> sweep;
+  for (double deg = -180.0; deg < 180.0; deg += 1.0)
+    if (deg < from_deg || deg > to_deg)
+      sweep.points.push_back({static_cast<float>(5.0 * std::cos(to_rad(deg))),
+                              static_cast<float>(5.0 * std::sin(to_rad(deg))), 0.0F});
+  return sweep;
+}
+
+TEST(LidarSilence, ADirectionAheadThatWasSeenAndIsNoLongerIsMissing) {
+  const test::RollingVehicle rolling({});
+  CycleConfig config;
+  for (const bool planar : {false, true}) {
+    config.lidars = {planar ? test::planar_lidar({}) : test::spinning_lidar({})};
+    CycleState state = heard_at(config, rolling, {std::nullopt});
+    const auto see = [&](double from_deg, double to_deg, double at_s) {
+      note_heard(state.lidars_heard[0], all_around(from_deg, to_deg), config.lidars[0],
+                 stamp_from_seconds(at_s));
+      return heard_all(state, config);
+    };
+    EXPECT_EQ(see(10.0, 40.0, 1.0), stamp_from_seconds(1.0)) << "never seen: the vehicle's own mast";
+    EXPECT_EQ(see(0.0, -1.0, 2.0), stamp_from_seconds(2.0));
+    EXPECT_EQ(see(100.0, 180.0, 3.0), stamp_from_seconds(3.0)) << "not ahead";
+    EXPECT_EQ(see(16.0, 29.0, 4.0), stamp_from_seconds(4.0)) << "every direction has something left";
+    // A level lidar may look into an open hall.
+    EXPECT_EQ(see(20.0, 40.0, 5.0), stamp_from_seconds(planar ? 5.0 : 4.0));
+    EXPECT_EQ(see(0.0, -1.0, 6.0), stamp_from_seconds(6.0)) << "seen again";
+  }
 }
 
 TEST(LidarSilence, OneOfTwoMayBeSilentWhereTheOtherSeesTheWayAhead) {

@@ -349,6 +349,7 @@ export const en = {
   "cause.unseen-in-the-way": "Something low stands in the way, too near for the lidar to see",
   "cause.held-back": "Something that the lidar does not see holds the vehicle: it drives and does not get on",
   "cause.height-unseen": "No lidar sees whether the door or lift ahead is open high enough",
+  "cause.lidar-blind": "The lidar sees nothing any more in a direction ahead",
   "cause.time-gap": "The program stood still, or the computer's clock jumped",
 
   "remedy.give-order": "Give an order",
@@ -364,6 +365,7 @@ export const en = {
   "remedy.check-lidar": "Check the lidar's power and network cable",
   "remedy.clear-field": "Clear the field",
   "remedy.look-and-go-on": "Look whether it is open, then press Go on",
+  "remedy.uncover-lidar": "Clean the lidar, take away what covers it, check its network cable",
   "remedy.go-on": "Goes on by itself, or press Go on",
   "remedy.by-itself": "Goes on by itself",
   "remedy.clear-or-draw": "Clear the way, or draw a route",
