@@ -83,35 +83,48 @@ def try_fault(scene, routes, fault):
             "wrong": wrong}
 
 
+def scene_of(seed, folder):
+    """A factory and a program that drives in it."""
+    folder.mkdir()
+    site = folder / "site"
+    make_site(arguments.madori, arguments.data, site, quiet=True)
+    factory, run_port, lives = Factory(arguments.madori, folder, site), free_port(), iter(range(1, 1000))
+    lidar, drive = LidarWire(factory.lidar_port, run_port), DriveWire(factory.devices / "drive")
+
+    def life():
+        return Run(arguments.madori, folder, site, factory, name=f"run{next(lives)}", lidar_port=run_port, drive=drive.name)
+
+    scene = Scene(arguments.madori, site, factory, life(), lidar, drive, seed, life)
+    scene.run.order([13, 15], repeat=900)
+    scene.run.resume()
+    return scene
+
+
+def tell(row):
+    stood = f"stood after {row['stood_s']:.2f} s" if row["stood_s"] is not None else "drove on"
+    print(f"{row['fault']:>50}: {stood}; {row['off_m']:.2f} m off; {'; '.join(row['wrong']) or 'good'}", flush=True)
+
+
 def campaign(seed, rows):
+    """Every fault of the table; one that left something wrong is the last of its scene."""
+    scene = None
     with tempfile.TemporaryDirectory() as name:
-        folder, site = pathlib.Path(name), pathlib.Path(name) / "site"
-        make_site(arguments.madori, arguments.data, site, quiet=True)
-        routes, factory = Routes(site), Factory(arguments.madori, folder, site)
-        run_port = free_port()
-        begin = iter(range(1, 1000))
-        lidar, drive = LidarWire(factory.lidar_port, run_port), DriveWire(factory.devices / "drive")
-
-        def life():
-            return Run(arguments.madori, folder, site, factory, name=f"run{next(begin)}", lidar_port=run_port, drive=drive.name)
-
-        run = life()
-        scene = Scene(arguments.madori, site, factory, run, lidar, drive, seed, life)
         try:
-            run.order([13, 15], repeat=900)
-            run.resume()
-            for fault in FAULTS:
-                if arguments.only in fault.name and (not arguments.short or fault.short):
-                    rows.append({**try_fault(scene, routes, fault), "seed": seed})
-                    row = rows[-1]
-                    stood = f"stood after {row['stood_s']:.2f} s" if row["stood_s"] is not None else "drove on"
-                    print(f"{row['fault']:>50}: {stood}; {row['off_m']:.2f} m off; {'; '.join(row['wrong']) or 'good'}",
-                          flush=True)
-            scene.run.cancel_orders()
-            scene.run.end()
+            for number, fault in enumerate(FAULTS):
+                if arguments.only not in fault.name or (arguments.short and not fault.short):
+                    continue
+                scene = scene or scene_of(seed, pathlib.Path(name) / str(number))
+                rows.append({**try_fault(scene, Routes(scene.site), fault), "seed": seed})
+                tell(rows[-1])
+                if rows[-1]["wrong"]:
+                    scene.end()
+                    scene = None
+            if scene:
+                scene.run.cancel_orders()
+                scene.run.end()
         finally:
-            scene.run.kill()
-            factory.end()
+            if scene:
+                scene.end()
 
 
 def table(rows):

@@ -248,6 +248,10 @@ class Scene:
         self.post("/api/vehicle/pose", {"x": truth["x_m"] + metres, "y": truth["y_m"], "yaw": truth["yaw_rad"]})
         time.sleep(1.0)
 
+    def end(self):
+        self.run.kill()
+        self.factory.end()
+
     def killed(self):
         """Power goes; the program begins anew, and a person looks around and presses Resume."""
         self.run.kill()
