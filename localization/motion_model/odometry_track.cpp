@@ -48,12 +48,17 @@ std::optional<OdometryReading> OdometryTrack::at(Stamp stamp) const {
   return blend(readings_[readings_.size() - 2], newest(), stamp);
 }
 
+Transform2<Odom, Base> OdometryTrack::clipped(Stamp stamp) const {
+  if (stamp <= readings_.front().stamp) return readings_.front().odom_from_base;
+  return at(std::min(stamp, newest().stamp + kCarryOn)).value_or(newest()).odom_from_base;
+}
+
 OdometryStep OdometryTrack::between(Stamp from, Stamp to, const OdometryModel& model) const {
   OdometryStep step;
   if (readings_.empty() || to <= from) {
     return step;
   }
-  Transform2<Odom, Base> last = at(from).value_or(readings_.front()).odom_from_base;
+  Transform2<Odom, Base> last = clipped(from);
   const auto extend = [&](const Transform2<Odom, Base>& next) {
     model.extend(step, last.inverse() * next);
     last = next;
@@ -63,7 +68,7 @@ OdometryStep OdometryTrack::between(Stamp from, Stamp to, const OdometryModel& m
   for (; i != readings_.end() && i->stamp < to; ++i) {
     extend(i->odom_from_base);
   }
-  extend(at(to).value_or(newest()).odom_from_base);
+  extend(clipped(to));
   return step;
 }
 

@@ -19,10 +19,13 @@ class OdometryTrack {
   /// Where dead reckoning was at `stamp`: interpolated, or carried on at the last speed for at most
   /// kCarryOn; nothing when there is no reading near enough.
   [[nodiscard]] std::optional<OdometryReading> at(Stamp stamp) const;
-  /// The corrected motion from one moment to a later one; clipped to what the track knows.
+  /// The corrected motion from one moment to a later one. Before the first reading, and later than kCarryOn
+  /// after the newest, it stands: silent wheels tell nothing of what was before them.
   [[nodiscard]] OdometryStep between(Stamp from, Stamp to, const OdometryModel& model) const;
 
  private:
+  [[nodiscard]] Transform2<Odom, Base> clipped(Stamp stamp) const;
+
   static constexpr Duration kCarryOn = std::chrono::milliseconds(250);
   static constexpr Duration kKept = std::chrono::seconds(30);
   std::deque<OdometryReading> readings_;

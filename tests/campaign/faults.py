@@ -18,15 +18,9 @@ import tty
 from dataclasses import dataclass, field
 from typing import Callable
 
+from truth_listener import come_first
+
 DATA_BYTES = 1206
-
-
-def as_a_device():
-    """A wire takes no time, however busy the computer is: its thread comes before ordinary work where that is permitted."""
-    try:
-        os.sched_setscheduler(0, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(12))
-    except PermissionError:
-        pass
 
 
 class LidarWire:
@@ -41,7 +35,7 @@ class LidarWire:
         threading.Thread(target=self.pass_on, daemon=True).start()
 
     def pass_on(self):
-        as_a_device()
+        come_first()
         while True:
             packet = self.socket.recv(2048)
             for out in self.fault(packet) if self.fault else [packet]:
@@ -72,7 +66,7 @@ class DriveWire:
         threading.Thread(target=self.pass_on, daemon=True).start()
 
     def pass_on(self):
-        as_a_device()
+        come_first()
         while True:
             for ready in select.select([self.run_end, self.sim_end], [], [])[0]:
                 data = os.read(ready, 4096)

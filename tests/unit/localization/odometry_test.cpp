@@ -70,5 +70,23 @@ TEST(OdometryTrack, InterpolatesBetweenReadingsAndRefusesLateOnes) {
   EXPECT_NEAR(step.distance_m, 0.5, 1e-9);
 }
 
+TEST(OdometryTrack, SilentWheelsAreCarriedOnForAMomentAndThenStand) {
+  OdometryTrack track;
+  for (int i = 0; i <= 100; ++i)  // 10 s at 1 m/s
+    track.add({stamp_from_seconds(1.0 + 0.1 * i), {0.1 * i, 0.0, 0.0}});
+  const OdometryModel model;
+  double driven_m = 0.0;
+  for (double t = 11.0; t < 14.0; t += 0.1) {
+    const double step_m =
+        track.between(stamp_from_seconds(t), stamp_from_seconds(t + 0.1), model).motion.x_m();
+    EXPECT_GE(step_m, -1e-9) << "after " << t - 11.0;
+    EXPECT_LE(step_m, 0.1 + 1e-9) << "after " << t - 11.0;
+    driven_m += step_m;
+  }
+  EXPECT_NEAR(driven_m, 0.25, 1e-6);
+  EXPECT_NEAR(track.between(stamp_from_seconds(0.0), stamp_from_seconds(0.5), model).motion.x_m(), 0.0, 1e-9);
+  EXPECT_NEAR(track.between(stamp_from_seconds(0.5), stamp_from_seconds(2.0), model).motion.x_m(), 1.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace madori::localization
