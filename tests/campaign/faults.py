@@ -436,7 +436,7 @@ DRIVE_FAULTS = [
         lambda d, to: d + s.chance.randbytes(3) if s.chance.random() < 0.2 else d, 3.0)),
     Fault("left encoder stuck for 3 s", lambda s: s.statuses(both(frozen(14), frozen(18)), 3.0)),
     Fault("left encoder jumps", lambda s: s.statuses(jumping(s, 14, 5000), 3.0)),
-    Fault("the controller's clock stands still", lambda s: s.statuses(frozen(10, 4), 3.0)),
+    Fault("the controller's clock stands still", lambda s: s.statuses(frozen(10, 4), 3.0), then=RESUME),
     Fault("the controller's clock jumps 60 s ahead", lambda s: s.statuses(
         lambda raw: put(raw, 10, number(raw, 10, 4) + 60_000_000, 4), 3.0), then=RESUME),
     Fault("right motor at half its speed", lambda s: s.commands(speeds(1.0, 0.5), 3.0)),
