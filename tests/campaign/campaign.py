@@ -8,6 +8,7 @@ the operator why, stay on its route, collide with nothing, and deliver again by 
 import argparse
 import pathlib
 import re
+import signal
 import sys
 import tempfile
 import time
@@ -102,6 +103,14 @@ def scene_of(seed, folder):
     return scene
 
 
+def end_well(run):
+    """Status 0; or 1, and that is said, where what it printed was lost while no file could grow."""
+    run.process.send_signal(signal.SIGINT)
+    status = run.process.wait(60)
+    if status != 0 and not (status == 1 and "standard output: could not be written" in run.log.read_text()):
+        raise SystemExit(f"{run.name} ended with {status}:\n{run.log.read_text()}")
+
+
 def tell(row):
     stood = f"stood after {row['stood_s']:.2f} s" if row["stood_s"] is not None else "drove on"
     print(f"{row['fault']:>50}: {stood}; {row['off_m']:.2f} m off; {'; '.join(row['wrong']) or 'good'}", flush=True)
@@ -123,7 +132,7 @@ def campaign(seed, rows):
                     scene = None
             if scene:
                 scene.run.cancel_orders()
-                scene.run.end()
+                end_well(scene.run)
         finally:
             if scene:
                 scene.end()
