@@ -55,6 +55,7 @@ def try_fault(scene, routes, fault):
         time.sleep(1.0)
         for word in fault.then:
             run.say(word)
+            time.sleep(0.3)
     begun = time.monotonic()
     end = begun + 120
     while run.stops_done() <= done and run.process.poll() is None and time.monotonic() < end:
