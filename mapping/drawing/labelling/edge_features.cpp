@@ -70,8 +70,6 @@ class Builder {
     place();
     repeats();
     styles();
-    m_.width_px = std::move(width_);
-    m_.pen_px = pen_;
     return std::move(table_);
   }
 

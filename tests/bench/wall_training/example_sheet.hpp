@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mapping/drawing/labelling/label_sheet.hpp"
+#include "mapping/drawing/labelling/label_lines.hpp"
 
 namespace madori::training {
 
