@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <thread>
-#include <utility>
 
 #include "app/commands.hpp"
 #include "app/lidars.hpp"
@@ -58,15 +57,8 @@ std::string look_at_devices(const SocketOptions& devices, const SiteForDriving& 
 
 void run(const DoctorArguments& arguments) {
   SelfTest test = look_at_site(arguments.site);
-  if (test.site && !arguments.no_devices) {
-    Finding devices{"devices", "", false};
-    try {
-      devices.text = look_at_devices(arguments.devices, *test.site);
-    } catch (const std::exception& e) {
-      devices = {"devices", e.what(), true};
-    }
-    test.findings.push_back(std::move(devices));
-  }
+  if (test.site && !arguments.no_devices)
+    test.findings.push_back(look("devices", [&] { return look_at_devices(arguments.devices, *test.site); }));
   for (const Finding& f : test.findings)
     std::printf("%-8s %-10s %s\n", f.missing ? "MISSING" : "ok", f.what.c_str(), f.text.c_str());
   if (const auto missing = std::ranges::count_if(test.findings, &Finding::missing); missing > 0)

@@ -19,11 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kUnit = "madori.service";
+constexpr const char* kUnitFile = "/etc/systemd/system/madori.service";
 
 struct ServiceArguments {
   std::string site;
   std::string user;
-  std::string folder = "/etc/systemd/system";
   std::vector<std::string> run_options;
   bool print = false;
 };
@@ -52,19 +52,18 @@ void install(const ServiceArguments& arguments) {
     std::fputs(unit.c_str(), stdout);
     return;
   }
-  mapping::write_file_atomically(fs::path(arguments.folder) / kUnit, unit);
+  mapping::write_file_atomically(kUnitFile, unit);
   systemctl("daemon-reload");
   systemctl(std::string("enable --now ") + kUnit);
   std::printf("%s drives the vehicle of %s from now on; what it says: journalctl -u madori\n", kUnit,
               site.c_str());
 }
 
-void remove(const ServiceArguments& arguments) {
-  const fs::path unit = fs::path(arguments.folder) / kUnit;
-  if (!fs::exists(unit))
-    throw Error(unit.string(), "is not installed", "madori service install SITE makes it");
+void remove() {
+  if (!fs::exists(kUnitFile))
+    throw Error(kUnitFile, "is not installed", "madori service install SITE makes it");
   systemctl(std::string("disable --now ") + kUnit);
-  fs::remove(unit);
+  fs::remove(kUnitFile);
   systemctl("daemon-reload");
 }
 
@@ -81,7 +80,7 @@ void add_service(CLI::App& app) {
   in->add_option("RUN", arguments->run_options, "options of madori run, after --: -- --hmi 0.0.0.0:8080");
   in->callback([arguments] { install(*arguments); });
   CLI::App* out = service->add_subcommand("remove", "stop it and take the unit away");
-  out->callback([arguments] { remove(*arguments); });
+  out->callback([] { remove(); });
 }
 
 }  // namespace madori::app

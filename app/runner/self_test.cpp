@@ -3,8 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
-#include <utility>
 
 #include "app/lidars.hpp"
 #include "app/orders/order_store.hpp"
@@ -61,23 +59,25 @@ std::string look_at_orders(const fs::path& site) {
 
 }  // namespace
 
+Finding look(const char* what, const std::function<std::string()>& at) {
+  try {
+    return {what, at(), false};
+  } catch (const std::exception& e) {
+    return {what, e.what(), true};
+  }
+}
+
 SelfTest look_at_site(const fs::path& site) {
   SelfTest test;
-  const auto look = [&](const char* what, const std::function<std::string()>& at) {
-    try {
-      test.findings.push_back({what, at(), false});
-    } catch (const std::exception& e) {
-      test.findings.push_back({what, e.what(), true});
-    }
-  };
-  look("site", [&] {
+  auto& found = test.findings;
+  found.push_back(look("site", [&] {
     test.site = std::make_unique<SiteForDriving>(load_for_driving(site));
     return test.site->site.name + ", " + std::to_string(test.site->walls.size()) + " walls";
-  });
-  if (test.site) look("routes", [&] { return look_at_routes(site, *test.site); });
-  if (test.site) look("sight", [&] { return look_at_sight(test.site->config); });
-  look("orders", [&] { return look_at_orders(site); });
-  look("disk", [&] { return look_at_disk(site); });
+  }));
+  if (test.site) found.push_back(look("routes", [&] { return look_at_routes(site, *test.site); }));
+  if (test.site) found.push_back(look("sight", [&] { return look_at_sight(test.site->config); }));
+  found.push_back(look("orders", [&] { return look_at_orders(site); }));
+  found.push_back(look("disk", [&] { return look_at_disk(site); }));
   return test;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ struct Finding {
   std::string text;  ///< what is there; or what is missing, and the mend
   bool missing = false;
 };
+
+/// What `at` came to: its words, or those of what it threw.
+[[nodiscard]] Finding look(const char* what, const std::function<std::string()>& at);
 
 struct SelfTest {
   std::vector<Finding> findings;

@@ -2,20 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "core/result.hpp"
 
 namespace madori::app {
 
-std::string quoted_for_systemd(const std::string& word) {
-  std::string quoted = "\"";
+namespace {
+
+/// `doubled`: what would be replaced if it stood alone: % a specifier everywhere, $ a variable in a command.
+std::string escaped(const std::string& word, std::string_view doubled) {
+  std::string text;
   for (const char c : word) {
     if (static_cast<unsigned char>(c) < 0x20)
       throw Error("'" + word + "'", "holds a line break or another control character", "name it otherwise");
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (c == '%' || c == '$') quoted += c;  // else a specifier, a variable
-    quoted += c;
+    if (c == '"' || c == '\\') text += '\\';
+    if (doubled.find(c) != std::string_view::npos) text += c;
+    text += c;
   }
-  return quoted + '"';
+  return text;
+}
+
+}  // namespace
+
+std::string quoted_for_systemd(const std::string& word) {
+  return '"' + escaped(word, "%$") + '"';
 }
 
 std::string service_unit(const ServiceOptions& options) {
@@ -67,8 +78,9 @@ SystemCallFilter=@system-service
 [Install]
 WantedBy=multi-user.target
 )",
-                     fmt::arg("name", options.site.filename().string()), fmt::arg("command", command),
-                     fmt::arg("user", options.user), fmt::arg("site", quoted_for_systemd(options.site)));
+                     fmt::arg("name", escaped(options.site.filename(), "%")), fmt::arg("command", command),
+                     fmt::arg("user", options.user),
+                     fmt::arg("site", '"' + escaped(options.site, "%") + '"'));
 }
 
 }  // namespace madori::app

@@ -18,7 +18,7 @@ struct ServiceOptions {
 /// computer to write but its site and nothing to open but its devices (systemd.exec(5), systemd.service(5)).
 [[nodiscard]] std::string service_unit(const ServiceOptions& options);
 
-/// The same word for systemd: quoted, and nothing in it replaced.
+/// The same word in a command of systemd's: quoted, and nothing in it replaced.
 [[nodiscard]] std::string quoted_for_systemd(const std::string& word);
 
 }  // namespace madori::app

@@ -47,7 +47,8 @@ struct PlaceView {
 
 /// How the search for the place stands; places best first.
 struct LocateView {
-  std::string state = "blind";  ///< setting-up, searching (no place yet), ambiguous, located; blind without a scan
+  std::string state =
+      "blind";  ///< setting-up, searching (no place yet), ambiguous, located; blind without a scan
   std::vector<PlaceView> places;
 };
 

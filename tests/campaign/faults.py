@@ -20,8 +20,6 @@ from typing import Callable
 
 from truth_listener import come_first
 
-DATA_BYTES = 1206
-
 
 class LidarWire:
     """Between the virtual lidar and the program; `fault(packet)` gives what is sent in its place."""
@@ -378,7 +376,7 @@ class Fault:
     short: bool = False  # one of the ten of ./test
 
 
-SILENT, DRIVE, OFF = ["the lidar is silent"], ["the drive does not answer"], ["drive"]
+SILENT, DRIVE = ["the lidar is silent"], ["the drive does not answer"]
 RESUME = ["confirm", "resume"]
 ESTOP, BUMPER, FAULT = 3, 4, 5
 WIDE = (9000, 27000)
