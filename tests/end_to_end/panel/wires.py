@@ -4,7 +4,8 @@ Usage: wires.py SIM_LIDAR_PORT RUN_LIDAR_PORT SIM_DRIVE_DEVICE; prints the name 
 import pathlib
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "campaign"))
+TESTS = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(TESTS / "campaign"), str(TESTS / "end_to_end")]
 
 from faults import DriveWire, LidarWire  # noqa: E402
 
