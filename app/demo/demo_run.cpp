@@ -122,8 +122,9 @@ DemoResult run_demo(const DemoOptions& options) {
   auto source = std::make_unique<LocalizerPose>(loaded.walls, loaded.config.lidars);
   TransportRun run(loaded.config, std::move(source), std::move(link),
                    {.site = options.site, .store_poll_s = 0.1});
-  for (const Order& order : run.orders().list(true))
-    run.orders().close(order.id, OrderState::Cancelled, "left over from an earlier demo", time_of_day());
+  OrderStore orders(options.site / "madori.db");
+  for (const Order& order : orders.list(true))
+    orders.close(order.id, OrderState::Cancelled, "left over from an earlier demo", time_of_day());
   DemoResult result;
   Observer observer(result, run.config(), factory);
   fs::remove_all(options.site / "runs/demo");
@@ -138,7 +139,7 @@ DemoResult run_demo(const DemoOptions& options) {
   const std::atomic<bool> never = false;
   for (const int node : options.stations) {
     observer.begin_order(node);
-    const auto id = run.orders().add({{node, StopAction::Unload, 1.0}}, 1, time_of_day());
+    const auto id = orders.add({{node, StopAction::Unload, 1.0}}, 1, time_of_day());
     bool delivered = false;
     const auto done = [&] {
       for (const OperatorWord word : person.look(run.view().mode, run.view().now)) run.say({word, {}});

@@ -13,6 +13,7 @@
 #include "app/lidars.hpp"
 #include "app/panel/panel.hpp"
 #include "app/recording/recorder.hpp"
+#include "app/runner/log_aside.hpp"
 #include "app/runner/real_time.hpp"
 #include "app/runner/self_test.hpp"
 #include "app/runner/site_lock.hpp"
@@ -96,6 +97,7 @@ class Onlookers {
 }  // namespace
 
 std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
+  const LogAside log;
   const SiteLock lock(options.site);
   Onlookers onlookers(options);
   Panel* looking_on = nullptr;

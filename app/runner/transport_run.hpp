@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "app/cycle/cycle.hpp"
-#include "app/orders/order_store.hpp"
-#include "app/runner/event_log.hpp"
+#include "app/orders/order_desk.hpp"
 #include "app/runner/vehicle_link.hpp"
 #include "planning/detour/detour_planner.hpp"
 
@@ -30,8 +29,8 @@ struct VehicleView {
 
 struct TransportOptions {
   std::filesystem::path site;
-  /// Lock-step runs: what a live run does beside its steps (detours, localization's thinking) is waited for,
-  /// and bounded by work instead of time.
+  /// Lock-step runs: what a live run does beside its steps (detours, localization's thinking, orders) is
+  /// waited for, and bounded by work instead of time.
   bool lock_step = false;
   double store_poll_s = 0.5;  ///< how often new and cancelled orders are looked for
 };
@@ -53,30 +52,21 @@ class TransportRun {
   [[nodiscard]] VehicleView view() const;
   /// Sees every step: recordings.
   void set_tap(Tap tap) { tap_ = std::move(tap); }
-  [[nodiscard]] OrderStore& orders() { return store_; }
   [[nodiscard]] const CycleState& state() const { return state_; }
   [[nodiscard]] const CycleConfig& config() const { return config_; }
 
  private:
-  void look_for_orders(Stamp now);
-  void work_on_store(const std::function<void()>& work);
-  void note_stop(Stamp now);
   void carry_out(const CycleOutput& output, Stamp moment);
   void ask_detour(const planning::DetourRequest& request);
 
   CycleConfig config_;
   TransportOptions options_;
   std::unique_ptr<VehicleLink> link_;
-  OrderStore store_;
-  EventLog events_;
+  OrderDesk orders_;
   planning::DetourOptions detour_options_;
   std::unique_ptr<planning::DetourPlanner> planner_;
   std::optional<planning::DetourAnswer> answer_;
   CycleState state_;
-  std::optional<Order> order_;
-  std::optional<Target> reached_;  ///< a stop that the database does not hold yet
-  std::string store_problem_;      ///< why it cannot be read or written; empty while it can
-  Stamp looked_{};
   Tap tap_;
   mutable std::mutex mutex_;
   std::vector<OperatorCommand> said_;

@@ -35,6 +35,7 @@ class LockStepRun {
         make_source ? make_source(*factory)
                     : std::make_unique<app::LocalizerPose>(site.walls, site.config.lidars),
         std::make_unique<app::FactoryLink>(factory, site.config.odometry.wheels, kStep), options);
+    orders = std::make_unique<app::OrderStore>(database_.path() / "madori.db");
     run->say({app::OperatorWord::Resume, {}});
   }
 
@@ -55,7 +56,7 @@ class LockStepRun {
       if (node.station && node.id != station && !routes.legs_from(*routes.index_of(node.id)).empty())
         stations.push_back(node.id);
     station = stations[random() % stations.size()];
-    return run->orders().add({{station, app::StopAction::Pass, 0.0}}, 1, factory->now());
+    return orders->add({{station, app::StopAction::Pass, 0.0}}, 1, factory->now());
   }
   [[nodiscard]] bool stands() const {
     const auto truth = factory->truth();
@@ -66,7 +67,8 @@ class LockStepRun {
 
   std::shared_ptr<simulation::Factory> factory;
   std::unique_ptr<app::TransportRun> run;
-  int station = -1;  ///< of the newest order
+  std::unique_ptr<app::OrderStore> orders;  ///< as another program has them
+  int station = -1;                         ///< of the newest order
 
  private:
   TemporaryFolder database_;

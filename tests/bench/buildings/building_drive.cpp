@@ -98,7 +98,7 @@ bool BuildingDrive::tick() {
 
 bool BuildingDrive::deliver(int station, int lap) {
   constexpr int kLookEvery = 10;
-  auto& orders = run_->run->orders();
+  auto& orders = *run_->orders;
   const auto order = orders.add({{station, app::StopAction::Load, 1.0}}, 1, run_->factory->now());
   const double began_s = run_->time_s();
   for (int step = 1; run_->time_s() - began_s < options_.limit_s; ++step) {
@@ -136,7 +136,7 @@ void BuildingDrive::note_undelivered(int station, std::int64_t order, const std:
       "to {}: {}; {}: {}{}; at ({:.2f}, {:.2f}), believes ({:.2f}, {:.2f}) {}: {}", station, why,
       to_string(state.mode), state.standstill.cause.text, blocked_by(state.way), truth.x_m(), truth.y_m(),
       pose.x_m(), pose.y_m(), to_string(state.pose.health.state), state.pose.health.reason));
-  run_->run->orders().close(order, app::OrderState::Cancelled, "bench: not delivered", run_->factory->now());
+  run_->orders->close(order, app::OrderState::Cancelled, "bench: not delivered", run_->factory->now());
 }
 
 }  // namespace madori::bench

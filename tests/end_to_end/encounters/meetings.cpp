@@ -61,7 +61,7 @@ void Meetings::pass_carts(int count, CartTally& tally) {
     const bool past = run_->run_until(
         [&] {
           around = around || run_->state().mode == app::Mode::Detouring;
-          return run_->run->orders().find(*order)->state == app::OrderState::Done;
+          return run_->orders->find(*order)->state == app::OrderState::Done;
         },
         150.0);
     ++tally.met;
@@ -79,8 +79,8 @@ void Meetings::pass_carts(int count, CartTally& tally) {
 void Meetings::go_on() {
   run_->run_until(
       [&] {
-        if (!order_ || run_->run->orders().find(*order_)->state != app::OrderState::Running)
-          if (run_->run->orders().list(true).empty()) order_ = run_->order_somewhere(random_);
+        if (!order_ || run_->orders->find(*order_)->state != app::OrderState::Running)
+          if (run_->orders->list(true).empty()) order_ = run_->order_somewhere(random_);
         return run_->state().mode == app::Mode::Driving &&
                run_->factory->truth().linear_mps > 0.5 * options_.speed_mps;
       },

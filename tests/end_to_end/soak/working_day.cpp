@@ -59,6 +59,7 @@ WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int numb
   run_ = std::make_unique<app::TransportRun>(
       loaded_.config, std::make_unique<app::LocalizerPose>(loaded_.walls, loaded_.config.lidars, pose),
       std::make_unique<app::FactoryLink>(factory_, loaded_.config.odometry.wheels, kStep), transport);
+  orders_ = std::make_unique<app::OrderStore>(options.database / "madori.db");
   surprises_ = std::make_unique<Surprises>(*factory_, setup.scenario, run_->config());
   witness_ = std::make_unique<Witness>(*factory_, figures_, options.verbose, options.trace_s);
   run_->set_tap(
@@ -126,7 +127,7 @@ void WorkingDay::deliver(const Delivery& delivery) {
     factory_->inject(delivery.dropout->fault);
     ++figures_.dropouts;
   }
-  const auto order = run_->orders().add({{delivery.station, app::StopAction::Load, 1.0}}, 1, factory_->now());
+  const auto order = orders_->add({{delivery.station, app::StopAction::Load, 1.0}}, 1, factory_->now());
   const Stamp began = factory_->now();
   while (!follow(delivery, order, began)) {
   }
@@ -140,7 +141,7 @@ bool WorkingDay::follow(const Delivery& delivery, std::int64_t order, Stamp bega
   befall(delivery, began);
   look_after(delivery);
   if (ticks_ % 10 != 0) return false;
-  const auto state = run_->orders().find(order);
+  const auto state = orders_->find(order);
   if (state->state == app::OrderState::Done) return note_delivered(delivery, began), true;
   if (state->state == app::OrderState::Refused || state->state == app::OrderState::Cancelled)
     return note_undelivered(delivery, order, state->note), true;
@@ -262,7 +263,7 @@ void WorkingDay::note_undelivered(const Delivery& delivery, std::int64_t order, 
       state.way.turn_free ? "" : ", no room to turn", state.way.detour_pending ? ", detour pending" : "");
   figures_.undelivered.emplace_back(text);
   std::printf("NOT delivered, day %d, %s\n", plan_.number, text);
-  run_->orders().close(order, app::OrderState::Cancelled, "soak: not delivered", factory_->now());
+  orders_->close(order, app::OrderState::Cancelled, "soak: not delivered", factory_->now());
 }
 
 }  // namespace madori::soak

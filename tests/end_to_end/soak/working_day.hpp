@@ -62,6 +62,7 @@ class WorkingDay {
   Figures figures_;
   std::shared_ptr<simulation::Factory> factory_;
   std::unique_ptr<app::TransportRun> run_;
+  std::unique_ptr<app::OrderStore> orders_;  ///< as the panel has them
   std::unique_ptr<Surprises> surprises_;
   std::unique_ptr<Witness> witness_;
   std::unique_ptr<localization::MapLearner> map_learner_;

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/orders/order_store.hpp"
+
+namespace madori::app {
+
+/// A stop of an order, of one of its rounds.
+struct StopOfOrder {
+  std::int64_t order = 0;
+  int round = 0;
+  std::size_t stop = 0;
+};
+
+/// The cycle's place at madori.db: which order is to be worked on, stops that were reached, events. Another
+/// thread reads and writes, so that a slow, full, locked or missing disk holds no step up; what was reported
+/// is tried until it is written, and the order changes when it is. Until then the vehicle goes on with the
+/// order that it has, and begins no other. The reporting members are the cycle's.
+class OrderDesk {
+ public:
+  struct Options {
+    bool lock_step = false;  ///< reads and writes within the call: runs that have to be the same every time
+    double poll_s = 0.5;     ///< how often new and cancelled orders are looked for
+  };
+
+  /// Throws Error where the database cannot be used.
+  OrderDesk(const std::filesystem::path& database, const Options& options);
+  /// Writes what is left.
+  ~OrderDesk();
+  OrderDesk(const OrderDesk&) = delete;
+  OrderDesk& operator=(const OrderDesk&) = delete;
+
+  /// The order as it stood in the database lately. `may_begin`: the next one of the queue may begin.
+  [[nodiscard]] std::optional<Order> order(Stamp now, bool may_begin);
+  void stop_reached(const StopOfOrder& stop, Stamp label);
+  /// The order ends at once.
+  void refuse(std::int64_t id, const std::string& why, Stamp label);
+  void add(EventRecord event);
+  /// The order that order() gave last.
+  [[nodiscard]] std::optional<Order> newest() const;
+  /// Why orders cannot be read or written; empty while they can.
+  [[nodiscard]] std::string problem() const;
+
+ private:
+  struct Report {
+    StopOfOrder what;
+    std::optional<std::string> refused;  ///< why; nothing: the stop was reached
+    Stamp label{};
+  };
+  struct Work {
+    std::deque<Report> reports;
+    std::deque<EventRecord> events;
+    bool fresh = false;  ///< there is a report that was not tried yet
+    bool look = false, may_begin = false;
+    Stamp label{};
+  };
+
+  void report(Report report);
+  void run();
+  void do_work(std::unique_lock<std::mutex>& lock);
+  [[nodiscard]] std::optional<Order> settle(const Report& report);
+  [[nodiscard]] std::optional<Order> look(std::optional<Order> order, const Work& work);
+  void write(const std::deque<EventRecord>& events);
+  void tell(const std::string& problem);
+
+  Options options_;
+  OrderStore store_;  ///< of the thread that works
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  Work waiting_;
+  std::optional<Order> order_;
+  std::string problem_;
+  Stamp asked_{};
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace madori::app
