@@ -21,17 +21,29 @@ constexpr double kLearnedEveryS = 60.0;
 
 }  // namespace
 
+SiteKeeper::Learned::Learned(const std::filesystem::path& site)
+    : memory(site / kMemoryFile),
+      map(site / kLivingMapFile),
+      warp(site / kWarpFile),
+      reliability(site / kReliabilityFile) {}
+
 SiteKeeper::SiteKeeper(std::filesystem::path site, const mapping::Walls& walls,
                        std::shared_ptr<const WallWatch> watch, std::shared_ptr<const MapWatch> map_watch)
     : site_(std::move(site)),
       walls_(walls),
       fingerprint_(mapping::walls_fingerprint(walls)),
       watch_(std::move(watch)),
-      map_watch_(std::move(map_watch)) {}
+      map_watch_(std::move(map_watch)),
+      learned_(std::make_shared<Learned>(site_)) {}
 
 SiteKeeper::~SiteKeeper() {
-  if (watch_) keep_learned();
+  finish_learning();
   jobs_.wait();
+}
+
+void SiteKeeper::finish_learning() {
+  if (watch_) keep_learned();
+  watch_.reset();
 }
 
 void SiteKeeper::observe(const CycleState& state, Stamp now) {
@@ -78,11 +90,12 @@ void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
 
 void SiteKeeper::keep_learned() {
   jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, map = map_watch_, bent = bent_,
-                        memory = memory_] {
-    if (memory) save_memory(site, memory->together(), walls);
-    if (map) save_living_map(site, map->map(), walls);
-    if (bent) localization::save_warp(site / kWarpFile, bent->fit, walls);
-    mapping::write_file_atomically(site / kReliabilityFile, watch->reliability_text());
+                        memory = memory_, files = learned_] {
+    if (memory) files->memory.write([&] { save_memory(site, memory->together(), walls); });
+    if (map) files->map.write([&] { save_living_map(site, map->map(), walls); });
+    if (bent) files->warp.write([&] { localization::save_warp(site / kWarpFile, bent->fit, walls); });
+    files->reliability.write(
+        [&] { mapping::write_file_atomically(site / kReliabilityFile, watch->reliability_text()); });
     const auto found = localization::self_calibrate(localization::WallIndex(walls), watch->keyframes());
     (void)keep_calibration(site, walls, found);
   });

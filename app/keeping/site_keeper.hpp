@@ -6,6 +6,7 @@
 
 #include "app/cycle/cycle.hpp"
 #include "app/keeping/background_jobs.hpp"
+#include "app/keeping/kept_file.hpp"
 #include "app/learned/map_watch.hpp"
 #include "app/learned/wall_watch.hpp"
 #include "app/pose/pose_store.hpp"
@@ -16,7 +17,8 @@ namespace madori::app {
 /// Keeps with the site what the next start wants to know: the pose (at most every second, and when the
 /// vehicle comes to stand), and what was learned of the drawing, its walls, how they stand in the building,
 /// what the vehicle remembers, and the living map (when it stands, at most every minute, and at the end).
-/// Files are written on a thread of its own, atomically.
+/// Files are written on a thread of its own, atomically; what was learned is not, where somebody else has
+/// replaced the file since.
 class SiteKeeper {
  public:
   SiteKeeper(std::filesystem::path site, const mapping::Walls& walls, std::shared_ptr<const WallWatch> watch,
@@ -28,6 +30,9 @@ class SiteKeeper {
 
   /// After every step, on the cycle's thread.
   void observe(const CycleState& state, Stamp now);
+  /// Keeps what was learned once more, and nothing that is learned later: the files are about to be read
+  /// again.
+  void finish_learning();
   /// Waits until what was put so far is on the disk.
   void flush() { jobs_.wait(); }
   [[nodiscard]] std::string problem() const { return jobs_.problem(); }
@@ -36,6 +41,12 @@ class SiteKeeper {
   void keep_pose(const CycleState& state, Stamp now);
   void take_memory(const CycleState& state, Stamp now);
   void keep_learned();
+
+  /// What of the learned files is this run's.
+  struct Learned {
+    explicit Learned(const std::filesystem::path& site);
+    KeptFile memory, map, warp, reliability;
+  };
 
   std::filesystem::path site_;
   mapping::Walls walls_;
@@ -51,6 +62,7 @@ class SiteKeeper {
   std::shared_ptr<const localization::BentDrawing> bent_;        ///< as last believed while sure of the place
   std::shared_ptr<const localization::RememberedParts> memory_;  ///< likewise
   Stamp memory_taken_{};
+  std::shared_ptr<Learned> learned_;  ///< used by the jobs alone
   BackgroundJobs jobs_;
 };
 

@@ -85,9 +85,7 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
 void SiteRun::take(Loaded loaded) {
   if (run_ && hooks_.closing) hooks_.closing();
   if (keeper_)  // its last writing takes a while: not on this thread
-    kept_ =
-        std::async(std::launch::async,
-                   [keeper = std::shared_ptr<SiteKeeper>(std::move(keeper_))]() mutable { keeper.reset(); });
+    kept_ = std::async(std::launch::async, [keeper = std::move(keeper_)]() mutable { keeper.reset(); });
   keeper_ = std::move(loaded.keeper);
   recall_ = PoseRecall(std::move(loaded.last.pose));
   memory_ = std::move(loaded.memory);
@@ -135,7 +133,11 @@ void SiteRun::look_for_site() {
   if (again_at_ && clock_now() > *again_at_) wanted_ = true;
   if (!std::exchange(wanted_, false)) return;
   again_at_.reset();
-  loading_ = std::async(std::launch::async, [site = site_] { return load(site); });
+  if (keeper_) keeper_->finish_learning();
+  loading_ = std::async(std::launch::async, [site = site_, before = keeper_] {
+    if (before) before->flush();  // what it learned is read again
+    return load(site);
+  });
 }
 
 /// Once, when the drive has told where its wheels stand.

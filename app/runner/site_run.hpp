@@ -94,7 +94,7 @@ class SiteRun {
   std::shared_ptr<WallWatch> watch_;
   std::unique_ptr<TransportRun> run_;
   // of the ticks' thread alone:
-  std::unique_ptr<SiteKeeper> keeper_;
+  std::shared_ptr<SiteKeeper> keeper_;
   PoseRecall recall_{std::nullopt};
   std::string memory_;
   std::optional<Stamp> again_at_;  ///< a run that could not be begun is tried again

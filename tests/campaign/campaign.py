@@ -2,10 +2,11 @@
 real sockets; each fault is done to it while it drives. It must stand within the limit or go on as the table says, tell
 the operator why, stay on its route, collide with nothing, and deliver again by itself.
 
-    campaign.py MADORI DATA [--seeds 5] [--only PATTERN] [--short] [--table FILE.md]
+    campaign.py MADORI DATA [--seeds 5] [--only PATTERN] [--short] [--table FILE.md] [--keep FOLDER]
 """
 
 import argparse
+import contextlib
 import pathlib
 import re
 import signal
@@ -28,6 +29,7 @@ parser.add_argument("--seeds", type=int, default=1)
 parser.add_argument("--only", default="", help="faults whose name has this pattern")
 parser.add_argument("--short", action="store_true", help="ten of them, for ./test")
 parser.add_argument("--table", type=pathlib.Path, help="writes what was measured as a table")
+parser.add_argument("--keep", type=pathlib.Path, help="an empty folder for sites, logs and recordings, to look at afterwards")
 arguments = parser.parse_args()
 OFF_ROUTE_M = 0.3
 STATES = {"localizing", "driving", "detouring", "waiting", "paused", "emergency_stop", "fault", "idle", "manual"}
@@ -67,7 +69,9 @@ def try_fault(scene, routes, fault):
         time.sleep(0.05)
     went_on = goes_on()
     stood_s = stands_after(factory, moment, moment + acted_s)
-    off_m = max(routes.distance_m(t["x_m"], t["y_m"]) for t in factory.truth.since(moment))
+    detours = run.detours_after(before)
+    off_m = max(routes.distance_m(t["x_m"], t["y_m"]) for t in factory.truth.since(moment)
+                if not any(begun <= t["received"] <= ended for begun, ended in detours))
     log = run.events_after(before)
     told = [word for word in words if any(word in event for event in log)]
     wrong = []
@@ -90,12 +94,12 @@ def try_fault(scene, routes, fault):
     if factory.truth.newest()["collisions"]:
         wrong.append("collided")
     return {"fault": name, "stood_s": stood_s, "told": told, "off_m": off_m, "again_s": time.monotonic() - begun,
-            "wrong": wrong}
+            "around": bool(detours), "wrong": wrong}
 
 
 def scene_of(seed, folder):
     """A factory and a program that drives in it."""
-    folder.mkdir()
+    folder.mkdir(parents=True)
     site = folder / "site"
     make_site(arguments.madori, arguments.data, site, quiet=True)
     factory, run_port, lives = Factory(arguments.madori, folder, site), free_port(), iter(range(1, 1000))
@@ -120,18 +124,18 @@ def end_well(run):
 
 def tell(row):
     stood = f"stood after {row['stood_s']:.2f} s" if row["stood_s"] is not None else "drove on"
-    print(f"{row['fault']:>50}: {stood}; {row['off_m']:.2f} m off; {'; '.join(row['wrong']) or 'good'}", flush=True)
+    print(f"{row['fault']:>50}: {stood}; {row['off_m']:.2f} m off{', a way around' if row['around'] else ''}; {'; '.join(row['wrong']) or 'good'}", flush=True)
 
 
 def campaign(seed, rows):
     """Every fault of the table; one that left something wrong is the last of its scene."""
     scene = None
-    with tempfile.TemporaryDirectory() as name:
+    with contextlib.nullcontext(arguments.keep) if arguments.keep else tempfile.TemporaryDirectory() as name:
         try:
             for number, fault in enumerate(FAULTS):
                 if not re.search(arguments.only, fault.name) or (arguments.short and not fault.short):
                     continue
-                scene = scene or scene_of(seed, pathlib.Path(name) / str(number))
+                scene = scene or scene_of(seed, pathlib.Path(name) / f"{seed}-{number}")
                 rows.append({**try_fault(scene, Routes(scene.site), fault), "seed": seed})
                 tell(rows[-1])
                 if rows[-1]["wrong"]:
@@ -150,7 +154,7 @@ def table(rows):
     for name in dict.fromkeys(row["fault"] for row in rows):
         of = [row for row in rows if row["fault"] == name]
         stood = [row["stood_s"] for row in of if row["stood_s"] is not None]
-        text += (f"| {name} | {f'{max(stood):.2f} s' if stood else 'drives on'} | {', '.join(of[0]['told']) or '-'} "
+        text += (f"| {name} | {f'{max(stood):.2f} s' if stood else 'drives on'}{', a way around' if any(row['around'] for row in of) else ''} | {', '.join(of[0]['told']) or '-'} "
                  f"| {max(row['off_m'] for row in of):.2f} m | {sum(not row['wrong'] for row in of)} of {len(of)} |\n")
     return text
 

@@ -117,6 +117,17 @@ class Run:
     def events_after(self, number):
         return [text for (text,) in self.ask(f"SELECT text FROM events WHERE id > {number} ORDER BY id")]
 
+    def detours_after(self, number):
+        """When it left its route on purpose and when it was back: pairs of times of day in seconds."""
+        pairs, begun = [], None
+        for stamp_ns, text in self.ask(f"SELECT stamp_ns, text FROM events WHERE id > {number} ORDER BY id"):
+            if "-> detouring" in text and begun is None:
+                begun = stamp_ns / 1e9
+            elif "-> driving" in text and begun is not None:
+                pairs.append((begun, stamp_ns / 1e9))
+                begun = None
+        return pairs + ([(begun, math.inf)] if begun is not None else [])
+
     def end(self, limit_s=60):
         self.process.send_signal(signal.SIGINT)
         status = self.process.wait(limit_s)

@@ -9,8 +9,10 @@
 
 #include "app/cycle/cycle.hpp"
 #include "app/keeping/site_keeper.hpp"
+#include "app/learned/learned_drawing.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/recording/input_text.hpp"
+#include "mapping/site/atomic_file.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 #include "tests/support/lidar_models.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -207,6 +209,34 @@ TEST(SiteKeeper, KeepsThePoseAtMostEverySecondAndAtAStandstill) {
   EXPECT_EQ(at(3.0, 5.0, 2900), 4.1) << "in doubt";
   state.pose.health.state = LocalizationState::Lost;
   EXPECT_EQ(at(5.0, 5.0, 2900), -1.0) << "lost: no pose is better than a wrong one";
+}
+
+TEST(SiteKeeper, LeavesWhatSomebodyElseHasPutInItsPlace) {
+  const test::TemporaryFolder folder;
+  const mapping::Walls walls = drawing(hall(true));
+  const auto file = folder.path() / kReliabilityFile;
+  const auto watch = [&] { return std::make_shared<WallWatch>(walls, Point2<Base>{}, file); };
+  { const SiteKeeper keeper(folder.path(), walls, watch()); }
+  const std::string kept = mapping::file_content(file);
+  EXPECT_FALSE(kept.empty());
+  {
+    const SiteKeeper keeper(folder.path(), walls, watch());
+    mapping::write_file_atomically(file, std::string_view("a backup's"));
+  }
+  EXPECT_EQ(mapping::file_content(file), "a backup's");
+  {
+    const SiteKeeper keeper(folder.path(), walls, watch());
+    std::filesystem::remove(file);
+  }
+  EXPECT_FALSE(std::filesystem::exists(file)) << "forgotten on purpose";
+  {
+    SiteKeeper keeper(folder.path(), walls, watch());
+    keeper.finish_learning();
+    keeper.flush();
+    EXPECT_EQ(mapping::file_content(file), kept);
+    std::filesystem::remove(file);
+  }
+  EXPECT_FALSE(std::filesystem::exists(file)) << "nothing is learned after the end";
 }
 
 }  // namespace
