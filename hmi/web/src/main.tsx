@@ -27,6 +27,7 @@ function Rail(props: { page: PageName; role: Session["role"]; needsPin: boolean;
   );
   return (
     <nav class="rail" aria-label={t("app.name")}>
+      <h1 class="unseen">{t(`nav.${props.page}`)}</h1>
       {entry("drive")}
       {props.role === "integrator" && entry("setup")}
       {entry("history")}

@@ -26,12 +26,12 @@ export function skipUnlessInstalled(built = null) {
   process.exit(77);
 }
 
-/** axe-core's issues that are serious or critical. Loaded by the debugger: the page's security policy lets no script in. */
-export async function seriousIssues(page) {
+/** axe-core's findings of any weight. Loaded by the debugger: the page's security policy lets no script in. */
+export async function findings(page) {
   if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(`${readFileSync(require.resolve("axe-core/axe.min.js"), "utf8")}; undefined`);
   return page.evaluate(async () => {
     const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
-    return violations.filter((one) => ["serious", "critical"].includes(one.impact)).map((one) => `${one.id} (${one.nodes.slice(0, 3).map((node) => `${node.target.join(" ")}: ${node.any[0]?.message ?? ""}`).join("; ")})`);
+    return violations.map((one) => `${one.id} (${one.nodes.slice(0, 3).map((node) => `${node.target.join(" ")}: ${node.any[0]?.message ?? ""}`).join("; ")})`);
   });
 }
 

@@ -4,7 +4,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { askServer as api, dragFinger, expect, mapReady, seriousIssues, touch, until } from "./browser.mjs";
+import { askServer as api, dragFinger, expect, mapReady, findings, touch, until } from "./browser.mjs";
 import { runToEnd, startVehicle, temporaryFolder, freeUdpPort } from "./processes.mjs";
 import { expectQuietConsole, given, openGivenPanel, picture, run } from "./program.mjs";
 
@@ -60,7 +60,7 @@ async function lookAndLeave(panel, file, changes) {
   expect((await panel.page.locator("[data-lost]").getAttribute("data-lost")) === "Batteries", "the lost station is not named");
   expect((await panel.page.locator(".map-canvas").getAttribute("data-faulty")) !== "", "the leg through the walled-up door is not marked");
   await picture(panel, "revision-preview");
-  const issues = await seriousIssues(panel.page);
+  const issues = await findings(panel.page);
   expect(issues.length === 0, `axe: ${issues.join("; ")}`);
   await touch(panel, "Leave it as it is");
   await panel.page.getByRole("button", { name: "Another drawing" }).waitFor();

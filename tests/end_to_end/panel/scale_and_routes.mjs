@@ -3,7 +3,7 @@
 // serious issue on any page in both themes. Usage: ... MADORI PAGE DATA SHOTS WIDTHxHEIGHT
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { expect, mapReady, seriousIssues, touch, touchMap } from "./browser.mjs";
+import { expect, mapReady, findings, touch, touchMap } from "./browser.mjs";
 import { freeUdpPort, runToEnd, startVehicle, temporaryFolder } from "./processes.mjs";
 import { expectQuietConsole, given, openGivenPanel, picture, run } from "./program.mjs";
 import { mercator, placeOf, serveTiles } from "./tiles.mjs";
@@ -118,7 +118,7 @@ async function importAndExport(panel, folder, tree, path, points) {
   }
 }
 
-const checkAccess = async (panel, where) => (await seriousIssues(panel.page)).map((issue) => `${where}: ${issue}`);
+const checkAccess = async (panel, where) => (await findings(panel.page)).map((issue) => `${where}: ${issue}`);
 
 async function checkEveryPage(panel) {
   const problems = [];

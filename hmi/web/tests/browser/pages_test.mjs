@@ -1,13 +1,13 @@
-// Every page, both themes, both panel sizes, both languages, before a made-up vehicle: no serious issue of axe-core, no console
-// error, targets of at least 20 mm, nothing beyond the edge of the screen; pictures on request.
+// Every page, both themes, three languages, both panel sizes and a phone held upright, before a made-up vehicle: no finding of axe-core, no
+// console error, targets of at least 20 mm (a phone's: 9 mm), nothing beyond the edge of the screen; pictures on request.
 // Usage: pages_test.mjs PAGE [FOLDER_FOR_PICTURES]
 import { existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { expect, openBrowser, openPanel, seriousIssues, skipUnlessInstalled } from "../../../../tests/end_to_end/panel/browser.mjs";
+import { expect, openBrowser, openPanel, findings, skipUnlessInstalled } from "../../../../tests/end_to_end/panel/browser.mjs";
 import { startMadeUpVehicle } from "./made_up_vehicle.mjs";
 
 const [page, shots] = process.argv.slice(2);
-const kSizes = [{ width: 1280, height: 800, target: 118 }, { width: 1024, height: 600, target: 93 }];
+const kSizes = [{ width: 1280, height: 800, target: 118 }, { width: 1024, height: 600, target: 93 }, { width: 390, height: 844, target: 46 }];
 
 /** What to touch, one after the other: rail entry, tab, step; by place, for the words depend on the language. */
 const pages = [
@@ -36,7 +36,7 @@ async function walk(browser, address, { width, height, target }, language, theme
     if (entry) await panel.page.locator(entry).tap();
     await panel.page.locator(part).tap();
     const where = `${name}, ${width}x${height}, ${language}, ${theme}`;
-    for (const issue of await seriousIssues(panel.page)) problems.push(`${where}: ${issue}`);
+    for (const issue of await findings(panel.page)) problems.push(`${where}: ${issue}`);
     for (const issue of await small(panel, target)) problems.push(`${where}: too small or cut off: ${issue}`);
     if (shots) await panel.page.screenshot({ path: join(shots, `${name}-${width}x${height}-${language}-${theme}.png`) });
   }
@@ -57,9 +57,12 @@ try {
   const problems = [
     ...(await walk(browser, vehicle.address, kSizes[0], "en", "light")),
     ...(await walk(browser, vehicle.address, kSizes[1], "ja", "dark")),
+    ...(await walk(browser, vehicle.address, kSizes[1], "de", "light")),
+    ...(await walk(browser, vehicle.address, kSizes[2], "de", "dark")),
+    ...(await walk(browser, vehicle.address, kSizes[2], "ja", "light")),
   ];
   expect(problems.length === 0, problems.join("\n"));
-  console.log(`${pages.length} pages, two sizes, two themes, two languages: nothing found`);
+  console.log(`${pages.length} pages, three sizes, two themes, three languages: nothing found`);
 } catch (error) {
   console.error(String(error));
   process.exitCode = 1;
