@@ -224,6 +224,7 @@ struct CycleState {
   std::optional<Stamp> drive_heard;
   sensors::DeviceClock drive_clock;
   std::int64_t drive_us = 0;          ///< the controller's clock, unwrapped
+  bool drive_restarted = false;       ///< in this step: it was without power
   std::vector<Hearing> lidars_heard;  ///< each
   std::optional<Stamp> lidar_heard;   ///< since when something that driving needs is missing
   Stamp looked{};                     ///< of the newest sweep that the way was checked with

@@ -150,8 +150,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     while (to_seconds(reading.stamp - state.track.front().stamp) > kTrackS) state.track.pop_front();
     state.pose = state.localization->on_odometry(reading);
   }
-  // Power that comes back is held like an emergency stop: nothing goes on by itself.
-  if (restarted) state.drive.state = control::wire::DriveState::EmergencyStop;
+  state.drive_restarted = restarted;
   for (const auto& command : input.commands) {
     if (command.word == OperatorWord::SetPose) take_given_pose(state, command.given_pose);
     if (command.word == OperatorWord::SearchPose) state.localization->search_anew();

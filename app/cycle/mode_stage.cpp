@@ -9,9 +9,10 @@ constexpr double kStandsBeforeM =
     0.12;  ///< nearer than this to the stopping point the vehicle counts as blocked
 constexpr double kWorthGoingM = 0.5;  ///< less free way than this is not worth a start
 
+/// Power that comes back is held like an emergency stop: nothing goes on by itself.
 bool is_stopped_by_drive(const CycleState& state) {
-  return state.drive.emergency_stop || state.drive.bumper || state.drive.state == DriveState::EmergencyStop ||
-         state.drive.state == DriveState::BumperStop;
+  return state.drive_restarted || state.drive.emergency_stop || state.drive.bumper ||
+         state.drive.state == DriveState::EmergencyStop || state.drive.state == DriveState::BumperStop;
 }
 
 bool has_fault(const CycleState& state) {

@@ -10,7 +10,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 9;
+constexpr std::uint32_t kFormat = 10;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -116,15 +116,16 @@ void each_of_sight(Bytes& bytes, Sight& s) {
 template <class Bytes, class State>
 void each_of(Bytes& bytes, State& s) {
   auto& [mode, standstill, odometry, track, localization, site, pose, obstacles, movers, drive, drive_heard,
-         drive_clock, drive_us, lidars_heard, lidar_heard, looked, previous, gap, protective_stop, begun,
-         stopped, stopped_order, jog, jog_heard, way, trail, trail_at, effort, limits, unarmed_steps] = s;
+         drive_clock, drive_us, drive_restarted, lidars_heard, lidar_heard, looked, previous, gap,
+         protective_stop, begun, stopped, stopped_order, jog, jog_heard, way, trail, trail_at, effort, limits,
+         unarmed_steps] = s;
   static_cast<void>(standstill);  // for people, each step anew
   static_cast<void>(localization), static_cast<void>(site),
       static_cast<void>(pose);                              // a recording's own part
   static_cast<void>(obstacles), static_cast<void>(movers);  // below: they guard their fields
-  each(bytes, mode, odometry, track, drive, drive_heard, drive_clock, drive_us, lidars_heard, lidar_heard,
-       looked, previous, gap, protective_stop, begun, stopped, stopped_order, jog, jog_heard, trail, trail_at,
-       effort, limits, unarmed_steps);
+  each(bytes, mode, odometry, track, drive, drive_heard, drive_clock, drive_us, drive_restarted, lidars_heard,
+       lidar_heard, looked, previous, gap, protective_stop, begun, stopped, stopped_order, jog, jog_heard,
+       trail, trail_at, effort, limits, unarmed_steps);
   each_of_way(bytes, way);
 }
 

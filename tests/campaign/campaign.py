@@ -32,6 +32,7 @@ parser.add_argument("--table", type=pathlib.Path, help="writes what was measured
 parser.add_argument("--keep", type=pathlib.Path, help="an empty folder for sites, logs and recordings, to look at afterwards")
 arguments = parser.parse_args()
 OFF_ROUTE_M = 0.3
+ASKS_AFTER_S = 30
 STATES = {"localizing", "driving", "detouring", "waiting", "paused", "emergency_stop", "fault", "idle", "manual"}
 
 
@@ -65,8 +66,12 @@ def try_fault(scene, routes, fault):
         """Delivers again; in the short form: drives again."""
         return run.stops_done() > done or (arguments.short and factory.truth.newest()["linear_mps"] > 0.9)
 
+    asked = False
     while not goes_on() and run.process.poll() is None and time.monotonic() < end:
         time.sleep(0.05)
+        # A person who reads it does what it says.
+        if time.monotonic() - begun > ASKS_AFTER_S and not asked and run.newest_event().endswith("then press Resume"):
+            asked = run.say("resume") or True
     went_on = goes_on()
     stood_s = stands_after(factory, moment, moment + acted_s)
     detours = run.detours_after(before)
@@ -94,7 +99,7 @@ def try_fault(scene, routes, fault):
     if factory.truth.newest()["collisions"]:
         wrong.append("collided")
     return {"fault": name, "stood_s": stood_s, "told": told, "off_m": off_m, "again_s": time.monotonic() - begun,
-            "around": bool(detours), "wrong": wrong}
+            "around": bool(detours), "asked": asked, "wrong": wrong}
 
 
 def scene_of(seed, folder):
@@ -122,9 +127,15 @@ def end_well(run):
         raise SystemExit(f"{run.name} ended with {status}:\n{run.log.read_text()}")
 
 
+def how(rows):
+    """What else was done until it drove again."""
+    return (", a way around" if any(row["around"] for row in rows) else "") + (
+        ", a person was asked" if any(row["asked"] for row in rows) else "")
+
+
 def tell(row):
     stood = f"stood after {row['stood_s']:.2f} s" if row["stood_s"] is not None else "drove on"
-    print(f"{row['fault']:>50}: {stood}; {row['off_m']:.2f} m off{', a way around' if row['around'] else ''}; {'; '.join(row['wrong']) or 'good'}", flush=True)
+    print(f"{row['fault']:>50}: {stood}; {row['off_m']:.2f} m off{how([row])}; {'; '.join(row['wrong']) or 'good'}", flush=True)
 
 
 def campaign(seed, rows):
@@ -154,7 +165,7 @@ def table(rows):
     for name in dict.fromkeys(row["fault"] for row in rows):
         of = [row for row in rows if row["fault"] == name]
         stood = [row["stood_s"] for row in of if row["stood_s"] is not None]
-        text += (f"| {name} | {f'{max(stood):.2f} s' if stood else 'drives on'}{', a way around' if any(row['around'] for row in of) else ''} | {', '.join(of[0]['told']) or '-'} "
+        text += (f"| {name} | {f'{max(stood):.2f} s' if stood else 'drives on'}{how(of)} | {', '.join(of[0]['told']) or '-'} "
                  f"| {max(row['off_m'] for row in of):.2f} m | {sum(not row['wrong'] for row in of)} of {len(of)} |\n")
     return text
 

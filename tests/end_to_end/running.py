@@ -114,6 +114,10 @@ class Run:
         rows = self.ask("SELECT max(id) FROM events")
         return rows[0][0] or 0 if rows else 0
 
+    def newest_event(self):
+        rows = self.ask("SELECT text FROM events ORDER BY id DESC LIMIT 1")
+        return rows[0][0] if rows else ""
+
     def events_after(self, number):
         return [text for (text,) in self.ask(f"SELECT text FROM events WHERE id > {number} ORDER BY id")]
 

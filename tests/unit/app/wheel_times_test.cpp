@@ -58,13 +58,14 @@ TEST(WheelTimes, ABacklogIsNoLossOfPowerButAClockThatBeginsAnewIs) {
     for (int i = 0; i < 50; ++i)
       state = step(std::move(state), status_at(up_ms + 20 * i, now_ms += 20), config).state;
     CycleInput backlog = status_at(up_ms + 1'000, now_ms += 5'000);
-    for (std::int64_t i = 1; i < 130; ++i)
+    for (std::int64_t i = 1; i < 400; ++i)
       backlog.drive.push_back(status_at(up_ms + 1'000 + 10 * i, now_ms).drive.front());
     state = step(std::move(state), backlog, config).state;
     state = step(std::move(state), status_at(up_ms + 6'000, now_ms += 20), config).state;
     EXPECT_NE(state.mode, Mode::EmergencyStop) << up_ms;
     state = step(std::move(state), status_at(500, now_ms += 1'000), config).state;
     EXPECT_EQ(state.mode, Mode::EmergencyStop) << up_ms;
+    EXPECT_EQ(state.standstill.cause.code, "emergency-stop-over") << "nobody has pressed it";
   }
 }
 

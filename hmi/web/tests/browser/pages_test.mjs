@@ -29,6 +29,27 @@ async function small(panel, target) {
   }), target);
 }
 
+/** Words on buttons that are cut in two or stick out of them (Japanese may break anywhere). */
+async function badWords(panel) {
+  return panel.page.evaluate(() => [...document.querySelectorAll("button, a.target")].flatMap((element) => {
+    const box = element.getBoundingClientRect();
+    if (box.width === 0 || element.closest("[hidden]")) return [];
+    const bad = [];
+    const texts = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
+    while (texts.nextNode()) {
+      if (texts.currentNode.parentElement.closest(".unseen")) continue;
+      for (const word of texts.currentNode.data.matchAll(/[\p{Script=Latin}]+/gu)) {
+        const range = document.createRange();
+        range.setStart(texts.currentNode, word.index);
+        range.setEnd(texts.currentNode, word.index + word[0].length);
+        const parts = [...range.getClientRects()];
+        if (parts.length > 1 || parts.some((part) => part.left < box.left || part.right > box.right)) bad.push(word[0]);
+      }
+    }
+    return bad;
+  }));
+}
+
 async function walk(browser, address, { width, height, target }, language, theme) {
   const panel = await openPanel(browser, address, { width, height, language, theme });
   const problems = [];
@@ -38,6 +59,7 @@ async function walk(browser, address, { width, height, target }, language, theme
     const where = `${name}, ${width}x${height}, ${language}, ${theme}`;
     for (const issue of await findings(panel.page)) problems.push(`${where}: ${issue}`);
     for (const issue of await small(panel, target)) problems.push(`${where}: too small or cut off: ${issue}`);
+    for (const word of await badWords(panel)) problems.push(`${where}: cut or sticks out: ${word}`);
     if (shots) await panel.page.screenshot({ path: join(shots, `${name}-${width}x${height}-${language}-${theme}.png`) });
   }
   for (const error of panel.errors) problems.push(`${width}x${height}, ${language}, ${theme}: console: ${error}`);
