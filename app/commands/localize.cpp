@@ -40,6 +40,7 @@ struct LocalizeArguments {
   std::string wheels;
   std::string initial;
   std::string out;
+  std::string on_drawing;
   std::string json_file;
   std::string health_file;
   std::string plot;
@@ -109,12 +110,15 @@ void localize(const LocalizeArguments& arguments) {
   if (kept.memory) localizer.recall(*std::move(kept.memory));
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   std::string trajectory = kTumHead;
+  std::string on_drawing = kTumHead;
   HealthLog health;
   std::vector<PoseEstimate> estimates;
   const PlayedLog played = play_log(
       *log, log_lidar(site), localizer,
       [&](const PoseEstimate& e) {
         trajectory += tum_line(e.stamp, e.map_from_base);
+        const auto bent = localizer.bent();
+        on_drawing += tum_line(e.stamp, bent ? bent->on_drawing(e.map_from_base) : e.map_from_base);
         health.add(e);
         estimates.push_back(e);
       },
@@ -133,6 +137,7 @@ void localize(const LocalizeArguments& arguments) {
       keep_warp(folder, walls, localizer);
   }
   mapping::write_file_atomically(arguments.out, trajectory);
+  if (!arguments.on_drawing.empty()) mapping::write_file_atomically(arguments.on_drawing, on_drawing);
   if (!arguments.health_file.empty()) {
     mapping::write_file_atomically(arguments.health_file, health.csv());
   }
@@ -183,6 +188,9 @@ void add_localize(CLI::App& app) {
   CLI::Option* global = command->add_flag("--global", arguments->global, "the start is not known: find it");
   initial->excludes(global);
   command->add_option("--out", arguments->out, "trajectory to write (TUM), a pose a record")->required();
+  command->add_option(
+      "--on-drawing", arguments->on_drawing,
+      "the same poses carried onto the drawing to write (TUM): where a person looks for them");
   command->add_option("--plot", arguments->plot, "picture of the way on the drawing to write (PNG)");
   command->add_option("--health", arguments->health_file,
                       "table of the health at every record to write (CSV)");
