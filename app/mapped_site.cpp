@@ -10,10 +10,10 @@
 #include "app/iso_time.hpp"
 #include "core/result.hpp"
 #include "localization/drawing_fit/wall_lines.hpp"
-#include "mapping/drawing/import_picture.hpp"
-#include "mapping/drawing/palette_png.hpp"
 #include "mapping/site/site.hpp"
 #include "mapping/site/site_transaction.hpp"
+#include "mapping/wall_map/import_picture.hpp"
+#include "mapping/wall_map/palette_png.hpp"
 #include "mapping/wall_map/wall_files.hpp"
 
 namespace madori::app {

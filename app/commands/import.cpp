@@ -43,22 +43,36 @@ void add_touches(CLI::App& command, ImportArguments& arguments) {
 }
 
 void add_detection_options(CLI::App& command, mapping::DetectionOptions& d) {
-  command.add_option("--threshold", d.threshold, "ink is darker than this, 1..254 (default: measured)");
-  command.add_option("--min-wall-length", d.min_wall_length_px, "shortest wall, pixels (default: measured)");
-  command.add_option("--min-thickness", d.min_thickness_px, "solid walls are at least this thick, pixels");
+  command.add_option("--min-wall-length", d.min_wall_length_px, "shortest wall, pixels");
   command.add_option("--close-gap", d.close_gap_px, "gaps up to this are closed, pixels");
   command.add_option("--model", d.model, "judge the lines by this wall model instead of the built-in one")
       ->check(CLI::ExistingFile);
-  command.add_flag("--keep-furniture", d.keep_furniture, "furniture, machines and stairs are walls too");
-  command.add_flag("--keep-dashed", d.keep_dashed, "dashed lines are walls too");
-  command.add_flag("--keep-dimensions", d.keep_dimensions, "dimension lines are walls too");
-  command.add_flag("--keep-outer-faces", d.keep_outer_faces, "outside faces of thick outer walls too");
   command
       .add_option(
           "--strictness", d.strictness,
           "what a wrong wall weighs against a missed one: 0 keeps all lines, 3 the sure ones (default 1)")
       ->check(CLI::Range(0.0, 1000.0));
   command.add_flag("!--no-straighten", d.straighten, "leave walls as they are drawn");
+}
+
+/// Choices of the rules that the wall model has replaced: scripts that name them still run, and are told.
+void add_retired_options(CLI::App& command) {
+  const auto say = [](const std::string& name) {
+    std::fprintf(stderr,
+                 "note: %s has no effect any more: --strictness, --like and --unlike say what is a wall\n",
+                 name.c_str());
+  };
+  for (const std::string name : {"--threshold", "--min-thickness"})
+    command
+        .add_option_function<double>(
+            name, [say, name](double) { say(name); }, "no effect any more")
+        ->group("");
+  for (const std::string name :
+       {"--keep-furniture", "--keep-dashed", "--keep-dimensions", "--keep-outer-faces"})
+    command
+        .add_flag_callback(
+            name, [say, name] { say(name); }, "no effect any more")
+        ->group("");
 }
 
 /// `madori import BACKUP`
@@ -106,6 +120,7 @@ void add_import(CLI::App& app) {
   command->add_option("--json", arguments->json_file, "write the figures to a file; - for stdout");
   add_detection_options(*command, o.detection);
   add_touches(*command, *arguments);
+  add_retired_options(*command);
   command->callback([arguments] {
     if (hmi::is_backup(arguments->options.drawing)) return restore(*arguments);
     if (arguments->options.site.empty()) throw CLI::RequiredError("--site");

@@ -48,13 +48,8 @@ mapping::ImportOptions options_of(const Request& request) {
   options.plan.layers = list_in(query_of(request, "layers"));
   options.plan.unit = query_of(request, "unit");
   options.m_per_px = number_of(request, "m_per_px", 1e-6, 1e3);
-  options.detection.threshold = number_of(request, "threshold", 1.0, 254.0);
   options.detection.min_wall_length_px = number_of(request, "min_wall_px", 1.0, 1e5);
   options.detection.strictness = number_of(request, "strictness", 0.0, 1000.0);
-  options.detection.keep_furniture = query_of(request, "furniture") == "1";
-  options.detection.keep_dashed = query_of(request, "dashed") == "1";
-  options.detection.keep_dimensions = query_of(request, "dimensions") == "1";
-  options.detection.keep_outer_faces = query_of(request, "outer_faces") == "1";
   return options;
 }
 

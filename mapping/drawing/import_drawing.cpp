@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "core/result.hpp"
-#include "mapping/drawing/import_picture.hpp"
 #include "mapping/georeference/scale_estimate.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site_transaction.hpp"
+#include "mapping/wall_map/import_picture.hpp"
 #include "mapping/wall_map/wall.hpp"
 #include "mapping/wall_map/wall_files.hpp"
 #include "mapping/wall_map/wall_probabilities.hpp"
@@ -97,8 +97,8 @@ void refuse_blank(const ImportOptions& options, const GrayImage& picture) {
   throw Error(options.drawing.string(), "no wall was found in it",
               vectors
                   ? "name the layers of the walls with --layers"
-                  : "look at the stages with --debug-images; fainter lines: --threshold 220; small drawings: "
-                    "--min-wall-length 10; doubtful walls: --strictness 0.3");
+                  : "doubtful walls: --strictness 0.3; name a line that is a wall: --like u,v; look at the "
+                    "stages with --debug-images");
 }
 
 /// From a printed scale: one pixel is 1/dpi inch of paper.
@@ -158,10 +158,7 @@ DetectedWalls find_walls(const ImportOptions& options, Plan& plan, SiteTransacti
     found.rejected = std::move(plan.vectors->rejected);
   } else {
     refuse_blank(options, plan.picture);
-    DetectionOptions detection = options.detection;
-    if (const auto scale = find_scale(options, plan); scale && !detection.m_per_px)
-      detection.m_per_px = scale->m_per_px;
-    found = detect_walls(plan.picture, detection, debug_sink(options, change), progress);
+    found = read_drawing(plan.picture, options.detection, debug_sink(options, change), progress);
   }
   if (found.walls.empty()) no_walls(options, plan);
   return found;

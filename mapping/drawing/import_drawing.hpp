@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mapping/drawing/plan.hpp"
-#include "mapping/drawing/raster/detect_walls.hpp"
+#include "mapping/drawing/read_drawing.hpp"
 #include "mapping/site/site.hpp"
 
 namespace madori::mapping {

@@ -1,7 +1,7 @@
 #include "mapping/georeference/apply_scale.hpp"
 
-#include "mapping/drawing/import_picture.hpp"
 #include "mapping/drawing/plan.hpp"
+#include "mapping/wall_map/import_picture.hpp"
 #include "mapping/wall_map/wall_files.hpp"
 #include "mapping/wall_map/wall_probabilities.hpp"
 

@@ -1,7 +1,7 @@
 // Detects the walls of one drawing and writes walls.csv (metres, y up); --method otsu-hough and lsd are the
 // baselines.
-//   bench_detect_walls DRAWING --scale M_PER_PX --out walls.csv [--method madori|otsu-hough|lsd] [--debug
-//   FOLDER]
+//   bench_detect_walls DRAWING --scale M_PER_PX --out walls.csv [--method madori|otsu-hough|lsd]
+//   [--model FILE] [--lines FILE] [--debug FOLDER]
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -10,8 +10,8 @@
 #include <string>
 
 #include "core/result.hpp"
-#include "mapping/drawing/raster/detect_walls.hpp"
 #include "mapping/drawing/raster/load_image.hpp"
+#include "mapping/drawing/read_drawing.hpp"
 
 namespace {
 
@@ -51,6 +51,17 @@ void write_csv(const std::string& file, const std::vector<PixelSegment>& walls, 
         << (height - w.v2) * scale << '\n';
 }
 
+/// Every line of the drawing, pixels, and how probable a wall it is.
+void write_lines(const std::string& file, const madori::mapping::DetectedWalls& found) {
+  std::ofstream out(file);
+  out << "u1,v1,u2,v2,wall,probability\n";
+  const auto row = [&](const PixelSegment& s, int wall, double probability) {
+    out << s.u1 << ',' << s.v1 << ',' << s.u2 << ',' << s.v2 << ',' << wall << ',' << probability << '\n';
+  };
+  for (std::size_t i = 0; i < found.walls.size(); ++i) row(found.walls[i], 1, found.probabilities[i]);
+  for (const auto& r : found.rejected) row(r.segment, 0, r.probability);
+}
+
 void write_pgm(const std::string& file, const GrayImage& image) {
   std::ofstream out(file, std::ios::binary);
   out << "P5\n" << image.width_px << ' ' << image.height_px << "\n255\n";
@@ -73,18 +84,15 @@ int run(const std::string& drawing, std::map<std::string, std::string>& flags) {
       sink = [folder](const auto& stage, const auto& picture) {
         write_pgm(folder + "/" + stage + ".pgm", picture);
       };
-    const auto found = madori::mapping::detect_walls(image, {}, sink);
+    madori::mapping::DetectionOptions options;
+    options.model = flags["--model"];
+    const auto found = madori::mapping::read_drawing(image, options, sink);
     for (const auto& stage : found.stages)
       std::printf("%-14s %8.1f ms %8zu\n", stage.name.c_str(), stage.milliseconds, stage.count);
     std::printf("skew %.2f deg, %zu walls, %zu rejected\n", found.skew_deg, found.walls.size(),
                 found.rejected.size());
     walls = found.walls;
-    if (const auto file = flags["--rejected"]; !file.empty()) {
-      std::ofstream out(file);
-      for (const auto& r : found.rejected)
-        out << to_string(r.reason) << ',' << r.segment.u1 << ',' << r.segment.v1 << ',' << r.segment.u2 << ','
-            << r.segment.v2 << '\n';
-    }
+    if (const auto file = flags["--lines"]; !file.empty()) write_lines(file, found);
   }
   if (flags.contains("--out")) {
     const double scale = flags.contains("--scale") ? std::stod(flags["--scale"]) : 1.0;

@@ -1,8 +1,8 @@
 // The way of a raster drawing: its header, the decoder, the detection of walls on small ones, the picture.
-#include "mapping/drawing/import_picture.hpp"
-#include "mapping/drawing/raster/detect_walls.hpp"
 #include "mapping/drawing/raster/image_header.hpp"
 #include "mapping/drawing/raster/load_image.hpp"
+#include "mapping/drawing/read_drawing.hpp"
+#include "mapping/wall_map/import_picture.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     const GrayImage image = load_image(file.path());
     madori::fuzz::check(image);
     if (image.pixels.size() > 40'000) return 0;  // keeps the runs many
-    const DetectedWalls found = detect_walls(image, {});
+    const DetectedWalls found = read_drawing(image, {});
     for (const auto& wall : found.walls)
       madori::fuzz::require(std::isfinite(wall.u1 + wall.v1 + wall.u2 + wall.v2));
     madori::fuzz::require(!import_picture(image, found.walls, found.rejected, 0.01).empty());

@@ -5,7 +5,7 @@
 
 #include "app/log_player.hpp"
 #include "app/trajectory_score.hpp"
-#include "mapping/drawing/raster/detect_walls.hpp"
+#include "mapping/drawing/read_drawing.hpp"
 #include "mapping/drawing/raster/load_image.hpp"
 #include "sensors/carmen/reader.hpp"
 #include "tests/support/lidar_models.hpp"
@@ -19,7 +19,7 @@ const std::filesystem::path kIntel = std::filesystem::path(MADORI_SHARED_DATA) /
 mapping::Walls drawn_walls(const char* file) {
   const mapping::GrayImage image = mapping::load_image(kIntel / file);
   mapping::Walls walls;
-  for (const mapping::PixelSegment& s : mapping::detect_walls(image, {}).walls) {
+  for (const mapping::PixelSegment& s : mapping::read_drawing(image, {}).walls) {
     walls.push_back({static_cast<int>(walls.size()),
                      {{s.u1 * kScale, (image.height_px - s.v1) * kScale},
                       {s.u2 * kScale, (image.height_px - s.v2) * kScale}}});

@@ -70,6 +70,8 @@ class Builder {
     place();
     repeats();
     styles();
+    m_.width_px = std::move(width_);
+    m_.pen_px = pen_;
     return std::move(table_);
   }
 

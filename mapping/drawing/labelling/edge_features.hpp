@@ -14,6 +14,8 @@ struct EdgeMeasures {
   std::vector<EdgeLinks> links;
   std::vector<EdgeRegions> regions;
   std::vector<int> styles, looks;  ///< edges of a number look alike, closely or roughly
+  std::vector<double> width_px;    ///< of the stroke or body on an edge's dark side; 0 where there is none
+  double pen_px = 1;
 };
 
 [[nodiscard]] EdgeMeasures measure_edges(const EdgeSheet& sheet);

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "core/result.hpp"
+#include "mapping/drawing/labelling/straight_edges.hpp"
 #include "mapping/drawing/raster/cv_view.hpp"
 
 namespace madori::mapping {
@@ -21,6 +23,7 @@ constexpr double kRareTone = 1e-4;    // of the pixels: dust and glare do not sa
 constexpr int kLeastRange = 20;       // grey levels: an empty sheet stays as it is
 constexpr int kRowsAsked = 1000;      // rows that are enough to tell the ground
 constexpr int kStepShare = 8;         // of the range: what steps less is shading
+constexpr double kNoise = 0.5;        // of the pixels are steps: white noise has 0.77, dense hatching 0.3
 
 /// The same drawing has about the same sheet however finely it is scanned.
 double factor_for(const GrayImage& drawing) {
@@ -50,14 +53,18 @@ Tones tones_of(const GrayImage& image) {
   if (high - low < kLeastRange) return tones;
   tones.darkest = low, tones.brightest = high;
   const auto ground = static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
-  std::size_t darker = 0, brighter = 0;
-  for (int v = 0; v < image.height_px; v += 1 + image.height_px / kRowsAsked)
+  std::size_t darker = 0, brighter = 0, asked = 0;
+  for (int v = 0; v < image.height_px;
+       v += 1 + image.height_px / kRowsAsked, asked += static_cast<std::size_t>(image.width_px))
     for (int u = 1; u < image.width_px; ++u) {
       const int one = image.at(u - 1, v), other = image.at(u, v);
       if (kStepShare * std::abs(one - other) < high - low) continue;
       const int off = std::abs(one - ground) > std::abs(other - ground) ? one : other;
       ++(off < ground ? darker : brighter);
     }
+  if (static_cast<double>(darker + brighter) > kNoise * static_cast<double>(asked))
+    throw Error("wall detection", "the picture is noise, no line can be told in it",
+                "scan it again, or smooth it first");
   tones.dark_ground = brighter > darker;
   return tones;
 }
@@ -75,8 +82,8 @@ std::array<std::uint8_t, 256> spread(const Tones& tones) {
 }
 
 /// At `factor` times the size, its greys spread.
-GrayImage prepared(const GrayImage& image, double factor) {
-  auto table = spread(tones_of(image));
+GrayImage prepared(const GrayImage& image, const Tones& tones, double factor) {
+  auto table = spread(tones);
   GrayImage out{.width_px = std::max(1, static_cast<int>(std::lround(image.width_px * factor))),
                 .height_px = std::max(1, static_cast<int>(std::lround(image.height_px * factor))),
                 .dpi = image.dpi * factor};
@@ -168,10 +175,10 @@ void draw_edges(EdgeSheet& sheet) {
 EdgeSheet find_edges(const GrayImage& drawing) {
   EdgeSheet sheet;
   sheet.factor = factor_for(drawing);
-  sheet.grey = prepared(drawing, sheet.factor);
-  std::vector<cv::Vec4f> found;
-  cv::createLineSegmentDetector(cv::LSD_REFINE_STD)->detect(cv_view(sheet.grey), found);
-  for (const cv::Vec4f& s : found) append(sheet, {s[0] + 0.5, s[1] + 0.5, s[2] + 0.5, s[3] + 0.5});
+  const Tones tones = tones_of(drawing);
+  sheet.dark_ground = tones.dark_ground;
+  sheet.grey = prepared(drawing, tones, sheet.factor);
+  for (const PixelSegment& s : straight_edges(sheet.grey)) append(sheet, s);
   measure_box(sheet);
   draw_edges(sheet);
   return sheet;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mapping/drawing/labelling/label_lines.hpp"
+#include "mapping/drawing/labelling/label_sheet.hpp"
 #include "mapping/drawing/raster/detection_options.hpp"
 
 namespace madori::mapping {

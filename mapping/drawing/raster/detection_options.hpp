@@ -13,30 +13,18 @@ struct LineTouch {
   bool wall = true;
 };
 
-/// Every automatic choice of detect_walls. An empty optional means: measured on the drawing itself.
+/// The choices of read_drawing. An empty optional means: measured on the drawing itself.
 struct DetectionOptions {
-  /// Ink is darker than this, 1..254. Higher keeps fainter lines and more dirt.
-  std::optional<double> threshold;
   /// Shorter walls are dropped, pixels. Higher removes debris and short wall stubs.
   std::optional<double> min_wall_length_px;
-  /// A stroke at least this thick is a solid wall with two faces; thinner ones are lines, pixels.
-  std::optional<double> min_thickness_px;
   /// Two pieces of one straight line with a smaller gap between them are one wall, pixels.
   std::optional<double> close_gap_px;
-  /// Scale where it is known already; guards only against absurd wall thicknesses.
-  std::optional<double> m_per_px;
-  /// The wall model that decides; empty: the one that is built in, where it does not find the rules' walls
-  /// about as good.
+  /// The wall model that judges; empty: the one that is built in.
   std::filesystem::path model;
-  /// What a wrong wall weighs against a missed one. Higher leaves more out, 0 keeps every line; the model
-  /// decides.
+  /// What a wrong wall weighs against a missed one. Higher leaves more out, 0 keeps every line.
   std::optional<double> strictness;
-  /// Lines that somebody has named: those like them are judged alike; the model decides.
+  /// Lines that somebody has named: those like them are judged alike.
   std::vector<LineTouch> touches;
-  bool keep_furniture = false;    ///< furniture, machines and stairs stay walls
-  bool keep_dashed = false;       ///< dashed and dash-dot lines stay walls
-  bool keep_dimensions = false;   ///< dimension, leader and extension lines stay walls
-  bool keep_outer_faces = false;  ///< faces of thick solid outer walls that nobody inside can see
   /// Walls within a few tenths of a degree of the drawing's main directions are turned onto them. The walls
   /// stay in the pixels of the drawing as it is: the skew is measured and reported, never rotated away.
   bool straighten = true;

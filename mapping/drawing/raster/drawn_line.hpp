@@ -13,13 +13,10 @@ namespace madori::mapping {
 /// A straight line of the drawing with what is known about it.
 struct DrawnLine {
   PixelSegment segment;
-  bool solid_face = false;  ///< the outline of a solid fill; otherwise the middle of a pen stroke
-  double stroke_px = 1;     ///< thickness of the ink under it
-  double residual_px = 0;   ///< root mean square distance of its pixels
-  int chain = -1;           ///< the bent line it is a piece of; -1 = straight from the Hough transform
-  std::optional<RejectReason> rejected;  ///< set by the first stage that knows it is no wall
-  double probability = 1;  ///< that it is a wall
-  bool pale = false;       ///< an edge in which no ink was found
+  bool solid_face = false;  ///< the side of a fill or of a body; otherwise the middle of a pen stroke
+  double stroke_px = 1;     ///< thickness of the pen stroke
+  double probability = 1;   ///< that it is a wall
+  std::optional<RejectReason> rejected{};  ///< why it is no wall
 
   [[nodiscard]] double length_px() const { return segment.length_px(); }
   /// Direction, [0, pi): lines have no sense.

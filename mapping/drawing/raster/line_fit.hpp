@@ -1,20 +1,17 @@
 #pragma once
 
-#include <vector>
-
 #include "mapping/drawing/pixel_segment.hpp"
 
 namespace madori::mapping {
 
 struct LinePoint {
-  double u = 0, v = 0;
+  double u{}, v{};
 };
 
 /// An endless line in Hesse form with its middle, pixels.
 struct FittedLine {
-  double middle_u = 0, middle_v = 0;
+  double middle_u{}, middle_v{};
   double direction_u = 1, direction_v = 0;  ///< unit length
-  double residual = 0;                      ///< root mean square distance of the points fitted
 
   [[nodiscard]] double along(double u, double v) const {
     return (u - middle_u) * direction_u + (v - middle_v) * direction_v;
@@ -26,15 +23,9 @@ struct FittedLine {
     return {middle_u + from * direction_u, middle_v + from * direction_v, middle_u + to * direction_u,
             middle_v + to * direction_v};
   }
-  void reverse() {
-    direction_u = -direction_u;
-    direction_v = -direction_v;
-  }
 };
 
 /// Through both ends of a segment of some length.
 [[nodiscard]] FittedLine line_through(const PixelSegment& segment);
-/// Total least squares: the principal axis of the points. Precondition: two different points at least.
-[[nodiscard]] FittedLine fit_line(const std::vector<LinePoint>& points);
 
 }  // namespace madori::mapping

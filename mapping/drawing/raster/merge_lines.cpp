@@ -38,7 +38,8 @@ std::optional<DrawnLine> joined(const DrawnLine& a, const DrawnLine& b, const Me
     const LinePoint end = to > half ? high : LinePoint{l.u2, l.v2};
     both.segment = {start.u, start.v, end.u, end.v};
   }
-  both.residual_px = std::max(a.residual_px, b.residual_px);
+  const double length = a.length_px() + b.length_px();
+  if (length > 0) both.probability = (a.probability * a.length_px() + b.probability * b.length_px()) / length;
   return both;
 }
 
@@ -54,7 +55,9 @@ bool merge_once(DrawnLines& lines, const MergeOptions& options) {
     if (gone[i]) continue;
     const PixelSegment around = lines[i].segment;
     index.near(around, options.largest_gap_px + 1, [&](std::size_t j) {
-      if (j == i || gone[j] || gone[i] || lines[i].solid_face != lines[j].solid_face) return;
+      if (j == i || gone[j] || gone[i] || lines[i].solid_face != lines[j].solid_face ||
+          lines[i].rejected != lines[j].rejected)
+        return;
       if (const auto both = joined(lines[i], lines[j], options)) {
         lines[i] = *both;
         gone[j] = changed = true;

@@ -10,8 +10,8 @@ struct MergeOptions {
   double largest_angle_rad = 0.035;
 };
 
-/// Joins collinear pieces that overlap or nearly touch, until nothing changes. Two faces of a wall are
-/// further apart than the offset and stay two.
+/// Joins collinear pieces of one kind that overlap or nearly touch, until nothing changes. Two faces of a
+/// wall are further apart than the offset and stay two.
 [[nodiscard]] DrawnLines merge_lines(DrawnLines lines, const MergeOptions& options);
 
 }  // namespace madori::mapping

@@ -13,11 +13,4 @@ void StageClock::end(std::size_t count) {
   found_.stages.push_back({name_, spent.count(), count});
 }
 
-void StageClock::picture(const std::string& name, const GrayImage& ink) const {
-  if (!sink_) return;
-  GrayImage shown = ink;
-  for (auto& pixel : shown.pixels) pixel = pixel != 0 ? 0 : 255;
-  sink_(name, shown);
-}
-
 }  // namespace madori::mapping

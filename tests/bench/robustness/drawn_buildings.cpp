@@ -8,7 +8,7 @@
 #include "localization/drawing_fit/wall_lines.hpp"
 #include "localization/memory/memory.hpp"
 #include "localization/scan_points.hpp"
-#include "mapping/drawing/raster/detect_walls.hpp"
+#include "mapping/drawing/read_drawing.hpp"
 #include "mapping/drawing/raster/load_image.hpp"
 #include "sensors/carmen/reader.hpp"
 
@@ -30,7 +30,7 @@ mapping::Walls picture_walls(const std::filesystem::path& picture, double m_per_
   if (harm.thinner_px > 0) cv::dilate(pixels, pixels, brush);  // paper grows over the ink
   if (harm.thinner_px < 0) cv::erode(pixels, pixels, brush);
   mapping::Walls walls;
-  for (const mapping::PixelSegment& s : mapping::detect_walls(image, {}).walls) {
+  for (const mapping::PixelSegment& s : mapping::read_drawing(image, {}).walls) {
     walls.push_back({static_cast<int>(walls.size()),
                      {{s.u1 * m_per_px, (image.height_px - s.v1) * m_per_px},
                       {s.u2 * m_per_px, (image.height_px - s.v2) * m_per_px}}});

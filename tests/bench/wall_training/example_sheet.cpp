@@ -104,7 +104,7 @@ std::vector<ListRow> read_list(const std::string& file) {
 }
 
 ExampleSheet measure(const ListRow& row) {
-  const auto sheet = mapping::label_sheet(mapping::load_image(row.drawing));
+  const auto sheet = mapping::label_sheet(mapping::find_edges(mapping::load_image(row.drawing)));
   const auto truth = read_truth(row.walls);
   ExampleSheet example{
       row.name, row.source, row.truth, static_cast<float>(row.weight), sheet.features.names(), {}, {}, {},

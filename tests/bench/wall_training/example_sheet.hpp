@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mapping/drawing/labelling/label_lines.hpp"
+#include "mapping/drawing/labelling/label_sheet.hpp"
 
 namespace madori::training {
 

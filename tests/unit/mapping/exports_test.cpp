@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/result.hpp"
-#include "mapping/drawing/import_picture.hpp"
+#include "mapping/wall_map/import_picture.hpp"
 #include "mapping/wall_map/occupancy_map.hpp"
 #include "mapping/wall_map/point_map.hpp"
 #include "tests/support/temporary_folder.hpp"

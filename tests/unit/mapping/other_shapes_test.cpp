@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "mapping/drawing/raster/detect_walls.hpp"
+#include "mapping/drawing/read_drawing.hpp"
 #include "tests/support/wall_score.hpp"
 
 namespace madori::mapping {
@@ -14,8 +14,10 @@ namespace {
 /// 1200 x 900 pixels: solid outer walls of 20, inner walls of 12, chairs and a label.
 constexpr int kWidth = 1200, kHeight = 900;
 
+/// Both faces of the outer walls, the middles of the inner ones.
 std::vector<PixelSegment> true_faces() {
-  return {{120, 120, 1080, 120}, {1080, 120, 1080, 780}, {1080, 780, 120, 780}, {120, 780, 120, 120},
+  return {{100, 100, 1100, 100}, {1100, 100, 1100, 800}, {1100, 800, 100, 800}, {100, 800, 100, 100},
+          {120, 120, 1080, 120}, {1080, 120, 1080, 780}, {1080, 780, 120, 780}, {120, 780, 120, 120},
           {500, 120, 500, 400},  {500, 520, 500, 780},   {500, 300, 1080, 300}, {800, 300, 800, 600}};
 }
 
@@ -75,7 +77,7 @@ test::WallScore score(const Shape& shape) {
     face = {moved[0].x, moved[0].y, moved[1].x, moved[1].y};
   }
   const double reach = 8 * shape.factor + shape.thicker_px;  // an inner wall is 12 thick and has two faces
-  return test::score_walls(detect_walls(image, {}).walls, truth, reach);
+  return test::score_walls(read_drawing(image, {}).walls, truth, reach);
 }
 
 TEST(OtherShapes, TheWallsOfAPlanAreFoundHoweverItIsDrawn) {

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "mapping/drawing/raster/detect_walls.hpp"
 #include "mapping/drawing/raster/edge_profile.hpp"
 #include "mapping/drawing/raster/line_fit.hpp"
+#include "mapping/drawing/read_drawing.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -34,7 +34,7 @@ GrayImage painted(const std::function<bool(double u, double v)>& is_ink, int ink
 }
 
 FittedLine axis_at(double u, double v, double angle_rad) {
-  return {u, v, std::cos(angle_rad), std::sin(angle_rad), 0};
+  return {u, v, std::cos(angle_rad), std::sin(angle_rad)};
 }
 
 /// A line 120 long about the axis, `off` beside it at its beginning and `off + turn` at its end.
@@ -152,9 +152,7 @@ TEST(SettleLines, SolidWallsComeOutAtTheirEdges) {
   fill(50, 50, 66, 450);
   fill(534, 50, 550, 450);
   fill(300, 66, 312, 300);
-  DetectionOptions options;
-  options.keep_outer_faces = true;
-  const DetectedWalls found = detect_walls(image, options);
+  const DetectedWalls found = read_drawing(image, {});
   int upright = 0;
   for (const PixelSegment& s : found.walls) {
     if (std::abs(s.v2 - s.v1) < 100) continue;
