@@ -26,7 +26,7 @@ BENCH = ROOT / "build/release/tests/bench"
 HOME = {"office": (0.00846, 0.1, 10), "clinic": (0.02692, 0.1, 10), "hotel_L1": (0.05568, 0.15, 5),
         "mlstruct_7db30954": (0.00474825, 0.1, 10), "mlstruct_8888a588": (0.00272847, 0.1, 10)}
 # Plans of the draughtsman of one kind: option, how many, first seed.
-KINDS = {"sketches": (80, 10001), "factories": (120, 20001)}
+KINDS = {"sketches": (120, 10001), "factories": (120, 20001)}
 COARSER = 0.7  # of the size that the import reduces a drawing to, or of its own
 SHEET_PX = 7e6
 GROUPS = 5  # models that leave sources out: each leaves out every fifth source at least

@@ -53,8 +53,13 @@ class Furnisher {
     const Box q(aside ? (chance_.one_in(0.5) ? in_.x : in_.x + in_.width - dx)
                       : chance_.between(in_.x, in_.x + in_.width - dx),
                 chance_.between(in_.y, in_.y + in_.height - dy), dx, dy);
+    something_in(q, std::min(dx, dy) * chance_.between(0.5, 1));
+  }
+
+  void something_in(const Box& q, double side) {
+    const double dx = q.width, dy = q.height;
     const Point m(q.x + dx / 2, q.y + dy / 2);
-    switch (chance_.below(9)) {
+    switch (chance_.below(11)) {
       case 0:
         round(m, std::min(dx, dy), std::min(dx, dy));
         break;
@@ -86,9 +91,22 @@ class Furnisher {
       case 7:
         plant(m, 0.5 * std::min(dx, dy));
         break;
+      case 8:  // a chair, a stool, a square table: as square as a column, but not on a grid
+        thing({m.x - side / 2, m.y - side / 2, side, side});
+        break;
+      case 9:
+        square_table(m, side);
+        break;
       default:
         thing(q);
     }
+  }
+
+  void square_table(Point m, double side) {
+    const double seat = side * chance_.between(0.4, 0.7), off = 0.5 * (side + seat) + chance_.between(0, 0.2);
+    thing({m.x - side / 2, m.y - side / 2, side, side});
+    for (const Point& to : {Point(off, 0), Point(-off, 0), Point(0, off), Point(0, -off)})
+      if (chance_.one_in(0.8)) thing({m.x + to.x - seat / 2, m.y + to.y - seat / 2, seat, seat});
   }
 
   void plant(Point m, double radius) {
