@@ -22,7 +22,7 @@ namespace {
 
 using namespace madori::training;
 
-constexpr int kTrees = 120, kSecondTrees = 80;
+constexpr int kTrees = 300, kSecondTrees = 200;
 constexpr const char *kDepth = "6", *kSecondDepth = "5";
 constexpr std::size_t kFolds = 5;
 constexpr std::size_t kMostOfHome = 20000, kMostOfReal = 1800,
@@ -98,7 +98,7 @@ class Judge {
                                                                     {"tree_method", "hist"},
                                                                     {"max_bin", "64"},
                                                                     {"max_depth", depth},
-                                                                    {"eta", "0.12"},
+                                                                    {"eta", "0.06"},
                                                                     {"subsample", "0.7"},
                                                                     {"lambda", "1"},
                                                                     {"colsample_bytree", "0.4"},
