@@ -117,8 +117,10 @@ void localize(const LocalizeArguments& arguments) {
       *log, log_lidar(site), localizer,
       [&](const PoseEstimate& e) {
         trajectory += tum_line(e.stamp, e.map_from_base);
-        const auto bent = localizer.bent();
-        on_drawing += tum_line(e.stamp, bent ? bent->on_drawing(e.map_from_base) : e.map_from_base);
+        if (!arguments.on_drawing.empty()) {
+          const auto bent = localizer.bent();
+          on_drawing += tum_line(e.stamp, bent ? bent->on_drawing(e.map_from_base) : e.map_from_base);
+        }
         health.add(e);
         estimates.push_back(e);
       },

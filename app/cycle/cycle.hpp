@@ -116,15 +116,6 @@ struct CycleInput {
   std::optional<planning::DetourAnswer> detour;
 };
 
-/// The stop of an order that the vehicle is on its way to.
-struct Target {
-  std::int64_t order = 0;
-  int round = 0;
-  std::size_t stop = 0;
-
-  friend bool operator==(const Target&, const Target&) = default;
-};
-
 /// Why the vehicle stands, for people.
 struct Standstill {
   Notice cause;  ///< empty while it drives

@@ -34,7 +34,7 @@ SiteKeeper::SiteKeeper(std::filesystem::path site, const mapping::Walls& walls,
       fingerprint_(mapping::walls_fingerprint(walls)),
       watch_(std::move(watch)),
       map_watch_(std::move(map_watch)),
-      learned_(std::make_shared<Learned>(site_)) {}
+      learned_(site_) {}
 
 SiteKeeper::~SiteKeeper() {
   finish_learning();
@@ -90,7 +90,7 @@ void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
 
 void SiteKeeper::keep_learned() {
   jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, map = map_watch_, bent = bent_,
-                        memory = memory_, files = learned_] {
+                        memory = memory_, files = &learned_] {
     if (memory) files->memory.write([&] { save_memory(site, memory->together(), walls); });
     if (map) files->map.write([&] { save_living_map(site, map->map(), walls); });
     if (bent) files->warp.write([&] { localization::save_warp(site / kWarpFile, bent->fit, walls); });

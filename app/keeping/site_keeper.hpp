@@ -62,7 +62,7 @@ class SiteKeeper {
   std::shared_ptr<const localization::BentDrawing> bent_;        ///< as last believed while sure of the place
   std::shared_ptr<const localization::RememberedParts> memory_;  ///< likewise
   Stamp memory_taken_{};
-  std::shared_ptr<Learned> learned_;  ///< used by the jobs alone
+  Learned learned_;  ///< used by the jobs alone
   BackgroundJobs jobs_;
 };
 

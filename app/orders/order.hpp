@@ -36,4 +36,13 @@ struct Order {
   friend bool operator==(const Order&, const Order&) = default;
 };
 
+/// A stop of an order, of one of its rounds.
+struct Target {
+  std::int64_t order = 0;
+  int round = 0;
+  std::size_t stop = 0;
+
+  friend bool operator==(const Target&, const Target&) = default;
+};
+
 }  // namespace madori::app

@@ -47,7 +47,7 @@ std::string OrderDesk::problem() const {
   return problem_;
 }
 
-void OrderDesk::stop_reached(const StopOfOrder& stop, Stamp label) {
+void OrderDesk::stop_reached(const Target& stop, Stamp label) {
   report({stop, std::nullopt, label});
 }
 

@@ -14,13 +14,6 @@
 
 namespace madori::app {
 
-/// A stop of an order, of one of its rounds.
-struct StopOfOrder {
-  std::int64_t order = 0;
-  int round = 0;
-  std::size_t stop = 0;
-};
-
 /// The cycle's place at madori.db: which order is to be worked on, stops that were reached, events. Another
 /// thread reads and writes, so that a slow, full, locked or missing disk holds no step up; what was reported
 /// is tried until it is written, and the order changes when it is. Until then the vehicle goes on with the
@@ -41,7 +34,7 @@ class OrderDesk {
 
   /// The order as it stood in the database lately. `may_begin`: the next one of the queue may begin.
   [[nodiscard]] std::optional<Order> order(Stamp now, bool may_begin);
-  void stop_reached(const StopOfOrder& stop, Stamp label);
+  void stop_reached(const Target& stop, Stamp label);
   /// The order ends at once.
   void refuse(std::int64_t id, const std::string& why, Stamp label);
   void add(EventRecord event);
@@ -52,7 +45,7 @@ class OrderDesk {
 
  private:
   struct Report {
-    StopOfOrder what;
+    Target what;
     std::optional<std::string> refused;  ///< why; nothing: the stop was reached
     Stamp label{};
   };

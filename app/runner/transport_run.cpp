@@ -50,8 +50,7 @@ void TransportRun::ask_detour(const planning::DetourRequest& request) {
 void TransportRun::carry_out(const CycleOutput& output, Stamp moment) {
   const Stamp now = time_of_day(moment);
   if (output.detour_wanted) ask_detour(*output.detour_wanted);
-  if (output.stop_done)
-    orders_.stop_reached({output.stop_done->order, output.stop_done->round, output.stop_done->stop}, now);
+  if (output.stop_done) orders_.stop_reached(*output.stop_done, now);
   if (output.order_refused) orders_.refuse(output.order_refused->first, output.order_refused->second, now);
   for (const std::string& text : output.events) {
     spdlog::info("{}", text);

@@ -25,8 +25,8 @@ constexpr std::uint64_t kLargest = 1ULL << 30U;  ///< of one file: drawings are 
 using TarBlock = std::array<char, kTarBlock>;
 
 bool is_of_site(const std::string& name) {
-  return name == "site.yaml" || name == "import.png" || name == "reliability.csv" ||
-         name == "memory.bin" || name == "self_calibration.yaml" || name.starts_with("drawing.") || name.starts_with("walls.") ||
+  return name == "site.yaml" || name == "import.png" || name == "reliability.csv" || name == "memory.bin" ||
+         name == "self_calibration.yaml" || name.starts_with("drawing.") || name.starts_with("walls.") ||
          name.starts_with("map.") || name.starts_with("routes/") || name.starts_with("tiles/") ||
          name.starts_with("learned/") || name.starts_with("versions/");
 }

@@ -11,10 +11,10 @@ namespace madori::mapping {
 /// A straight edge between a dark and a bright side: one side of a pen stroke, of a fill or of a coloured
 /// area.
 struct Edge {
-  PixelSegment segment;           ///< pixels of the sheet
-  double normal_u{}, normal_v{};  ///< unit length, towards the dark side
-  double length_px{};
-  double angle_rad{};  ///< [0, pi)
+  PixelSegment segment;               ///< pixels of the sheet
+  double normal_u = 0, normal_v = 0;  ///< unit length, towards the dark side
+  double length_px = 0;
+  double angle_rad = 0;  ///< [0, pi)
 };
 
 /// A drawing as its edges: what the features of its lines are measured on.
@@ -24,10 +24,10 @@ struct EdgeSheet {
   bool dark_ground = false;
   double factor = 1;  ///< its pixels for one of the drawing
   std::vector<Edge> edges;
-  std::vector<std::int32_t> edge_at;        ///< row-major; the edge that crosses a pixel, -1 where none does
-  std::vector<float> clear_px;              ///< row-major; the distance to the next edge
-  double size_px = 1;                       ///< diagonal of the box around all edges
-  double left{}, top{}, right{}, bottom{};  ///< that box
+  std::vector<std::int32_t> edge_at;  ///< row-major; the edge that crosses a pixel, -1 where none does
+  std::vector<float> clear_px;        ///< row-major; the distance to the next edge
+  double size_px = 1;                 ///< diagonal of the box around all edges
+  double left = 0, top = 0, right = 0, bottom = 0;  ///< that box
 
   [[nodiscard]] bool inside(double u, double v) const {
     return u >= 0 && v >= 0 && u < grey.width_px && v < grey.height_px;

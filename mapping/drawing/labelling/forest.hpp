@@ -15,7 +15,7 @@ namespace madori::mapping {
 struct ForestNode {
   static constexpr std::uint8_t kLeaf = 255;
   std::uint8_t feature = kLeaf, step = 0;
-  std::int16_t right{};
+  std::int16_t right = 0;
 };
 
 /// Boosted trees (T. Chen, C. Guestrin, "XGBoost", KDD 2016) that give every row of a table a probability.

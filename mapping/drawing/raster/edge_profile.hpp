@@ -9,14 +9,14 @@ namespace madori::mapping {
 /// far.
 struct EdgeProfile {
   std::vector<float> darkness;
-  double first_px{}, step_px = 1;
+  double first_px = 0, step_px = 1;
 
   [[nodiscard]] double at_px(std::size_t i) const { return first_px + static_cast<double>(i) * step_px; }
 };
 
 /// Where a profile says that the line is, or which way its ink lies.
 struct EdgePlace {
-  double offset_px{};
+  double offset_px = 0;
   bool ink_follows = false;  ///< of a face: the ink lies on the side of the larger offsets
 };
 

@@ -11,9 +11,9 @@ enum class ImageFormat { Png, Jpeg, Tiff, Bmp };
 /// What the first bytes of an image file state; read so that a monster is refused before it is decoded.
 struct ImageHeader {
   ImageFormat format = ImageFormat::Png;
-  std::int64_t width_px{};  ///< 0 where the header does not say
-  std::int64_t height_px{};
-  double dpi{};  ///< 0 = not stated
+  std::int64_t width_px = 0;  ///< 0 where the header does not say
+  std::int64_t height_px = 0;
+  double dpi = 0;  ///< 0 = not stated
 };
 
 /// The header, or nothing where the bytes are none of these formats. Never reads outside `bytes`.

@@ -5,12 +5,12 @@
 namespace madori::mapping {
 
 struct LinePoint {
-  double u{}, v{};
+  double u = 0, v = 0;
 };
 
 /// An endless line in Hesse form with its middle, pixels.
 struct FittedLine {
-  double middle_u{}, middle_v{};
+  double middle_u = 0, middle_v = 0;
   double direction_u = 1, direction_v = 0;  ///< unit length
 
   [[nodiscard]] double along(double u, double v) const {

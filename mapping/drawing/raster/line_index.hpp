@@ -53,11 +53,11 @@ class LineIndex {
   void insert(std::uint32_t line, const PixelSegment& s);
 
   double cell_px_;
-  double origin_{};
+  double origin_ = 0;
   int columns_ = 1, rows_ = 1;
   std::vector<std::vector<std::uint32_t>> cells_;
   mutable std::vector<std::uint32_t> seen_;
-  mutable std::uint32_t turn_{};
+  mutable std::uint32_t turn_ = 0;
 };
 
 }  // namespace madori::mapping

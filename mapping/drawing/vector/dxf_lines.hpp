@@ -10,8 +10,8 @@ namespace madori::mapping {
 
 /// A straight piece of a DXF entity (arcs and bulges in short chords), drawing units, y up.
 struct DxfLine {
-  double x1{}, y1{}, x2{}, y2{};
-  std::size_t layer{};  ///< index into DxfContent::layers
+  double x1 = 0, y1 = 0, x2 = 0, y2 = 0;
+  std::size_t layer = 0;  ///< index into DxfContent::layers
   bool dashed = false;
   bool hatch = false;
   bool door_arc = false;   ///< of a quarter circle
@@ -21,14 +21,14 @@ struct DxfLine {
 };
 
 struct DxfPoint {
-  double x{}, y{};
+  double x = 0, y = 0;
 };
 
 /// A quarter arc, or a shorter one that may be the swing of a door drawn ajar, drawing units.
 struct DoorSwing {
   DxfPoint hinge, from, to;
-  double radius{};
-  std::size_t first_line{}, end_line{};  ///< its pieces among DxfContent::lines, the end not counted
+  double radius = 0;
+  std::size_t first_line = 0, end_line = 0;  ///< its pieces among DxfContent::lines, the end not counted
 };
 
 struct DxfContent {

@@ -10,13 +10,13 @@ namespace madori::mapping {
 struct DxfUnitEvidence {
   std::optional<int> insunits;     ///< header $INSUNITS (AutoCAD DXF reference), 0 = unitless
   std::optional<int> measurement;  ///< header $MEASUREMENT: 0 imperial, 1 metric
-  double extent{};                 ///< longer side of the drawn lines, drawing units
+  double extent = 0;               ///< longer side of the drawn lines, drawing units
   std::vector<double> door_radii;  ///< of quarter arcs, drawing units
   bool imperial_texts = false;     ///< figures such as 12'-6" stand in it
 };
 
 struct DxfUnit {
-  double metres{};
+  double metres = 0;
   std::string note;  ///< which unit, and why
 };
 

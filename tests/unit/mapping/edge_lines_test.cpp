@@ -8,16 +8,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include "mapping/drawing/raster/merge_lines.hpp"
+#include "tests/support/paper_image.hpp"
 
 namespace madori::mapping {
 namespace {
 
-GrayImage blank(int width, int height) {
-  return {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width * height), 255), 0};
-}
-cv::Mat canvas(GrayImage& image) {
-  return {image.height_px, image.width_px, CV_8UC1, image.pixels.data()};
-}
+using test::canvas;
+using test::paper;
 
 DrawnLine line(double u1, double v1, double u2, double v2) {
   DrawnLine drawn;
@@ -67,7 +64,7 @@ double length_at(const DrawnLines& lines, double at, bool want, double factor) {
 }
 
 TEST(EdgeLines, AStrokeIsOneLineAndABodyHasTwoFaces) {
-  GrayImage image = blank(1200, 900);
+  GrayImage image = paper(1200, 900);
   for (const int v : {100, 200, 300, 400, 500, 600})
     cv::rectangle(canvas(image), {100, v}, {1099, v + 3}, 0, cv::FILLED);
   cv::rectangle(canvas(image), {100, 700}, {1099, 729}, 0, cv::FILLED);
@@ -80,7 +77,7 @@ TEST(EdgeLines, AStrokeIsOneLineAndABodyHasTwoFaces) {
 }
 
 TEST(EdgeLines, CrossingsDoNotInterruptALineAndDoorsDo) {
-  GrayImage image = blank(1200, 900);
+  GrayImage image = paper(1200, 900);
   const auto bar = [&](int u0, int v0, int u1, int v1) {
     cv::rectangle(canvas(image), {u0, v0}, {u1, v1}, 0, cv::FILLED);
   };
@@ -100,7 +97,7 @@ TEST(EdgeLines, CrossingsDoNotInterruptALineAndDoorsDo) {
 }
 
 TEST(EdgeLines, PaleLinesAreKeptHoweverImprobable) {
-  GrayImage image = blank(900, 700);
+  GrayImage image = paper(900, 700);
   cv::line(canvas(image), {100, 100}, {800, 100}, 0, 3);
   cv::line(canvas(image), {100, 500}, {800, 500}, 190, 3);
   double factor = 1;

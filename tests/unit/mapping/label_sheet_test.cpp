@@ -11,20 +11,14 @@
 #include "core/result.hpp"
 #include "mapping/drawing/labelling/taught_edges.hpp"
 #include "mapping/drawing/labelling/wall_threshold.hpp"
+#include "tests/support/paper_image.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::mapping {
 namespace {
 
-GrayImage paper(int width, int height, int level = 255) {
-  return {
-      width, height,
-      std::vector<std::uint8_t>(static_cast<std::size_t>(width * height), static_cast<std::uint8_t>(level)),
-      0};
-}
-cv::Mat canvas(GrayImage& image) {
-  return {image.height_px, image.width_px, CV_8UC1, image.pixels.data()};
-}
+using test::canvas;
+using test::paper;
 
 const Edge* longest_near(const EdgeSheet& sheet, double v) {
   const Edge* best = nullptr;

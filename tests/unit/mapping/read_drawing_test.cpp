@@ -9,16 +9,13 @@
 #include <random>
 
 #include "core/result.hpp"
+#include "tests/support/paper_image.hpp"
 
 namespace madori::mapping {
 namespace {
 
-GrayImage paper(int width, int height) {
-  return {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width * height), 255), 0};
-}
-cv::Mat canvas(GrayImage& image) {
-  return {image.height_px, image.width_px, CV_8UC1, image.pixels.data()};
-}
+using test::canvas;
+using test::paper;
 
 /// A room with double walls, a dividing wall with a door, a chair, a dashed line and a label.
 GrayImage small_plan() {
