@@ -7,6 +7,7 @@ import { fileURLToPath } from "node:url";
 const web = fileURLToPath(new URL("../../../hmi/web/package.json", import.meta.url));
 const require = createRequire(web);
 export const kChromium = "/usr/bin/chromium";
+export const kQuiet = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 
 /** Ends the test as skipped (ctest's SKIP_RETURN_CODE) where something it needs is not installed, or `built` holds no page. */
 export function skipUnlessInstalled(built = null) {
@@ -38,7 +39,7 @@ export async function findings(page) {
 export async function openBrowser() {
   return skipUnlessInstalled().chromium.launch({
     executablePath: kChromium,
-    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+    args: kQuiet,
   });
 }
 

@@ -2,9 +2,8 @@
 // docs/reference/panel.md where it is named. Usage: failures.mjs MADORI PAGE DATA SHOTS WIDTHxHEIGHT [STATE,STATE...] [PANEL.md]
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { fileURLToPath } from "node:url";
 import { askServer as api, expect, touch, until } from "./browser.mjs";
-import { freeUdpPort, runToEnd, start, startComputer, temporaryFolder } from "./processes.mjs";
+import { freeUdpPort, runToEnd, start, startComputer, startWires, temporaryFolder } from "./processes.mjs";
 import { given, openGivenPanel, picture, run } from "./program.mjs";
 
 const { madori, page, data } = given;
@@ -123,14 +122,9 @@ async function openWorld() {
   runToEnd(madori, ["demo", "--import-only", "--site", site, "--data", data, "--json", join(folder, "import.json")]);
   runToEnd("sh", ["-c", `printf '%s\\n%s\\n' ${kPin} ${kPin} | "$0" pin "$1" integrator`, madori, site]);
   await start(madori, ["sim", site, "--scenario", join(data, "scenarios/demo.yaml"), "--lidar-port", String(lidar)], /truth\s+ws/);
-  const wires = await start("/usr/bin/python3", [fileURLToPath(new URL("wires.py", import.meta.url)), String(lidar), String(wired), join(site, "devices/drive")], /wires (\S+)/, { input: true });
-  const wire = async (words) => {
-    const said = wires.output().length;
-    wires.child.stdin.write(`${words}\n`);
-    await until(words, () => wires.output().length > said, 5000);
-  };
-  const computer = await startComputer(madori, page, site, wired, wires.match[1], ["--no-record"]);
-  return { computer, kill: computer.kill, wire };
+  const wires = await startWires(lidar, wired, join(site, "devices/drive"));
+  const computer = await startComputer(madori, page, site, wired, wires.drive, ["--no-record"]);
+  return { computer, kill: computer.kill, wire: wires.say };
 }
 
 const kWords = { lidar: "lidar killed", drive: "drive killed", server: "server killed" };

@@ -5,12 +5,14 @@ import { createSocket } from "node:dgram";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { until } from "./browser.mjs";
 
 const running = [];
 
 export function temporaryFolder() {
   const folder = mkdtempSync(join(tmpdir(), "madori-panel-"));
-  running.push({ stop: async () => rmSync(folder, { recursive: true, force: true }) });
+  running.push({ stop: async () => rmSync(folder, { recursive: true, force: true, maxRetries: 10, retryDelay: 200 }) });  // a browser that was killed may still write
   return folder;
 }
 
@@ -86,6 +88,17 @@ export async function startFactoryWithCamera(madori, data, folder, lidarPort, sc
   runToEnd(madori, ["demo", "--import-only", "--site", folder, "--data", data, "--json", join(folder, "..", "import.json")]);
   const { output } = await start(madori, ["sim", folder, "--scenario", scenario, "--lidar-port", String(lidarPort), "--camera-port", "0"], /truth\s+ws/);
   return { drive: join(folder, "devices", "drive"), camera: output().match(/camera http (\S+)/)[1] };
+}
+
+/** Wires between factory and computer (wires.py): the device to drive through, and `say("drive off")`, which waits for its answer. */
+export async function startWires(simLidarPort, runLidarPort, simDrive) {
+  const wires = await start("/usr/bin/python3", [fileURLToPath(new URL("wires.py", import.meta.url)), String(simLidarPort), String(runLidarPort), simDrive], /wires (\S+)/, { input: true });
+  const say = async (words) => {
+    const said = wires.output().length;
+    wires.child.stdin.write(`${words}\n`);
+    await until(words, () => wires.output().length > said, 5000);
+  };
+  return { drive: wires.match[1], say };
 }
 
 /** The vehicle's computer with its panel: `address`, `kill()` (no farewell), `again()` (the same on the same port). */

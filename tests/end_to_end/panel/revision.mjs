@@ -5,26 +5,12 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { askServer as api, dragFinger, expect, mapReady, findings, touch, until } from "./browser.mjs";
+import { nearShare } from "./pieces.mjs";
 import { runToEnd, startVehicle, temporaryFolder, freeUdpPort } from "./processes.mjs";
 import { expectQuietConsole, given, openGivenPanel, picture, run } from "./program.mjs";
 
 const { madori, page, data } = given;
-const kNear_m = 0.3;  // of a drawn face: the import's own accuracy, and the thickness of a light wall
 const kLeastFound = 0.8;  // of a face's length; its ends join other walls
-
-const pointsOf = ([x1, y1, x2, y2]) => {
-  const count = Math.ceil(Math.hypot(x2 - x1, y2 - y1) / 0.1);
-  return Array.from({ length: count }, (_, i) => [x1 + ((x2 - x1) * (i + 0.5)) / count, y1 + ((y2 - y1) * (i + 0.5)) / count]);
-};
-const distance = ([x, y], [x1, y1, x2, y2]) => {
-  const [dx, dy] = [x2 - x1, y2 - y1];
-  const along = Math.min(1, Math.max(0, ((x - x1) * dx + (y - y1) * dy) / (dx * dx + dy * dy)));
-  return Math.hypot(x - x1 - along * dx, y - y1 - along * dy);
-};
-const nearShare = (piece, others) => {
-  const points = pointsOf(piece);
-  return points.filter((point) => others.some((other) => distance(point, other) < kNear_m)).length / points.length;
-};
 
 /** Every change is found, and nothing is said to have changed that has not. */
 function expectChanges(preview, changes) {

@@ -4,7 +4,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { askServer as api, expect, mapReady, touch, until } from "./browser.mjs";
-import { freeUdpPort, runToEnd, start, startComputer, temporaryFolder } from "./processes.mjs";
+import { freeUdpPort, runToEnd, start, startComputer, startWires, temporaryFolder } from "./processes.mjs";
 import { given, openGivenPanel, picture, run } from "./program.mjs";
 
 const { madori, page, data } = given;
@@ -46,35 +46,47 @@ async function stopAboveCards(panel, world) {
   await panel.page.getByText("was cancelled").waitFor();
 }
 
-/** 14: a place that is said during an order waits for Resume. */
+/** 2: a vehicle that does not do what it is told is shown standing, while the cycle still tells it to drive. */
+async function measuredSpeed(panel, world) {
+  await driveOff(panel, world.station);
+  await world.wire("motors off");
+  try {
+    let now = ["driving", ""];
+    const look = () => panel.page.evaluate(() => [document.querySelector("[data-state]").dataset.state, [...document.querySelectorAll(".gauge")].find((one) => one.innerText.startsWith("Speed")).querySelector("dd").innerText]);
+    await until("it stands", async () => { now = await look(); return now[0] !== "driving" || Number.parseFloat(now[1]) === 0; }, 10_000);
+    expect(now[0] === "driving", "2: the wheels stood, and a speed was shown until the vehicle was told to stand");
+  } finally {
+    await world.wire("motors on");
+  }
+  await touch(panel, "Stop", { exact: true });
+  await stands(panel);
+}
+
+/** 14: a place that is said while an order waits for it waits for Resume. */
 async function placeWaits(panel, world) {
   await driveOff(panel, world.station);
-  const places = (await api(panel, "GET", "/api/locate")).json.hypotheses;
-  const { x, y, yaw } = places[0];
-  await touch(panel, "Pause");
-  await until("it stands", async () => (await state(panel)) === "paused");
-  await touch(panel, "Resume");
-  await until("it drives", async () => (await state(panel)) === "driving");
-  // an order is under way; its place is said once it stands for another reason
   await touch(panel, "Pause");
   await stands(panel);
+  const { x, y, yaw } = (await api(panel, "GET", "/api/locate")).json.hypotheses[0];
+  await api(panel, "POST", "/api/locate/search", {});
   await api(panel, "POST", "/api/vehicle/resume", {});
-  await api(panel, "POST", "/api/vehicle/pause", {});
-  await until("it stands", async () => (await state(panel)) === "paused");
-  await api(panel, "POST", "/api/vehicle/pose", { x, y, yaw });
+  await until("it waits for its place", async () => (await state(panel)) === "localizing", 5000);
+  const said = await api(panel, "POST", "/api/vehicle/pose", { x, y, yaw });
+  expect(said.status === 200, `the place was refused: ${JSON.stringify(said)}`);
+  await until("its place is known", async () => (await panel.page.locator(".map-canvas").first().getAttribute("data-vehicle")) === "shown", 60_000);
   await new Promise((later) => setTimeout(later, 3000));
-  expect((await state(panel)) === "paused", "14: the vehicle went on by itself after its place was said");
+  expect((await state(panel)) === "paused", `14: the vehicle went on by itself after its place was said: ${await state(panel)}`);
   await touch(panel, "Stop", { exact: true });
 }
 
-/** 2, 3: lidar and drive silent while paused: no speed, no score, no scan without an age; the state says so. */
+/** 3: lidar and drive silent while paused: no speed, no score, no scan without an age; the state says so. */
 async function deadDevices(panel, world) {
   const before = await cause(panel);
   expect(["paused", "stopped", "stopped-order"].includes(before), `paused with the cause ${before}`);
   world.factory.child.kill("SIGSTOP");
   const after_s = await until("the silent drive is the cause", async () => (await cause(panel)) === "drive-silent", 5000);
   await until("3: the scan goes from the map", async () => (await panel.page.locator(".map-canvas").first().getAttribute("data-scan")) === "hidden", 5000);
-  await until("2: the speed has an age instead of a value", async () => (await gauge(panel, "Speed")).includes("old"), 5000);
+  await until("3: the speed has an age instead of a value", async () => (await gauge(panel, "Speed")).includes("old"), 5000);
   for (const name of ["Score", "Battery"]) expect((await gauge(panel, name)).includes("old"), `3: ${name} is shown without its age: ${await gauge(panel, name)}`);
   expect((await panel.page.locator("[data-silent]").count()) === 2, "3: the silent devices are not named");
   await picture(panel, "truth-3-dead-devices");
@@ -236,18 +248,19 @@ async function serverRestart(browser, world) {
 
 async function main(browser) {
   const folder = temporaryFolder();
-  const lidar = await freeUdpPort();
+  const [lidar, wired] = [await freeUdpPort(), await freeUdpPort()];
   const site = join(folder, "site");
   runToEnd(madori, ["demo", "--import-only", "--site", site, "--data", data, "--json", join(folder, "import.json")]);
   const factory = await start(madori, ["sim", site, "--scenario", join(data, "scenarios/demo.yaml"), "--lidar-port", String(lidar)], /truth\s+ws/);
-  const computer = await startComputer(madori, page, site, lidar, join(site, "devices", "drive"), ["--no-record"]);
-  const world = { folder, site, factory, computer, kill: computer.kill };
+  const wires = await startWires(lidar, wired, join(site, "devices/drive"));
+  const computer = await startComputer(madori, page, site, wired, wires.drive, ["--no-record"]);
+  const world = { folder, site, factory, computer, kill: computer.kill, wire: wires.say };
   const panel = await openGivenPanel(browser, computer.address);
   await touch(panel, "Drive", { exact: true });
   await until("the place is known", async () => (await panel.page.locator(".map-canvas").first().getAttribute("data-vehicle")) === "shown", 60_000);
   const { nodes } = (await api(panel, "GET", "/api/site/routes")).json;
   world.station = ["Press 1", "Lift"].map((name) => nodes.find((node) => node.name === name).id);  // to and fro: it never ends
-  const checks = [["1, 16", () => stopAboveCards(panel, world)], ["2, 3", () => deadDevices(panel, world)], ["14", () => placeWaits(panel, world)], ["8, 13", () => lostIsNotShown(panel)], ["5, 6", () => whereAmI(panel)],
+  const checks = [["1, 16", () => stopAboveCards(panel, world)], ["2", () => measuredSpeed(panel, world)], ["3", () => deadDevices(panel, world)], ["14", () => placeWaits(panel, world)], ["8, 13", () => lostIsNotShown(panel)], ["5, 6", () => whereAmI(panel)],
     ["9", async () => { await touch(panel, "Set up"); await panel.page.locator(".steps button").nth(0).tap(); await badDrawings(panel, world); }],
     ["7", async () => { await touch(panel, "Set up"); await panel.page.locator(".steps button").nth(0).tap(); await replaceAndBringBack(panel, world); }], ["10", () => faultyRoutes(panel, world)], ["4", () => serverRestart(browser, world)]];
   const failed = [];

@@ -18,3 +18,10 @@ const palettes = {
 } as const;
 
 export const palette = () => palettes[theme.value];
+
+/** What a map draws, its legend shows in the same colour: --map-amber and so on. */
+function giveToLegends(): void {
+  for (const name of ["amber", "red", "blue"] as const) document.documentElement.style.setProperty(`--map-${name}`, palette()[name]);
+}
+giveToLegends();
+theme.watch(giveToLegends);

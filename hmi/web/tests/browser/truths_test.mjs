@@ -28,7 +28,10 @@ const within = async (panel, selector, { least_px = 0 } = {}) => {
   return box;
 };
 
+const wanted = process.env["TRUTHS"]?.split(";");  // for whoever mends one of them
+
 async function small(number, size, check) {
+  if (wanted && !wanted.includes(number)) return [];
   const panel = await openPanel(browser, vehicle.address, size);
   try {
     await panel.page.locator("[data-state]").waitFor();

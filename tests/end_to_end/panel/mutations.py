@@ -1,0 +1,105 @@
+#!/usr/bin/python3
+"""Undoes each mend of the operator page (mends.py) in a copy of the sources and runs the test that stands for it: it must be green
+before and red without the mend. Writes the table of docs/reference/panel.md where it is named.
+
+    mutations.py FOLDER [--only 1,2] [--table panel.md]      FOLDER: the copy and its build, kept for the next time"""
+import argparse
+import filecmp
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+from mends import DEFECTS, MENDS, PAGE
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+BEGIN, END = "<!-- written by tests/end_to_end/panel/mutations.py: begin -->", "<!-- end -->"
+
+
+def copy_of(sources):
+    """The files that git knows, where they differ; the page's packages are shared."""
+    names = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    for name in names.split("\0"):
+        source, copy = ROOT / name, sources / name
+        if not source.is_file() or (copy.exists() and filecmp.cmp(source, copy, shallow=False)):
+            continue
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source, copy)
+    packages = sources / "hmi/web/node_modules"
+    if not packages.exists():
+        packages.symlink_to(ROOT / "hmi/web/node_modules")
+    if not (sources / "build/release").exists():
+        subprocess.run(["cmake", "--preset", "release"], cwd=sources, check=True, stdout=subprocess.DEVNULL)
+
+
+def build(sources, mend):
+    targets = ["panel"] if mend.test == PAGE else ["madori", "panel"]
+    done = subprocess.run(["cmake", "--build", "build/release", "--target", *targets], cwd=sources, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(done.stdout[-3000:] + done.stderr)
+
+
+def red(sources, mend):
+    """What the test says where it is red, None where it is green."""
+    dist = sources / "hmi/web/dist"
+    given = [dist] if mend.test == PAGE else [sources / "build/release/madori", dist, sources / "data", sources.parent / "pictures", "1024x600"]
+    done = subprocess.run(["node", sources / mend.test, *given], env={**os.environ, "TRUTHS": mend.check}, capture_output=True, text=True, timeout=900)
+    if done.returncode == 0:
+        return None
+    out = re.sub(r"\x1b\[[0-9;]*m", "", done.stdout + done.stderr)
+    said = re.search(r"(?:FAILED|^Error:) (.*)(?:\n.*Call log:.*\n.*waiting for (.*))?", out, re.MULTILINE)
+    return " ".join(filter(None, said.groups())) if said else out[-300:]
+
+
+def try_one(sources, mend, known_green):
+    """Green as it is (asked once a check), red without the mend: what it says then, None where it is green."""
+    which = (mend.test, mend.check)
+    if which not in known_green:
+        build(sources, mend)
+        if (words := red(sources, mend)) is not None:
+            sys.exit(f"{mend.number}: red as it is: {words}")
+        known_green.add(which)
+    file = sources / mend.file
+    before = file.read_text(encoding="utf-8")
+    if before.count(mend.text) != 1:
+        sys.exit(f"{mend.number}: {mend.file} holds its text {before.count(mend.text)} times")
+    try:
+        file.write_text(before.replace(mend.text, mend.instead), encoding="utf-8")
+        build(sources, mend)
+        words = red(sources, mend)
+    finally:
+        file.write_text(before, encoding="utf-8")
+    print(f"{mend.number}, {mend.undone}: {'GREEN' if words is None else 'red: ' + words}", flush=True)
+    return words
+
+
+def write(table, rows):
+    """One line a mutation; the words of the test are cut to what fits."""
+    lines = ["| no. | what was untrue | with the mend undone | test, check | it says |", "| --- | --- | --- | --- | --- |"]
+    for mend, words in rows:
+        said = " ".join(re.sub(r"^\d+: ", "", words).split())[:90].replace("|", "/")
+        lines.append(f"| {mend.number} | {DEFECTS[mend.number]} | {mend.undone} | `{pathlib.Path(mend.test).name}` {mend.check} | {said} |")
+    before, rest = table.read_text(encoding="utf-8").split(BEGIN)
+    table.write_text(before + BEGIN + "\n" + "\n".join(lines) + "\n" + rest[rest.index(END):], encoding="utf-8")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--only", type=lambda text: text.split(","))
+    parser.add_argument("--table", type=pathlib.Path)
+    given = parser.parse_args()
+    sources = given.folder.resolve() / "tree"
+    copy_of(sources)
+    known_green = set()
+    rows = [(mend, try_one(sources, mend, known_green)) for mend in MENDS if not given.only or mend.number in given.only]
+    if given.table:
+        write(given.table, [(mend, words) for mend, words in rows if words is not None])
+    green = [f"{mend.number}, {mend.undone}" for mend, words in rows if words is None]
+    if green:
+        sys.exit("green without the mend: " + "; ".join(green))
+
+
+main()
