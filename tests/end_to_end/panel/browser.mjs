@@ -47,7 +47,7 @@ export async function openBrowser() {
 export async function openPanel(browser, address, { width, height, language = "en", theme = "light" }) {
   const context = await browser.newContext({ viewport: { width, height }, hasTouch: true, deviceScaleFactor: 1, locale: language === "ja" ? "ja-JP" : "en-GB", acceptDownloads: true });
   const page = await context.newPage();
-  page.setDefaultTimeout(60_000);
+  page.setDefaultTimeout(Number(process.env["PATIENCE_MS"] ?? 60_000));
   const panel = { page, context, touches: 0, errors: [] };
   await page.exposeFunction("countTouch", () => ++panel.touches);
   await page.addInitScript(([words, shade]) => {

@@ -45,7 +45,7 @@ def red(sources, mend):
     """What the test says where it is red, None where it is green."""
     dist = sources / "hmi/web/dist"
     given = [dist] if mend.test == PAGE else [sources / "build/release/madori", dist, sources / "data", sources.parent / "pictures", "1024x600"]
-    done = subprocess.run(["node", sources / mend.test, *given], env={**os.environ, "TRUTHS": mend.check}, capture_output=True, text=True, timeout=900)
+    done = subprocess.run(["node", sources / mend.test, *given], env={**os.environ, "TRUTHS": mend.check, "PATIENCE_MS": "20000"}, capture_output=True, text=True, timeout=900)
     if done.returncode == 0:
         return None
     out = re.sub(r"\x1b\[[0-9;]*m", "", done.stdout + done.stderr)
