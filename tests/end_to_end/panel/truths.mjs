@@ -208,7 +208,7 @@ async function faultyRoutes(panel, world) {
   const faulty = { revision: routes.revision, nodes: [...routes.nodes, point(901, 1, "Beyond"), point(902, -1, "Behind")], legs: [...routes.legs, [901, 902], [902, 901]] };
   const saved = await api(panel, "PUT", "/api/site/routes", faulty);
   expect(saved.status === 200, `the faulty routes were not saved: ${JSON.stringify(saved)}`);
-  await until("the new routes are driven on", async () => (await api(panel, "POST", "/api/orders", { stations: [901], repeat: 1 })).json?.error?.code === "no-way-to-station", 20_000);
+  await until("10: an order that cannot be served is refused", async () => (await api(panel, "POST", "/api/orders", { stations: [901], repeat: 1 })).json?.error?.code === "no-way-to-station", 20_000);
   await touch(panel, "Set up");
   await panel.page.locator(".steps button").nth(2).tap();
   await mapReady(panel);
