@@ -1,5 +1,6 @@
 // A new revision of the drawing in the panel: looked at before it replaces the old one, moved by hand, left, taken over; then
-// a backup downloaded and restored. Every change of the revision is known (revised_factory.py): all are found, and none else.
+// a backup downloaded and restored. Every change of the revision is known (revised_factory.py): all are found, and none else,
+// also by `madori diff` from a DXF.
 // Usage: revision.mjs MADORI PAGE DATA SHOTS WIDTHxHEIGHT
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -51,6 +52,13 @@ async function lookAndLeave(panel, file, changes) {
   await touch(panel, "Leave it as it is");
   await panel.page.getByRole("button", { name: "Another drawing" }).waitFor();
   expect((await walls(panel)).revision === before.revision, "the walls changed without a word");
+}
+
+/** The same by command line, from a DXF of the revision. */
+function diffByCommand(site, folder, changes) {
+  const file = join(folder, "diff.json");
+  runToEnd(madori, ["diff", site, join(folder, "revised/drawn/factory.dxf"), "--json", file]);
+  expectChanges(JSON.parse(readFileSync(file, "utf8")), changes);
 }
 
 /** A finger moves the new drawing by half a metre: it settles back, and nothing else is found. */
@@ -120,6 +128,7 @@ async function main(browser) {
   await touch(panel, "Set up");
   await panel.page.locator(".steps button").nth(0).tap();
   await lookAndLeave(panel, file, changes);
+  diffByCommand(site, folder, changes);
   await preview(panel, file);
   await moveByHand(panel, changes);
   await takeOver(panel);
