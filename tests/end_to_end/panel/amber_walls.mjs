@@ -44,7 +44,7 @@ async function deliver(panel) {
     const button = { fault: "confirm", paused: "resume" }[await panel.page.locator("[data-state]").getAttribute("data-state")];
     if (button) await panel.page.locator(`.command.${button}`).tap({ timeout: 1000 }).catch(() => undefined);
     return (await api(panel, "GET", "/api/orders/history")).json.some((one) => one.status === "done");
-  }, 240_000);
+  }, 400_000);
 }
 
 /** The pieces of wall that are painted as seen near the way, and which of them in the legend's amber. */
