@@ -114,12 +114,11 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
   if (correct_recent_drift(options)) cloud = memory_cloud(memory);
   std::vector<UnaryFactor> unary =
       drawing->walls.drawn().pulls(cloud, memory.poses(), drawing->walls.shared_error());
-  UnaryFactor tie;
-  const StartPrior start = told.value_or(StartPrior{memory.poses().front(), options.tie_m, options.tie_rad});
-  const double m2 = start.sigma_m * start.sigma_m;
-  tie.at = start.map_from_base;
-  tie.hessian = Eigen::Vector3d(1.0 / m2, 1.0 / m2, 1.0 / (start.sigma_rad * start.sigma_rad)).asDiagonal();
-  unary.push_back(tie);
+  // What was told holds the memory by as much as it is believed where the memory lies.
+  const double as_told = told ? prior_holds(*told, first, area_m2) : 0.0;
+  const StartPrior placed_here{first, options.tie_m, options.tie_rad};
+  if (told) unary.push_back({0, told->map_from_base, as_told * told->information()});
+  unary.push_back({0, first, (1.0 - as_told) * placed_here.information()});
   memory.optimise(unary);
   // Only now: what has drifted is pulled back by what was known, before the drawing is bent to it.
   if (drawing->belief.probability_here(memory.poses().back()) > options.health.localized)

@@ -13,6 +13,7 @@ constexpr std::size_t kBeams = 600;  // more tell no more: neighbours cross the 
 constexpr double kBeforeEndM = 0.5;  // of a beam: its own wall may be drawn that much beside its place
 constexpr double kBesideM = 0.5;     // a way has to leave a wall this far behind to have crossed it,
 constexpr double kAwayM = 0.25;      // and be this far from it by then: what runs along a wall says nothing
+constexpr double kAsideM = 0.15;     // what passes a wall's end so near may pass beside it
 constexpr double kPieceM = 2.0;      // errors of a drawing persist along a wall for about so long
 constexpr int kFewestWays = 2;       // one beam alone may be a wrong point
 
@@ -20,6 +21,16 @@ std::uint64_t piece_of(const Point2<Map>& p) {
   const auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x_m / kPieceM)));
   const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.y_m / kPieceM)));
   return (std::uint64_t{u} << 32U) | v;
+}
+
+/// Whether a wall goes on to both sides of where a way meets it: one that merely grazes a wall's end, a
+/// door's jamb, is off by the pose's error.
+bool goes_on_aside(const mapping::DistanceField& drawn, const Point2<Map>& met, double dx, double dy) {
+  const auto is_blocked = [&](double aside_m) {
+    const Point2<Map> before{met.x_m - kBesideM * dx - aside_m * dy, met.y_m - kBesideM * dy + aside_m * dx};
+    return drawn.free_way_m(before, dx, dy, 2.0 * kBesideM) < 2.0 * kBesideM;
+  };
+  return is_blocked(kAsideM) && is_blocked(-kAsideM);
 }
 
 /// Calls crossed(place) for each drawn wall that the way passes through, from well before to well behind it.
@@ -34,7 +45,7 @@ void walk(const Segment2<Map>& way, const mapping::DistanceField& drawn, Crossed
     const double met = from + drawn.free_way_m(at(from), dx, dy, length - from);
     if (met >= length - kBesideM) return;
     if (met >= kBesideM && drawn.distance_m(at(met - kBesideM)) > kAwayM &&
-        drawn.distance_m(at(met + kBesideM)) > kAwayM)
+        drawn.distance_m(at(met + kBesideM)) > kAwayM && goes_on_aside(drawn, at(met), dx, dy))
       crossed(at(met));
     from = met + kBesideM;
   }

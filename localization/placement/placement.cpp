@@ -102,12 +102,32 @@ double share_within(const Eigen::Matrix3d& hold, double m, double rad) {
 
 }  // namespace
 
-double log_prior(const StartPrior& prior, const Transform2<Map, Base>& first, double area_m2) {
+namespace {
+
+/// Density of a pose that was given rightly, and of one that was not, 1/(m^2 rad).
+struct PriorDensity {
+  double right = 0.0;
+  double wrong = 0.0;
+};
+
+PriorDensity density(const StartPrior& prior, const Transform2<Map, Base>& first, double area_m2) {
   const double d = distance_m(first.translation(), prior.map_from_base.translation()) / prior.sigma_m;
   const double a = wrap_angle(first.yaw_rad() - prior.map_from_base.yaw_rad()) / prior.sigma_rad;
   const double peak = 1.0 / (std::pow(2.0 * kPi, 1.5) * prior.sigma_m * prior.sigma_m * prior.sigma_rad);
-  const double anywhere = 1.0 / (2.0 * kPi * area_m2);
-  return std::log((1.0 - kWrongPriors) * peak * std::exp(-0.5 * (d * d + a * a)) + kWrongPriors * anywhere);
+  return {(1.0 - kWrongPriors) * peak * std::exp(-0.5 * (d * d + a * a)),
+          kWrongPriors / (2.0 * kPi * area_m2)};
+}
+
+}  // namespace
+
+double log_prior(const StartPrior& prior, const Transform2<Map, Base>& first, double area_m2) {
+  const PriorDensity p = density(prior, first, area_m2);
+  return std::log(p.right + p.wrong);
+}
+
+double prior_holds(const StartPrior& prior, const Transform2<Map, Base>& first, double area_m2) {
+  const PriorDensity p = density(prior, first, area_m2);
+  return p.right / (p.right + p.wrong);
 }
 
 PlaceBelief::PlaceBelief(const mapping::Walls& walls)
@@ -122,7 +142,7 @@ struct PlaceBelief::Seen {
   MemoryCloud cloud;
   WallPieces pieces;
   FreeWays ways;
-  Transform2<Map, Base> at;
+  Transform2<Map, Base> first, at;  ///< the vehicle at the beginning, and now
 };
 
 void PlaceBelief::judge(const DrawingFit& fit, const Seen& seen, const std::optional<StartPrior>& prior,
@@ -139,10 +159,7 @@ void PlaceBelief::judge(const DrawingFit& fit, const Seen& seen, const std::opti
   Eigen::Matrix3d hold = hold_of(fit.index(), seen.cloud, placement.correction,
                                  placement.correction * seen.at.translation(), mixture, sigma);
   hold.diagonal() += Eigen::Vector3d(1.0 / area_m2_, 1.0 / area_m2_, 0.1);  // the drawing is finite
-  if (prior)
-    hold.diagonal() +=
-        Eigen::Vector3d(1.0 / (prior->sigma_m * prior->sigma_m), 1.0 / (prior->sigma_m * prior->sigma_m),
-                        1.0 / (prior->sigma_rad * prior->sigma_rad));
+  if (prior) hold += prior_holds(*prior, placement.correction * seen.first, area_m2_) * prior->information();
   placement.near = share_within(hold, kNearM, kNearRad);
   placement.around = share_within(hold, kAroundM, kAroundRad);
   placement.votes = votes_at(fit.index(), seen.cloud, seen.pieces, placement.correction, mixture);
@@ -154,9 +171,10 @@ void PlaceBelief::judge(const DrawingFit& fit, const Seen& seen, const std::opti
 void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const MemoryCloud& all,
                         const std::optional<StartPrior>& prior, const Transform2<Map, Base>& at,
                         bool everywhere, const std::vector<Transform2<Map, Base>>& proposed) {
-  Seen seen{sampled(all, kSurfaces), {}, free_ways(memory), at};
+  Seen seen{sampled(all, kSurfaces), {}, free_ways(memory), memory.poses().front(), at};
   seen.pieces = wall_pieces(seen.cloud);
-  const Seen mirrored{mirror_image(seen.cloud), seen.pieces, mirror_image(seen.ways), mirror_image(at)};
+  const Seen mirrored{mirror_image(seen.cloud), seen.pieces, mirror_image(seen.ways),
+                      mirror_image(seen.first), mirror_image(at)};
   std::vector<Placement> found{{}};
   for (const Placement& p : placements_)
     if (p.probability > kForgotten) found.push_back(p);
@@ -180,7 +198,7 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
     if (p.mirrored)
       p.log_prior += log_mirrored_;
     else if (prior)
-      p.log_prior = log_prior(*prior, p.correction * memory.poses().front(), area_m2_);
+      p.log_prior = log_prior(*prior, p.correction * seen.first, area_m2_);
     judge(fit, view, p.mirrored ? std::nullopt : prior, p);
   }
   share_out(std::move(found), seen, mirrored);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,11 +16,21 @@ struct StartPrior {
   Transform2<Map, Base> map_from_base;
   double sigma_m = 0.5;
   double sigma_rad = 0.17;
+
+  /// Of (x, y, yaw), about the pose: 1/m^2 and 1/rad^2.
+  [[nodiscard]] Eigen::Matrix3d information() const {
+    const double m2 = sigma_m * sigma_m;
+    return Eigen::Vector3d(1.0 / m2, 1.0 / m2, 1.0 / (sigma_rad * sigma_rad)).asDiagonal();
+  }
 };
 
 /// Log of the prior's density (1/(m^2 rad)) where the first keyframe is, on a drawing of `area_m2`; a pose
 /// that was given may be of another place altogether.
 [[nodiscard]] double log_prior(const StartPrior& prior, const Transform2<Map, Base>& first, double area_m2);
+
+/// Probability that the given pose is of this place and not of another altogether, the first keyframe being
+/// where it is: what it says about the pose counts by so much.
+[[nodiscard]] double prior_holds(const StartPrior& prior, const Transform2<Map, Base>& first, double area_m2);
 
 /// One way in which the memory may lie on the drawing.
 struct Placement {

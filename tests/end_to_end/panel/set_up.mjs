@@ -50,10 +50,8 @@ export async function setUpVehicle(panel, look) {
   await touch(panel, "Save, next");
 }
 
-/** Found by itself, or after a while a person takes the likeliest of the places that are offered, which is chosen beforehand. */
 export async function locate(panel, look) {
-  const located = panel.page.locator("[data-locate=located]").waitFor({ timeout: 20_000 });
-  await located.catch(() => panel.page.locator(".places button").first().waitFor({ timeout: 90_000 }));
+  await panel.page.locator("[data-locate=located]").waitFor({ timeout: 90_000 });
   await mapReady(panel);
   await look("5-place");
   await touch(panel, "The vehicle is here");

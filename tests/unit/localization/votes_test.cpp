@@ -6,6 +6,9 @@
 #include <cmath>
 #include <random>
 
+#include "localization/placement/free_ways.hpp"
+#include "localization/placement/placement.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -75,6 +78,35 @@ TEST(Votes, APieceOfWallIsTwoMetresAndOneDirection) {
   const WallPieces pieces = wall_pieces(cloud);
   EXPECT_EQ(pieces.count, 4U);
   EXPECT_EQ(std::count(pieces.of_surface.begin(), pieces.of_surface.end(), pieces.of_surface.front()), 10);
+}
+
+/// A wall with a door of 0.9 m in its middle; beams from 4 m before it to 4 m behind it.
+TEST(FreeWays, WhatGoesThroughADoorCrossesNoWallThoughThePoseIsOffByAFewCentimetres) {
+  const mapping::Walls walls{{1, {{-6.0, 0.0}, {-0.45, 0.0}}}, {2, {{0.45, 0.0}, {6.0, 0.0}}}};
+  const mapping::DistanceField drawn(walls);
+  FreeWays ways;
+  for (double x_m = -0.44; x_m < 0.445; x_m += 0.02)
+    ways.beams.push_back({{0.5 * x_m, -4.0}, {1.5 * x_m, 4.0}});
+  for (const double off_m : {-0.08, -0.04, 0.0, 0.04, 0.08})
+    EXPECT_EQ(walls_crossed(ways, Transform2<Map, Map>(off_m, 0.0, 0.0), drawn), 0) << off_m;
+  EXPECT_GT(walls_crossed(ways, Transform2<Map, Map>(1.5, 0.0, 0.0), drawn), 0) << "the door is elsewhere";
+}
+
+/// A pose that was given speaks where the vehicle may be there, and is of another place where it is not:
+/// the two make up the prior (Bayes).
+TEST(StartPrior, HoldsTheVehicleOnlyWhereItIsBelieved) {
+  const StartPrior told{{4.0, 3.0, 0.4}, 0.3, 0.1};
+  constexpr double kAreaM2 = 112.0;
+  const auto holds = [&](double off_m) { return prior_holds(told, {4.0 + off_m, 3.0, 0.4}, kAreaM2); };
+  EXPECT_GT(holds(0.0), 0.99);
+  EXPECT_LT(holds(2.5), 1e-6);
+  double before = 1.0;
+  for (double off_m = 0.0; off_m < 3.0; off_m += 0.1) {
+    EXPECT_LE(holds(off_m), before);
+    before = holds(off_m);
+    const double density = std::exp(log_prior(told, {4.0 + off_m, 3.0, 0.4}, kAreaM2));
+    EXPECT_NEAR(density * (1.0 - before), 0.05 / (2.0 * kPi * kAreaM2), 1e-9) << "wrong ones are anywhere";
+  }
 }
 
 }  // namespace
