@@ -76,6 +76,7 @@ DetectedWalls read_drawing(const GrayImage& image, const DetectionOptions& optio
   std::optional<double> gap_px;
   if (options.close_gap_px) gap_px = *options.close_gap_px / drawing.u_scale;
   DrawnLines lines = strokes.lines(probabilities, wall_from, gap_px);
+  for (DrawnLine& line : lines) line.probability = model.told(line.probability);
   clock.end(lines.size());
 
   clock.begin("settle", 0.95);  // to a fraction of a pixel, where the greys of the drawing have them

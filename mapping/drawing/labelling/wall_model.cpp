@@ -1,7 +1,12 @@
 #include "mapping/drawing/labelling/wall_model.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 
 #include "core/result.hpp"
@@ -19,14 +24,19 @@ extern "C" const char madori_wall_model_end[];
 namespace madori::mapping {
 namespace {
 
-constexpr std::string_view kKind = "madori-walls-3\n";
+constexpr std::string_view kKind = "madori-walls-4\n";
 
 WallModel from_bytes(const std::string& name, std::string_view bytes) {
   if (!bytes.starts_with(kKind))
     throw Error(name, "is no wall model of this version", "train it again: train_walls");
   bytes.remove_prefix(kKind.size());
+  std::istringstream line(std::string(bytes.substr(0, bytes.find('\n'))));
+  Calibration calibration;
+  if (!(line >> calibration.slope >> calibration.offset) || bytes.find('\n') == std::string_view::npos)
+    throw Error(name, "is no wall model of this version", "train it again: train_walls");
+  bytes.remove_prefix(bytes.find('\n') + 1);
   Forest first = Forest::read(name, bytes);
-  return {std::move(first), Forest::read(name, bytes)};
+  return {std::move(first), Forest::read(name, bytes), calibration};
 }
 
 }  // namespace
@@ -42,8 +52,14 @@ const WallModel& WallModel::shipped() {
   return model;
 }
 
+double WallModel::told(double judged) const {
+  const double log_odds = std::log(std::max(1e-9, judged) / std::max(1e-9, 1 - judged));
+  return 1 / (1 + std::exp(-calibration_.slope * log_odds - calibration_.offset));
+}
+
 std::string WallModel::bytes() const {
-  return std::string(kKind) + first_.bytes() + second_.bytes();
+  return fmt::format("{}{:.4f} {:.4f}\n", kKind, calibration_.slope, calibration_.offset) + first_.bytes() +
+         second_.bytes();
 }
 
 }  // namespace madori::mapping

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "tests/bench/wall_training/calibration_fit.hpp"
 #include "tests/bench/wall_training/chance.hpp"
 #include "tests/bench/wall_training/example_sheet.hpp"
 #include "tests/bench/wall_training/forest_of.hpp"
@@ -32,6 +33,15 @@ constexpr double kSheetWeight = 1000;
 struct Examples {
   std::vector<std::string> names;
   std::vector<float> values, labels, weights;  // values row-major
+  std::vector<double> lengths;                 // of walls and others, of which a probability speaks
+
+  void add(const Examples& more) {
+    names = more.names;
+    values.insert(values.end(), more.values.begin(), more.values.end());
+    labels.insert(labels.end(), more.labels.begin(), more.labels.end());
+    weights.insert(weights.end(), more.weights.begin(), more.weights.end());
+    lengths.insert(lengths.end(), more.lengths.begin(), more.lengths.end());
+  }
 };
 
 void check(int status) {
@@ -68,9 +78,11 @@ void append(Examples& examples, const ExampleSheet& sheet) {
   const std::size_t columns = sheet.features.size();
   const bool sampled = rows.size() < static_cast<std::size_t>(std::count_if(
                                          sheet.used.begin(), sheet.used.end(), [](int u) { return u != 0; }));
-  std::vector<double> weights;
+  const bool complete = !drawn && !home && sheet.truth != "contours";
+  std::vector<double> weights, lengths;
   for (const std::size_t i : rows) {
     const double length = length_of(sheet, i);
+    lengths.push_back(sampled ? std::sqrt(length) : length);
     const double weight =
         home ? length : std::sqrt(length);  // walls are long, what is no wall must count too
     weights.push_back(sampled ? weight / std::sqrt(length) : weight);
@@ -81,6 +93,9 @@ void append(Examples& examples, const ExampleSheet& sheet) {
   const double total = std::max(1.0, std::accumulate(weights.begin(), weights.end(), 0.0));
   for (const double weight : weights)
     examples.weights.push_back(static_cast<float>(kSheetWeight * sheet.weight * weight / total));
+  const double whole = std::max(1.0, std::accumulate(lengths.begin(), lengths.end(), 0.0));
+  for (const double length : lengths)
+    examples.lengths.push_back(complete ? sheet.weight * length / whole : 0.0);
   examples.names = sheet.features;
 }
 
@@ -116,10 +131,10 @@ class Judge {
   Judge& operator=(const Judge&) = delete;
   ~Judge() { XGBoosterFree(booster_); }
 
-  [[nodiscard]] std::vector<float> probabilities(const ExampleSheet& sheet) const {
-    if (sheet.rows() == 0) return {};
+  [[nodiscard]] std::vector<float> probabilities(const std::vector<float>& values, std::size_t rows) const {
+    if (rows == 0) return {};
     DMatrixHandle matrix = nullptr;
-    check(XGDMatrixCreateFromMat(sheet.values.data(), sheet.rows(), sheet.features.size(), -1e9F, &matrix));
+    check(XGDMatrixCreateFromMat(values.data(), rows, values.size() / rows, -1e9F, &matrix));
     bst_ulong count = 0;
     const float* result = nullptr;
     check(XGBoosterPredict(booster_, matrix, 0, 0, 0, &count, &result));
@@ -181,21 +196,43 @@ Examples without_fold(const std::vector<ExampleSheet>& sheets, const std::vector
   return examples;
 }
 
+/// How the log odds of drawings that were not seen become those of what is said of them: by length, where the
+/// trees learned by its root, and as sure as they were right.
+madori::mapping::Calibration calibrate(const std::vector<Examples>& folds) {
+  CalibrationFit fit;
+  for (std::size_t fold = 0; fold < folds.size(); ++fold) {
+    Examples others;
+    for (std::size_t k = 0; k < folds.size(); ++k)
+      if (k != fold) others.add(folds[k]);
+    const Examples& unseen = folds[fold];
+    const auto said =
+        Judge(others, kSecondTrees, kSecondDepth).probabilities(unseen.values, unseen.labels.size());
+    for (std::size_t i = 0; i < said.size(); ++i) fit.add(said[i], unseen.labels[i] > 0, unseen.lengths[i]);
+  }
+  return fit.fitted();
+}
+
 /// The second judge learns from first judgements of drawings that the first one has not seen.
 void train(const std::vector<ExampleSheet>& sheets, const std::string& file) {
   const auto folds = folds_of(sheets);
-  Examples contexts;
+  std::vector<Examples> contexts(kFolds);
+  Examples all;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     const Judge judge(without_fold(sheets, folds, fold), kTrees, kDepth);
     for (std::size_t k = 0; k < sheets.size(); ++k)
-      if (folds[k] == fold) append(contexts, in_context(sheets[k], judge.probabilities(sheets[k])));
+      if (folds[k] == fold)
+        append(contexts[fold],
+               in_context(sheets[k], judge.probabilities(sheets[k].values, sheets[k].rows())));
+    all.add(contexts[fold]);
   }
+  const auto calibration = calibrate(contexts);
   const madori::mapping::WallModel model(Judge(without_fold(sheets, folds, kFolds), kTrees, kDepth).forest(),
-                                         Judge(contexts, kSecondTrees, kSecondDepth).forest());
+                                         Judge(all, kSecondTrees, kSecondDepth).forest(), calibration);
   const std::string bytes = model.bytes();
   std::ofstream stream(file, std::ios::binary);
   if (!(stream << bytes)) throw madori::Error(file, "cannot be written", "name another --out");
-  std::printf("%s: %zu sheets, %zu bytes\n", file.c_str(), sheets.size(), bytes.size());
+  std::printf("%s: %zu sheets, %zu bytes, log odds %.3f x + %.3f\n", file.c_str(), sheets.size(),
+              bytes.size(), calibration.slope, calibration.offset);
 }
 
 }  // namespace

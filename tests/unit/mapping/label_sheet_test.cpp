@@ -69,6 +69,24 @@ TEST(EdgeFeatures, HaveNamesOfTheirOwnAndAreFinite) {
       ASSERT_TRUE(std::isfinite(sheet.features.at(row, column))) << names[column];
 }
 
+TEST(WallModel, WhatItTellsRisesWithWhatItJudgesAndComesBackFromItsFile) {
+  const test::TemporaryFolder folder;
+  const Forest none;
+  const WallModel model(none, none, {1.25, -0.5});
+  const WallModel back = WallModel::load(folder.write("model.ubj", model.bytes()));
+  double before = -1;
+  for (double judged = 0; judged <= 1; judged += 0.05) {
+    EXPECT_GT(model.told(judged), before);
+    EXPECT_EQ(back.told(judged), model.told(judged));
+    before = model.told(judged);
+  }
+  EXPECT_NEAR(std::log(model.told(0.9) / (1 - model.told(0.9))), 1.25 * std::log(9.0) - 0.5, 1e-9);
+  const std::string bytes = model.bytes();
+  const std::size_t line = bytes.find("1.25");
+  for (const std::string& end : {std::string(), std::string("1.25"), std::string("x y\n")})
+    EXPECT_THROW((void)WallModel::load(folder.write("cut.ubj", bytes.substr(0, line) + end)), Error) << end;
+}
+
 TEST(WallModel, RefusesWhatIsNoModelAndOtherFeatures) {
   const test::TemporaryFolder folder;
   EXPECT_THROW((void)WallModel::load("/no/such/model"), Error);
