@@ -13,7 +13,7 @@ constexpr std::size_t kBeams = 600;  // more tell no more: neighbours cross the 
 constexpr double kBeforeEndM = 0.5;  // of a beam: its own wall may be drawn that much beside its place
 constexpr double kBesideM = 0.5;     // a way has to leave a wall this far behind to have crossed it,
 constexpr double kAwayM = 0.25;      // and be this far from it by then: what runs along a wall says nothing
-constexpr double kAsideM = 0.15;     // what passes a wall's end so near may pass beside it
+constexpr double kAsideM = 0.08;     // what passes a wall's end so near may pass beside it
 constexpr double kPieceM = 2.0;      // errors of a drawing persist along a wall for about so long
 constexpr int kFewestWays = 2;       // one beam alone may be a wrong point
 

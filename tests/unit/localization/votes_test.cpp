@@ -87,7 +87,7 @@ TEST(FreeWays, WhatGoesThroughADoorCrossesNoWallThoughThePoseIsOffByAFewCentimet
   FreeWays ways;
   for (double x_m = -0.44; x_m < 0.445; x_m += 0.02)
     ways.beams.push_back({{0.5 * x_m, -4.0}, {1.5 * x_m, 4.0}});
-  for (const double off_m : {-0.08, -0.04, 0.0, 0.04, 0.08})
+  for (const double off_m : {-0.05, -0.025, 0.0, 0.025, 0.05})
     EXPECT_EQ(walls_crossed(ways, Transform2<Map, Map>(off_m, 0.0, 0.0), drawn), 0) << off_m;
   EXPECT_GT(walls_crossed(ways, Transform2<Map, Map>(1.5, 0.0, 0.0), drawn), 0) << "the door is elsewhere";
 }
