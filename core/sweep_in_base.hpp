@@ -11,15 +11,15 @@ namespace madori {
 /// A sweep in the Base frame of its last firing: each point is moved by what the vehicle did since its own.
 /// `odom_from_base_at(Stamp)` gives the wheels' pose, or nothing: then the vehicle counts as standing.
 /// Points that `keep(Point2<Base>)` refuses are left out. The result's stamp is the last firing's, its time
-/// offsets are zero, heights are above the floor.
+/// offsets are zero, heights are above the floor. It takes the place of what `result` holds.
 template <class PoseAt, class Keep>
-[[nodiscard]] PointCloud<Base> sweep_in_base(const PointCloud<Lidar>& cloud, const LidarMounting& mounting,
-                                             PoseAt&& odom_from_base_at, Keep&& keep) {
+void sweep_in_base(const PointCloud<Lidar>& cloud, const LidarMounting& mounting, PoseAt&& odom_from_base_at,
+                   Keep&& keep, PointCloud<Base>& result) {
   constexpr float kOneFiringS = 5e-4F;  // points this near in time share a motion: 0.5 mm at 1 m/s
-  PointCloud<Base> result;
   result.lidar = cloud.lidar;
   const float last_s = cloud.points.empty() ? 0.0F : cloud.points.back().time_offset_s;
   result.stamp = cloud.stamp + duration_from_seconds(static_cast<double>(last_s));
+  result.points.clear();
   result.points.reserve(cloud.points.size());
   const Transform2<Base, Lidar> base_from_lidar = mounting.base_from_lidar();
   const std::optional<Transform2<Odom, Base>> end = odom_from_base_at(result.stamp);
@@ -41,6 +41,13 @@ template <class PoseAt, class Keep>
     q.time_offset_s = 0.0F;
     result.points.push_back(q);
   }
+}
+
+template <class PoseAt, class Keep>
+[[nodiscard]] PointCloud<Base> sweep_in_base(const PointCloud<Lidar>& cloud, const LidarMounting& mounting,
+                                             PoseAt&& odom_from_base_at, Keep&& keep) {
+  PointCloud<Base> result;
+  sweep_in_base(cloud, mounting, odom_from_base_at, keep, result);
   return result;
 }
 

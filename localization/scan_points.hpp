@@ -23,6 +23,9 @@ struct ScanPoints {
 
   [[nodiscard]] std::size_t size() const { return x_m.size(); }
   [[nodiscard]] bool empty() const { return x_m.empty(); }
+  void clear() {
+    for (auto* part : {&x_m, &y_m, &weight, &normal_x, &normal_y}) part->clear();
+  }
   void add(double x, double y) {
     x_m.push_back(static_cast<float>(x));
     y_m.push_back(static_cast<float>(y));
@@ -31,12 +34,16 @@ struct ScanPoints {
   [[nodiscard]] double weight_of(std::size_t i) const { return weight.empty() ? 1.0 : weight[i]; }
 };
 
-/// Those that count: a weight above 0.
-[[nodiscard]] inline std::vector<Point2<Base>> weighty_points(const ScanPoints& points) {
-  std::vector<Point2<Base>> out;
+/// Those that count, a weight above 0, in place of what `out` holds.
+inline void weighty_points(const ScanPoints& points, std::vector<Point2<Base>>& out) {
+  out.clear();
   out.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points.weight_of(i) > 0.0) out.push_back(points.point(i));
+}
+[[nodiscard]] inline std::vector<Point2<Base>> weighty_points(const ScanPoints& points) {
+  std::vector<Point2<Base>> out;
+  weighty_points(points, out);
   return out;
 }
 

@@ -25,13 +25,14 @@ std::optional<Path> way_back(const CycleState& state, const CycleConfig& config)
         {last.translation(), wrap_angle(last.yaw_rad() + kPi), 0.0, config.back_out_mps, true});
   };
   add();
-  for (auto pose = state.trail.rbegin(); pose != state.trail.rend() && length_m < config.back_out_m; ++pose) {
-    const double step_m = distance_m(pose->translation(), last.translation());
+  for (std::size_t i = state.trail.size(); i-- > 0 && length_m < config.back_out_m;) {
+    const Transform2<Map, Base>& pose = state.trail[i];
+    const double step_m = distance_m(pose.translation(), last.translation());
     if (step_m < kStepM) continue;
-    const double direction = std::atan2(pose->y_m() - last.y_m(), pose->x_m() - last.x_m());
-    if (std::abs(wrap_angle(direction - pose->yaw_rad() - kPi)) > kStraightRad) break;
+    const double direction = std::atan2(pose.y_m() - last.y_m(), pose.x_m() - last.x_m());
+    if (std::abs(wrap_angle(direction - pose.yaw_rad() - kPi)) > kStraightRad) break;
     length_m += step_m;
-    last = *pose;
+    last = pose;
     add();
   }
   if (length_m < kWorthM) return std::nullopt;
@@ -68,10 +69,10 @@ bool is_free_behind(const CycleState& state, const Path& path, const std::vector
 
 /// The way that it came; straight back as far as that is free, where that way was held, leads into something
 /// or is too short to help.
-std::optional<Path> free_way_back(const CycleState& state, const CycleConfig& config) {
+std::optional<Path> free_way_back(CycleState& state, const CycleConfig& config) {
   constexpr double kShortestM = 0.3;
   constexpr double kShorterM = 0.1;
-  const auto obstacles = obstacle_points(state);
+  const auto& obstacles = obstacle_points(state);
   const auto is_free = [&](const Path& path) { return is_free_behind(state, path, obstacles, config); };
   auto came = state.way.backing_held ? std::nullopt : way_back(state, config);
   if (came && is_free(*came)) return came;

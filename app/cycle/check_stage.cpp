@@ -12,10 +12,11 @@ namespace {
 constexpr double kDetourWithinM = 4.0;  ///< what is further away may be gone when the vehicle gets there
 
 /// What crosses the way, Map frame.
-std::vector<planning::Mover<Map>> movers_on_map(const CycleState& state) {
+std::vector<planning::Mover<Map>>& movers_on_map(CycleState& state) {
   const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
   const Transform2<Map, Odom> turn(0.0, 0.0, map_from_odom.yaw_rad());
-  std::vector<planning::Mover<Map>> movers;
+  auto& movers = state.bench.movers;
+  movers.clear();
   for (const auto& m : state.movers.movers()) {
     const Point2<Map> velocity = turn * Point2<Odom>{m.vx_mps, m.vy_mps};
     movers.push_back({map_from_odom * m.at, velocity.x_m, velocity.y_m, m.radius_m});
@@ -34,15 +35,17 @@ bool may_turn(const CycleState& state, const CycleConfig& config) {
 }
 
 /// Whether the vehicle can turn on the spot to where its path goes next.
-bool turn_is_free(const CycleState& state, const std::vector<Point2<Map>>& obstacles,
+bool turn_is_free(CycleState& state, const std::vector<Point2<Map>>& obstacles,
                   const planning::CheckOptions& margins) {
+  static const planning::WallGrid kNoWalls;
   const Navigation& way = state.way;
   if (way.pursuit.piece >= way.path.pieces().size()) return true;
   const PathPoint& next = way.path.points()[way.path.pieces()[way.pursuit.piece].first];
   const Point2<Map> here = state.pose.map_from_base.translation();
-  const Path turn{{{here, state.pose.map_from_base.yaw_rad()}, {here, next.facing_rad()}}};
-  const auto check = planning::check_path(turn, 1, 0.0, obstacles, planning::WallGrid(), margins);
-  return !check.blocked();
+  Path& turn = state.bench.turn;
+  turn.points.assign(2, PathPoint{here, state.pose.map_from_base.yaw_rad()});
+  turn.points.back().heading_rad = next.facing_rad();
+  return !state.bench.checker.check(turn, 1, 0.0, obstacles, kNoWalls, margins).blocked();
 }
 
 /// How far the drawn walls reach into the vehicle that stands there: the drawing or the pose is off by so
@@ -58,7 +61,7 @@ double wall_slack_m(const CycleState& state, const CycleConfig& config, double s
 }
 
 /// Whether the vehicle stands free with these margins, and its next metres are free too.
-bool passes(const CycleState& state, const std::vector<Point2<Map>>& obstacles,
+bool passes(CycleState& state, const std::vector<Point2<Map>>& obstacles,
             const planning::CheckOptions& margins, const CycleConfig& config) {
   constexpr double kAheadM = 3.0;  ///< what is further away is judged when the vehicle gets there
   const Navigation& way = state.way;
@@ -66,13 +69,13 @@ bool passes(const CycleState& state, const std::vector<Point2<Map>>& obstacles,
   if (!planning::is_free(state.pose.map_from_base, obstacles, walls, margins)) return false;
   if (may_turn(state, config) && !turn_is_free(state, obstacles, margins)) return false;
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
-  return !planning::check_path(way.plain, from, kAheadM, obstacles, walls, margins).blocked();
+  return !state.bench.checker.check(way.plain, from, kAheadM, obstacles, walls, margins).blocked();
 }
 
 /// What is kept of the ordinary margins. Where no way with all of them has shown itself for a while, because
 /// the place is narrow or the vehicle has come to stand within them, it goes with less and slowly, until the
 /// next metres allow all of them again.
-planning::Squeeze squeeze_here(const CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
+planning::Squeeze squeeze_here(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
                                const CycleConfig& config) {
   constexpr double kHalf = 0.5;
   constexpr double kLeast = 0.2;
@@ -106,11 +109,12 @@ bool stays(std::vector<Stirring>& stirring, const Point2<Map>& where, Stamp now,
 }
 
 /// What gets anywhere, Map frame.
-std::vector<planning::Mover<Map>> true_movers(CycleState& state, Stamp now, const CycleConfig& config) {
+const std::vector<planning::Mover<Map>>& true_movers(CycleState& state, Stamp now,
+                                                     const CycleConfig& config) {
   constexpr double kGapS = 1.0;
   auto& stirring = state.way.stirring;
   std::erase_if(stirring, [&](const Stirring& s) { return to_seconds(now - s.last) > kGapS; });
-  auto movers = movers_on_map(state);
+  auto& movers = movers_on_map(state);
   std::erase_if(movers,
                 [&](const auto& m) { return stays(stirring, m.at, now, config.mover_stays_after_s); });
   return movers;
@@ -148,7 +152,7 @@ void note_blocked(Navigation& way, Stamp now, double clear_for_s) {
 }
 
 void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& config,
-                    std::vector<Point2<Map>> obstacles, CycleOutput& output) {
+                    const std::vector<Point2<Map>>& obstacles, CycleOutput& output) {
   Navigation& way = state.way;
   const bool stuck = !way.turn_free || way.held;
   const bool due = (way.check.blocked() || stuck) && !way.backing && !way.by_mover && way.blocked_since &&
@@ -165,16 +169,9 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
   if (!check.blocked()) check.first_blocked = check.last_blocked = way.pursuit.index;
   const auto goal = state.site->routes().index_of(way.stop.node);
   const bool any_end_heading = goal && !state.site->routes().nodes()[*goal].heading_rad;
-  output.detour_wanted = planning::DetourRequest{way.detour_id,
-                                                 way.plain,
-                                                 way.pursuit.index,
-                                                 state.pose.map_from_base,
-                                                 check,
-                                                 std::move(obstacles),
-                                                 way.squeeze,
-                                                 any_end_heading,
-                                                 !stuck,
-                                                 state.site->walls()};
+  output.detour_wanted = planning::DetourRequest{
+      way.detour_id,   way.plain, way.pursuit.index,  state.pose.map_from_base, check, obstacles, way.squeeze,
+      any_end_heading, !stuck,    state.site->walls()};
 }
 
 void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
@@ -183,9 +180,9 @@ void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, S
   const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
   way.squeeze = squeeze_here(state, obstacles, now, config);
   const auto margins = planning::with_margins(config.check, way.squeeze);
-  way.check =
-      planning::check_path(way.plain, from, config.look_ahead_m, obstacles, *state.site->walls(), margins);
-  const auto movers = true_movers(state, now, config);
+  way.check = state.bench.checker.check(way.plain, from, config.look_ahead_m, obstacles, *state.site->walls(),
+                                        margins);
+  const auto& movers = true_movers(state, now, config);
   const auto crossing =
       planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps, movers,
                              config.check, config.movers);
@@ -235,9 +232,10 @@ void note_held(CycleState& state, const std::vector<Point2<Map>>& obstacles, Sta
 
 }  // namespace
 
-std::vector<Point2<Map>> obstacle_points(const CycleState& state) {
+const std::vector<Point2<Map>>& obstacle_points(CycleState& state) {
   const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
-  std::vector<Point2<Map>> points;
+  auto& points = state.bench.obstacles;
+  points.clear();
   for (const planning::Column& c : state.obstacles.columns()) {
     if (!c.confirmed) continue;
     const std::array<double, 2> x{static_cast<double>(c.min_x_m), static_cast<double>(c.max_x_m)};
@@ -260,7 +258,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
       if (way.rejoin_m) take_path(way, {}, config);  // nothing to drive around any more: planned anew
     }
   if (way.path.empty() || way.arrived || !output.computed_lidar) return;
-  const auto obstacles = obstacle_points(state);
+  const auto& obstacles = obstacle_points(state);
   if (way.backing)
     check_behind(state, input.now, config);
   else

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +18,7 @@
 #include "control/pure_pursuit/pure_pursuit.hpp"
 #include "core/laser_scan.hpp"
 #include "core/lidar_model.hpp"
+#include "core/ring.hpp"
 #include "planning/detour/detour_planner.hpp"
 #include "planning/obstacle_check/motion_guard.hpp"
 #include "planning/obstacle_check/moving_objects.hpp"
@@ -198,6 +198,17 @@ struct Hearing {
   std::array<std::optional<Stamp>, kBearings> seen;
 };
 
+/// Room that the stages of a step work in. Nothing in it lasts: it is kept so that a step asks the heap for
+/// none.
+struct Workbench {
+  PointCloud<Lidar> scan;              ///< a planar lidar's, as points
+  PointCloud<Base> sweep;              ///< the one at hand
+  std::vector<Point2<Map>> obstacles;  ///< corners of the confirmed columns
+  std::vector<planning::Mover<Map>> movers;
+  planning::PathChecker checker;
+  Path turn;  ///< on the spot
+};
+
 /// Everything the cycle remembers. It moves from step to step.
 struct CycleState {
   CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> source);
@@ -205,7 +216,7 @@ struct CycleState {
   Mode mode = Mode::Paused;  ///< nothing drives after a start until the operator lets it
   Standstill standstill;
   control::DiffDriveOdometry odometry;
-  std::deque<OdometryReading> track;  ///< of the last seconds, for motion compensation
+  Ring<OdometryReading> track;  ///< of the last seconds, for motion compensation
   std::unique_ptr<PoseSource> localization;
   std::shared_ptr<const SiteInBuilding> site;  ///< routes and walls where they stand
   PoseEstimate pose;
@@ -228,11 +239,12 @@ struct CycleState {
   VelocityCommand jog;
   Stamp jog_heard{};
   Navigation way;
-  std::deque<Transform2<Map, Base>> trail;  ///< where it has just driven
-  Stamp trail_at{};                         ///< of its last pose
-  std::optional<Effort> effort;             ///< while it works on an order
+  Ring<Transform2<Map, Base>> trail;  ///< where it has just driven
+  Stamp trail_at{};                   ///< of its last pose
+  std::optional<Effort> effort;       ///< while it works on an order
   control::LimitState limits;
   int unarmed_steps = 0;  ///< enabled in a row while the drive stayed idle
+  Workbench bench;
 };
 
 struct StepResult {

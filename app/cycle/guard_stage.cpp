@@ -87,7 +87,7 @@ double share_to_go(const CycleState& state, const VelocityCommand& wanted,
                                  config.check.vehicle, config.braking, config.guard);
 }
 
-VelocityCommand guarded(const CycleState& state, const VelocityCommand& wanted, const CycleConfig& config) {
+VelocityCommand guarded(CycleState& state, const VelocityCommand& wanted, const CycleConfig& config) {
   if (!drives(state.mode) || wanted == VelocityCommand{}) return wanted;
   const double share = share_to_go(state, wanted, obstacle_points(state), config);
   return {wanted.linear_mps * share, wanted.angular_radps * share};

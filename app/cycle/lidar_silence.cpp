@@ -21,32 +21,20 @@ std::array<double, Hearing::kBearings + 1> edges() {
   return slopes;
 }
 
-/// The younger of what several lidars told; nothing where none has told anything.
-template <class Told>
-std::optional<Stamp> youngest(const CycleState& state, const std::vector<std::size_t>& lidars,
-                              const Told& told) {
+/// The younger of what the lidars told that are asked; nothing where none has told anything.
+template <class Asked, class Told>
+std::optional<Stamp> youngest(const CycleState& state, const Asked& asked, const Told& told) {
   std::optional<Stamp> newest;
-  for (const std::size_t i : lidars) newest = std::max(newest, told(state.lidars_heard[i]));
+  for (std::size_t i = 0; i < state.lidars_heard.size(); ++i)
+    if (asked(i)) newest = std::max(newest, told(state.lidars_heard[i]));
   return newest;
-}
-
-/// The lidars that look in a direction, Base frame.
-std::vector<std::size_t> looking_at(const std::vector<LidarModel>& lidars, double bearing_rad) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < lidars.size(); ++i)
-    if (planning::SensorView::of(lidars[i]).looks_at(bearing_rad)) found.push_back(i);
-  return found;
 }
 
 }  // namespace
 
-std::vector<std::size_t> place_lidars(const std::vector<LidarModel>& lidars) {
-  std::vector<std::size_t> all, spinning;
-  for (std::size_t i = 0; i < lidars.size(); ++i) {
-    all.push_back(i);
-    if (lidars[i].kind == LidarKind::Spinning) spinning.push_back(i);
-  }
-  return spinning.empty() ? all : spinning;
+bool tells_place(const std::vector<LidarModel>& lidars, std::size_t lidar) {
+  const auto spins = [](const LidarModel& model) { return model.kind == LidarKind::Spinning; };
+  return spins(lidars[lidar]) || std::ranges::none_of(lidars, spins);
 }
 
 /// A lidar with lasers that look down sees at least the floor wherever it looks: a direction in which it saw
@@ -67,12 +55,18 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
 
 std::optional<Stamp> heard_all(const CycleState& state, const CycleConfig& config) {
   if (state.lidars_heard.size() != config.lidars.size()) return std::nullopt;
-  std::optional<Stamp> oldest =
-      youngest(state, place_lidars(config.lidars), [](const Hearing& h) { return h.heard; });
+  std::optional<Stamp> oldest = youngest(
+      state, [&](std::size_t lidar) { return tells_place(config.lidars, lidar); },
+      [](const Hearing& h) { return h.heard; });
   for (std::size_t i = 0; i < Hearing::kBearings; ++i) {
-    const auto looking = looking_at(config.lidars, bearing_of(static_cast<double>(i)));
-    oldest = std::min(
-        oldest, youngest(state, looking, [&](const Hearing& h) { return h.seen[i] ? h.seen[i] : h.heard; }));
+    const double bearing_rad = bearing_of(static_cast<double>(i));
+    oldest =
+        std::min(oldest, youngest(
+                             state,
+                             [&](std::size_t lidar) {
+                               return planning::SensorView::of(config.lidars[lidar]).looks_at(bearing_rad);
+                             },
+                             [&](const Hearing& h) { return h.seen[i] ? h.seen[i] : h.heard; }));
   }
   return oldest;
 }

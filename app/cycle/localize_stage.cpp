@@ -32,7 +32,7 @@ Stamp measured_at(CycleState& state, const control::wire::Status& status, Stamp 
 }
 
 /// Where the wheels were at a moment, between the readings around it.
-Transform2<Odom, Base> odometry_at(const std::deque<OdometryReading>& track, Stamp moment) {
+Transform2<Odom, Base> odometry_at(const Ring<OdometryReading>& track, Stamp moment) {
   const auto after = std::lower_bound(track.begin(), track.end(), moment,
                                       [](const auto& reading, Stamp at) { return reading.stamp < at; });
   if (after == track.begin()) return track.front().odom_from_base;
@@ -49,19 +49,19 @@ bool is_own(const Point2<Base>& at, const planning::VehicleOutline& v) {
   return at.x_m < v.front_m && at.x_m > -v.rear_m && std::abs(at.y_m) < v.half_width_m;
 }
 
-PointCloud<Base> in_base(const PointCloud<Lidar>& cloud, const std::deque<OdometryReading>& track,
-                         const CycleConfig& config) {
+void lay_in_base(const PointCloud<Lidar>& cloud, const Ring<OdometryReading>& track,
+                 const CycleConfig& config, PointCloud<Base>& sweep) {
   const LidarModel& lidar = config.lidars[cloud.lidar];
   const bool planar = lidar.kind == LidarKind::Planar;
-  return sweep_in_base(
+  sweep_in_base(
       cloud, lidar.mounting,
       [&](Stamp moment) { return track.empty() ? std::nullopt : std::optional(odometry_at(track, moment)); },
-      [&](const Point2<Base>& at) { return !planar || !is_own(at, config.check.vehicle); });
+      [&](const Point2<Base>& at) { return !planar || !is_own(at, config.check.vehicle); }, sweep);
 }
 
 /// Whether nobody knows any more where the vehicle was when a revolution was taken: its bodies would stand
 /// where they are not. Where the track has just begun, the vehicle stood.
-bool is_too_old(const PointCloud<Lidar>& cloud, const std::deque<OdometryReading>& track) {
+bool is_too_old(const PointCloud<Lidar>& cloud, const Ring<OdometryReading>& track) {
   constexpr double kWholeTrackS = 0.9 * kTrackS;
   return !track.empty() && cloud.stamp < track.front().stamp &&
          to_seconds(track.back().stamp - track.front().stamp) > kWholeTrackS;
@@ -95,8 +95,10 @@ void follow_drawing(CycleState& state, const CycleConfig& config) {
 }
 
 /// A scan as points in the lidar's plane.
-PointCloud<Lidar> cloud_of(const LaserScan& scan) {
-  PointCloud<Lidar> cloud{scan.stamp, {}, scan.lidar};
+void lay_in_plane(const LaserScan& scan, PointCloud<Lidar>& cloud) {
+  cloud.stamp = scan.stamp;
+  cloud.lidar = scan.lidar;
+  cloud.points.clear();
   cloud.points.reserve(scan.ranges_m.size());
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const float range_m = scan.ranges_m[i];
@@ -107,7 +109,6 @@ PointCloud<Lidar> cloud_of(const LaserScan& scan) {
                             range_m * static_cast<float>(std::sin(angle)), 0.0F, static_cast<float>(after_s),
                             0, 0});
   }
-  return cloud;
 }
 
 /// One sweep to everybody who looks. A lidar that is faster than the way need be checked tells the obstacles
@@ -116,7 +117,8 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
                 const CycleConfig& config, CycleOutput& output) {
   constexpr double kLookAgainS = 0.08;
   if (cloud.lidar >= config.lidars.size() || is_too_old(cloud, state.track)) return;
-  const PointCloud<Base> base = in_base(cloud, state.track, config);
+  lay_in_base(cloud, state.track, config, state.bench.sweep);
+  const PointCloud<Base>& base = state.bench.sweep;
   state.lidars_heard.resize(config.lidars.size());
   note_heard(state.lidars_heard[cloud.lidar], base, config.lidars[cloud.lidar], input.now);
   if (ends_gap(state, base.stamp, input.now, config)) state.gap.reset();
@@ -156,7 +158,10 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     if (command.word == OperatorWord::SearchPose) state.localization->search_anew();
   }
   for (const auto& cloud : input.clouds) take_sweep(state, cloud, input, config, output);
-  for (const auto& scan : input.scans) take_sweep(state, cloud_of(scan), input, config, output);
+  for (const auto& scan : input.scans) {
+    lay_in_plane(scan, state.bench.scan);
+    take_sweep(state, state.bench.scan, input, config, output);
+  }
   state.lidar_heard = heard_all(state, config);
   follow_drawing(state, config);
 }

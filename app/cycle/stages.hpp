@@ -33,7 +33,7 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
 [[nodiscard]] VelocityCommand wanted_command(CycleState& state, const CycleInput& input,
                                              const CycleConfig& config);
 /// The command as far as nothing is met on it; a path is not followed to the centimetre.
-[[nodiscard]] VelocityCommand guarded(const CycleState& state, const VelocityCommand& wanted,
+[[nodiscard]] VelocityCommand guarded(CycleState& state, const VelocityCommand& wanted,
                                       const CycleConfig& config);
 /// The share of a command, 0 to 1, that the guard leaves.
 [[nodiscard]] double share_to_go(const CycleState& state, const VelocityCommand& wanted,
@@ -44,15 +44,16 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
 [[nodiscard]] Standstill standstill_of(const CycleState& state, const CycleInput& input,
                                        const CycleConfig& config);
 
-/// Confirmed columns around the vehicle, Map frame: their corners.
-[[nodiscard]] std::vector<Point2<Map>> obstacle_points(const CycleState& state);
+/// Confirmed columns around the vehicle, Map frame: their corners. On the workbench: good until the next
+/// call.
+const std::vector<Point2<Map>>& obstacle_points(CycleState& state);
 /// A sweep came: which directions ahead it tells of.
 void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarModel& lidar, Stamp now);
 /// When all that driving needs of the lidars had last been heard: the way ahead in somebody's field of view,
 /// and a lidar by which the vehicle knows its place. Nothing before that.
 [[nodiscard]] std::optional<Stamp> heard_all(const CycleState& state, const CycleConfig& config);
-/// The lidars that tell where the vehicle is: those that see walls over the equipment, else all of them.
-[[nodiscard]] std::vector<std::size_t> place_lidars(const std::vector<LidarModel>& lidars);
+/// Whether a lidar tells where the vehicle is: those that see walls over the equipment do, else all of them.
+[[nodiscard]] bool tells_place(const std::vector<LidarModel>& lidars, std::size_t lidar);
 /// Whether nobody has heard of a device for too long.
 [[nodiscard]] bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s);
 [[nodiscard]] bool may_drive(LocalizationState state);

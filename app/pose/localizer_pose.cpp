@@ -14,11 +14,13 @@ constexpr double kStillTrueS = 0.3;
 }  // namespace
 
 Point2<Base> LocalizerPose::eye(const std::vector<LidarModel>& lidars) {
-  const auto looking = place_lidars(lidars);
+  double looking = 0.0;
+  for (std::size_t i = 0; i < lidars.size(); ++i) looking += tells_place(lidars, i) ? 1.0 : 0.0;
   Point2<Base> middle;
-  for (const std::size_t i : looking) {
-    middle.x_m += lidars[i].mounting.x_m / static_cast<double>(looking.size());
-    middle.y_m += lidars[i].mounting.y_m / static_cast<double>(looking.size());
+  for (std::size_t i = 0; i < lidars.size(); ++i) {
+    if (!tells_place(lidars, i)) continue;
+    middle.x_m += lidars[i].mounting.x_m / looking;
+    middle.y_m += lidars[i].mounting.y_m / looking;
   }
   return middle;
 }
@@ -31,7 +33,7 @@ LocalizerPose::LocalizerPose(const mapping::Walls& walls, std::vector<LidarModel
       eye_(eye(lidars_)),
       newest_(lidars_.size()),
       localizer_(walls, std::nullopt, options.localizer) {
-  for (const std::size_t i : place_lidars(lidars_)) looks_[i] = true;
+  for (std::size_t i = 0; i < lidars_.size(); ++i) looks_[i] = tells_place(lidars_, i);
   if (options_.memory) localizer_.recall(*std::exchange(options_.memory, std::nullopt));
 }
 
@@ -57,28 +59,31 @@ void LocalizerPose::show(const PointCloud<Base>& cloud, const Transform2<Odom, B
 }
 
 void LocalizerPose::give_merged(Stamp now, const Transform2<Odom, Base>& odom_from_base) {
-  localization::ScanPoints merged;
+  merged_.clear();
   for (const auto& look : newest_) {
     if (!look || to_seconds(now - look->stamp) > kStillTrueS) continue;
     const auto moved = odom_from_base.inverse() * look->odom_from_base;
     for (std::size_t k = 0; k < look->points.size(); ++k) {
       const Point2<Base> at = moved * look->points.point(k);
-      merged.add(at.x_m, at.y_m);
+      merged_.add(at.x_m, at.y_m);
     }
   }
   given_ = now;
-  give(now, merged, odom_from_base);
+  give(now, merged_, odom_from_base);
 }
 
 void LocalizerPose::on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base) {
   if (!looks_[cloud.lidar]) return;
   const LidarModel& lidar = lidars_[cloud.lidar];
-  auto points = localization::extract_walls(cloud, lidar, options_.walls);
+  const auto& points = extractor_.extract(cloud, lidar, options_.walls);
   if (lidar.kind == LidarKind::Spinning) {
     give(cloud.stamp, points, odom_from_base);
     return show(cloud, odom_from_base);
   }
-  newest_[cloud.lidar] = Look{cloud.stamp, std::move(points), odom_from_base};
+  Look& look = newest_[cloud.lidar] ? *newest_[cloud.lidar] : newest_[cloud.lidar].emplace();
+  look.stamp = cloud.stamp;
+  look.points = points;
+  look.odom_from_base = odom_from_base;
   const double since_s = given_ ? to_seconds(cloud.stamp - *given_) : kMergeS;
   if (since_s >= kMergeS || since_s < -kStillTrueS) give_merged(cloud.stamp, odom_from_base);
   show(cloud, odom_from_base);

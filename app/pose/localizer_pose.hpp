@@ -8,7 +8,7 @@
 #include "app/cycle/pose_source.hpp"
 #include "core/lidar_model.hpp"
 #include "localization/localizer/localizer.hpp"
-#include "localization/wall_extraction/wall_extraction.hpp"
+#include "localization/wall_extraction/wall_extractor.hpp"
 #include "mapping/wall_map/wall.hpp"
 
 namespace madori::app {
@@ -64,7 +64,9 @@ class LocalizerPose final : public PoseSource {
   std::vector<LidarModel> lidars_;
   std::vector<bool> looks_;  ///< whether a lidar tells of the place
   Point2<Base> eye_;
+  localization::WallExtractor extractor_;
   std::vector<std::optional<Look>> newest_;  ///< of each planar one
+  localization::ScanPoints merged_;          ///< of them
   std::optional<Stamp> given_;
   PoseEstimate pose_;                     ///< at the last scan that was given
   Transform2<Odom, Base> pose_odometry_;  ///< odom_from_base there

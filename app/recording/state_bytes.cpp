@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <deque>
 #include <type_traits>
 
 #include "core/result.hpp"
@@ -64,7 +63,10 @@ class BytesIn {
       for (std::uint64_t i = 0; i < count; ++i) {
         std::remove_reference_t<decltype(*value.begin())> part{};
         (*this)(part);
-        value.insert(value.end(), std::move(part));
+        if constexpr (requires { value.push_back(std::move(part)); })
+          value.push_back(std::move(part));
+        else
+          value.insert(value.end(), std::move(part));
       }
     }
   }
@@ -118,7 +120,8 @@ void each_of(Bytes& bytes, State& s) {
   auto& [mode, standstill, odometry, track, localization, site, pose, obstacles, movers, drive, drive_heard,
          drive_clock, drive_us, drive_restarted, lidars_heard, lidar_heard, looked, previous, gap,
          protective_stop, begun, stopped, stopped_order, jog, jog_heard, way, trail, trail_at, effort, limits,
-         unarmed_steps] = s;
+         unarmed_steps, bench] = s;
+  static_cast<void>(bench);       // nothing in it lasts
   static_cast<void>(standstill);  // for people, each step anew
   static_cast<void>(localization), static_cast<void>(site),
       static_cast<void>(pose);                              // a recording's own part
@@ -153,8 +156,8 @@ void restore_state(CycleState& state, const std::string& text, const CycleConfig
   bytes(columns);
   std::uint64_t count = 0;
   bytes(count);
-  std::deque<planning::SightHistory::Sight> sights;
-  for (std::uint64_t i = 0; i < count && i < text.size(); ++i) each_of_sight(bytes, sights.emplace_back());
+  Ring<planning::SightHistory::Sight> sights;
+  for (std::uint64_t i = 0; i < count && i < text.size(); ++i) each_of_sight(bytes, sights.add());
   state.obstacles.restore(std::move(columns), std::move(sights));
   bytes(count);
   std::vector<planning::MovingObjects::Track> tracks;

@@ -112,7 +112,7 @@ std::optional<RememberedParts> Localizer::remembered() const {
   return RememberedParts{map_.memory, map_.drawing ? map_.drawing->earlier : nullptr};
 }
 
-void Localizer::start(SurfaceScan scan) {
+void Localizer::start(const SurfaceScan& scan) {
   if (!track_.empty() && anchor_stamp_ < scan.stamp)
     anchor_ = anchor_ * track_.between(anchor_stamp_, scan.stamp, model_).motion;
   anchor_stamp_ = begun_ = scan.stamp;
@@ -129,7 +129,7 @@ void Localizer::start(SurfaceScan scan) {
       map_.memory = Memory(options_.memory);
     }
   }
-  map_.memory.add(std::move(scan), way_m, anchor_, MeasuredMotion{});
+  map_.memory.add(scan, way_m, anchor_, MeasuredMotion{});
   since_scan_ = {};
   since_keyframe_ = {};
   keyframes_since_thinking_ = 1;
@@ -147,8 +147,8 @@ void Localizer::go_on(const MatchResult& recent, const OdometryStep& step) {
   }
 }
 
-void Localizer::remember(SurfaceScan scan) {
-  map_.memory.add(std::move(scan), since_keyframe_.path_m(), anchor_,
+void Localizer::remember(const SurfaceScan& scan) {
+  map_.memory.add(scan, since_keyframe_.path_m(), anchor_,
                   since_keyframe_.measured(map_.memory.poses().back()));
   since_keyframe_ = {};
   ++keyframes_since_thinking_;
@@ -179,7 +179,8 @@ Memory Localizer::finished_memory() {
 }
 
 PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
-  SurfaceScan scan = make_surface_scan(stamp, sensor, weighty_points(points), options_.scan);
+  weighty_points(points, weighty_);
+  const SurfaceScan& scan = scanner_.make(stamp, sensor, weighty_, options_.scan);
   take_in_thoughts(stamp);
   if (started_ && stamp < anchor_stamp_) return on_late_scan(stamp, scan);
   if (started_) {
@@ -195,19 +196,19 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
   }
   anchor_stamp_ = started_ ? stamp : anchor_stamp_;
   if (!started_ && !scan.points.empty())
-    start(std::move(scan));
+    start(scan);
   else if (started_)
-    remember_if_new(std::move(scan));
+    remember_if_new(scan);
   since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
   if (started_) think_if_due(stamp);
   return estimate(stamp, anchor_);
 }
 
-void Localizer::remember_if_new(SurfaceScan scan) {
+void Localizer::remember_if_new(const SurfaceScan& scan) {
   const Transform2<Base, Base> moved = map_.memory.poses().back().inverse() * anchor_;
   if (std::hypot(moved.x_m(), moved.y_m()) > options_.keyframe_m ||
       std::abs(moved.yaw_rad()) > options_.keyframe_rad)
-    remember(std::move(scan));
+    remember(scan);
 }
 
 /// Does the lidar see other surroundings than a moment ago, wherever the vehicle is laid, and does the memory

@@ -80,9 +80,9 @@ class Localizer {
   [[nodiscard]] PoseEstimate on_late_scan(Stamp stamp, const SurfaceScan& scan);
   void follow(const SurfaceScan& scan, const OdometryStep& step);
   [[nodiscard]] ScanMatch match(const SurfaceScan& scan, const OdometryStep& step) const;
-  void start(SurfaceScan scan);
-  void remember_if_new(SurfaceScan scan);
-  void remember(SurfaceScan scan);
+  void start(const SurfaceScan& scan);
+  void remember_if_new(const SurfaceScan& scan);
+  void remember(const SurfaceScan& scan);
   void go_on(const MatchResult& recent, const OdometryStep& step);
   void think_if_due(Stamp stamp);
   void take_in_thoughts(Stamp stamp);
@@ -93,6 +93,8 @@ class Localizer {
   void begin_anew(const std::optional<StartPrior>& told, bool carried = false);
 
   LocalizerOptions options_;
+  std::vector<Point2<Base>> weighty_;  ///< of the scan at hand
+  SurfaceScanner scanner_;
   OdometryModel model_;
   OdometryTrack track_;
   MapState map_;

@@ -1,21 +1,18 @@
 #include "localization/memory/surface_scan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 namespace madori::localization {
 namespace {
 
-struct Polar {
-  double bearing_rad;
-  double range_m;
-  Point2<Base> point;
-};
+using Polar = SurfaceScanner::Polar;
 
-std::vector<Polar> sorted_by_bearing(const Point2<Base>& sensor, const std::vector<Point2<Base>>& points,
-                                     double range_max_m) {
-  std::vector<Polar> polar;
+void sort_by_bearing(const Point2<Base>& sensor, const std::vector<Point2<Base>>& points, double range_max_m,
+                     std::vector<Polar>& polar) {
+  polar.clear();
   polar.reserve(points.size());
   for (const Point2<Base>& p : points) {
     const double dx = p.x_m - sensor.x_m;
@@ -28,14 +25,23 @@ std::vector<Polar> sorted_by_bearing(const Point2<Base>& sensor, const std::vect
   std::sort(polar.begin(), polar.end(), [](const Polar& a, const Polar& b) {
     return std::pair(a.bearing_rad, a.range_m) < std::pair(b.bearing_rad, b.range_m);
   });
-  return polar;
 }
 
-using Neighbours = std::vector<std::size_t>;
+constexpr std::size_t kReach = 4;  ///< neighbours to each side
+
+/// Places in a scan, the point's own and its neighbours'.
+struct Neighbours {
+  std::array<std::size_t, 2 * kReach + 1> places;
+  std::size_t count = 0;
+
+  void add(std::size_t place) { places[count++] = place; }
+  [[nodiscard]] auto begin() const { return places.begin(); }
+  [[nodiscard]] auto end() const { return places.begin() + count; }
+};
 
 /// Total least squares line through the points; false where they are no line.
 bool fit_normal(const std::vector<Polar>& scan, const Neighbours& of, SurfacePoint& out) {
-  const double n = static_cast<double>(of.size());
+  const double n = static_cast<double>(of.count);
   double mean_x = 0.0;
   double mean_y = 0.0;
   for (const std::size_t i : of) {
@@ -67,11 +73,11 @@ bool fit_normal(const std::vector<Polar>& scan, const Neighbours& of, SurfacePoi
 /// The points around i that lie on the same surface, at most kReach to each side. A lidar that looks over
 /// things sees several surfaces in one direction: those of the others are passed over.
 Neighbours neighbourhood(const std::vector<Polar>& scan, std::size_t i) {
-  constexpr std::size_t kReach = 4;
   constexpr std::size_t kLook = 16;
   const double gap_m = std::max(0.15, 0.06 * scan[i].range_m);
   const double reach_m = std::max(0.25, 0.1 * scan[i].range_m);
-  Neighbours found{i};
+  Neighbours found;
+  found.add(i);
   for (const bool up : {false, true}) {
     std::size_t last = i;
     std::size_t taken = 0;
@@ -81,7 +87,7 @@ Neighbours neighbourhood(const std::vector<Polar>& scan, std::size_t i) {
       if (distance_m(scan[last].point, scan[k].point) >= gap_m ||
           distance_m(scan[i].point, scan[k].point) >= reach_m)
         continue;
-      found.push_back(last = k);
+      found.add(last = k);
       ++taken;
     }
   }
@@ -91,7 +97,7 @@ Neighbours neighbourhood(const std::vector<Polar>& scan, std::size_t i) {
 SurfacePoint surface_point(const std::vector<Polar>& scan, std::size_t i, const Point2<Base>& sensor) {
   SurfacePoint p{scan[i].point.x_m, scan[i].point.y_m};
   const Neighbours of = neighbourhood(scan, i);
-  if (of.size() >= 3 && fit_normal(scan, of, p)) {
+  if (of.count >= 3 && fit_normal(scan, of, p)) {
     const double towards = (sensor.x_m - p.x_m) * p.normal_x + (sensor.y_m - p.y_m) * p.normal_y;
     if (towards < 0.0) {
       p.normal_x = -p.normal_x;
@@ -103,19 +109,28 @@ SurfacePoint surface_point(const std::vector<Polar>& scan, std::size_t i, const 
 
 }  // namespace
 
-SurfaceScan make_surface_scan(Stamp stamp, const Point2<Base>& sensor,
-                              const std::vector<Point2<Base>>& points, const SurfaceScanOptions& options) {
-  const std::vector<Polar> polar = sorted_by_bearing(sensor, points, options.range_max_m);
-  SurfaceScan scan{stamp, sensor, {}};
+const SurfaceScan& SurfaceScanner::make(Stamp stamp, const Point2<Base>& sensor,
+                                        const std::vector<Point2<Base>>& points,
+                                        const SurfaceScanOptions& options) {
+  sort_by_bearing(sensor, points, options.range_max_m, polar_);
+  scan_.stamp = stamp;
+  scan_.sensor = sensor;
+  scan_.points.clear();
+  scan_.points.reserve(polar_.size());
   const Point2<Base>* kept = nullptr;
-  for (std::size_t i = 0; i < polar.size(); ++i) {
-    if (kept != nullptr && distance_m(*kept, polar[i].point) < options.spacing_m) {
+  for (std::size_t i = 0; i < polar_.size(); ++i) {
+    if (kept != nullptr && distance_m(*kept, polar_[i].point) < options.spacing_m) {
       continue;
     }
-    kept = &polar[i].point;
-    scan.points.push_back(surface_point(polar, i, sensor));
+    kept = &polar_[i].point;
+    scan_.points.push_back(surface_point(polar_, i, sensor));
   }
-  return scan;
+  return scan_;
+}
+
+SurfaceScan make_surface_scan(Stamp stamp, const Point2<Base>& sensor,
+                              const std::vector<Point2<Base>>& points, const SurfaceScanOptions& options) {
+  return SurfaceScanner().make(stamp, sensor, points, options);
 }
 
 }  // namespace madori::localization

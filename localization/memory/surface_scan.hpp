@@ -32,8 +32,28 @@ struct SurfaceScanOptions {
   double spacing_m = 0.04;    ///< of the points kept, so that near surfaces do not outweigh far ones
 };
 
-/// Sorts the points by bearing from the sensor, thins them and fits a normal to each from its neighbours.
-/// `points` are Base frame in any order; non-finite points are dropped.
+/// Makes scans ready for matching, one after the other, in memory that it uses again.
+class SurfaceScanner {
+ public:
+  /// Sorts the points by bearing from the sensor, thins them and fits a normal to each from its neighbours.
+  /// `points` are Base frame in any order; non-finite points are dropped. The scan is good until the next
+  /// call.
+  const SurfaceScan& make(Stamp stamp, const Point2<Base>& sensor, const std::vector<Point2<Base>>& points,
+                          const SurfaceScanOptions& options = {});
+
+  /// A point as the sensor has it.
+  struct Polar {
+    double bearing_rad;
+    double range_m;
+    Point2<Base> point;
+  };
+
+ private:
+  std::vector<Polar> polar_;
+  SurfaceScan scan_;
+};
+
+/// The same for a single scan.
 [[nodiscard]] SurfaceScan make_surface_scan(Stamp stamp, const Point2<Base>& sensor,
                                             const std::vector<Point2<Base>>& points,
                                             const SurfaceScanOptions& options = {});

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <deque>
 #include <optional>
 
 #include "core/odometry.hpp"
+#include "core/ring.hpp"
 #include "localization/motion_model/odometry_model.hpp"
 
 namespace madori::localization {
@@ -28,7 +28,7 @@ class OdometryTrack {
 
   static constexpr Duration kCarryOn = std::chrono::milliseconds(250);
   static constexpr Duration kKept = std::chrono::seconds(30);
-  std::deque<OdometryReading> readings_;
+  Ring<OdometryReading> readings_;
 };
 
 }  // namespace madori::localization

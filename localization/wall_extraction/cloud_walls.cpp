@@ -1,50 +1,14 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
 
-#include "localization/wall_extraction/wall_extraction.hpp"
+#include "localization/wall_extraction/wall_extractor.hpp"
 
 namespace madori::localization {
 namespace {
 
-/// A return inside the region of interest.
-struct Return {
-  std::uint32_t sector;
-  float range_m;
-  float z_m;
-  std::uint32_t index;
-};
-
-/// By sector, then by range: counted into the sectors, each sorted by itself.
-std::vector<Return> sorted(const std::vector<Return>& returns, int sectors) {
-  std::vector<std::size_t> begin(static_cast<std::size_t>(sectors) + 1, 0);
-  for (const Return& r : returns) ++begin[r.sector + 1];
-  for (std::size_t s = 1; s < begin.size(); ++s) begin[s] += begin[s - 1];
-  std::vector<std::size_t> next = begin;
-  std::vector<Return> result(returns.size());
-  for (const Return& r : returns) result[next[r.sector]++] = r;
-  for (std::size_t s = 0; s + 1 < begin.size(); ++s)
-    std::sort(result.begin() + static_cast<std::ptrdiff_t>(begin[s]),
-              result.begin() + static_cast<std::ptrdiff_t>(begin[s + 1]),
-              [](const Return& a, const Return& b) { return a.range_m < b.range_m; });
-  return result;
-}
-
-std::vector<Return> region_of_interest(const PointCloud<Base>& cloud, const CloudWallOptions& options) {
-  std::vector<Return> inside;
-  inside.reserve(cloud.points.size());
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const CloudPoint& p = cloud.points[i];
-    const double range = std::hypot(p.x_m, p.y_m);
-    if (!(p.z_m >= options.min_height_m && p.z_m <= options.max_height_m)) continue;
-    if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;
-    const double turn = (std::atan2(p.y_m, p.x_m) + kPi) / (2.0 * kPi);
-    const auto sector = static_cast<std::uint32_t>(std::min(turn, 0.999999) * options.sectors);
-    inside.push_back({sector, static_cast<float>(range), p.z_m, static_cast<std::uint32_t>(i)});
-  }
-  return sorted(inside, options.sectors);
-}
+using Return = WallExtractor::Return;
 
 /// What of a wall the returns before it in its sector leave in sight: rises per metre from the lidar. What
 /// stands before it hides it from below, a ceiling, a beam or a lamp from above.
@@ -113,35 +77,6 @@ double wall_weight(const std::vector<Return>& returns, std::size_t begin, std::s
   return share >= options.least_extent ? std::min(share, 1.0) : 0.0;
 }
 
-/// Keeps one point a voxel: the mean of those that fell into it, by weight.
-ScanPoints thinned(const ScanPoints& points, double voxel_m) {
-  struct Sum {
-    double x = 0.0, y = 0.0, w = 0.0, most = 0.0;
-  };
-  std::unordered_map<std::uint64_t, std::size_t> slot;
-  std::vector<Sum> sums;  // in the order of the sectors, so that neighbours stay neighbours
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto u = static_cast<std::int32_t>(std::floor(points.x_m[i] / voxel_m));
-    const auto v = static_cast<std::int32_t>(std::floor(points.y_m[i] / voxel_m));
-    const std::uint64_t key =
-        (std::uint64_t{static_cast<std::uint32_t>(u)} << 32) | static_cast<std::uint32_t>(v);
-    const auto [at, fresh] = slot.try_emplace(key, sums.size());
-    if (fresh) sums.emplace_back();
-    Sum& sum = sums[at->second];
-    const double w = points.weight[i];
-    sum.x += w * points.x_m[i];
-    sum.y += w * points.y_m[i];
-    sum.w += w;
-    sum.most = std::max(sum.most, w);
-  }
-  ScanPoints kept;
-  for (const Sum& sum : sums) {
-    kept.add(sum.x / sum.w, sum.y / sum.w);
-    kept.weight.push_back(static_cast<float>(sum.most));
-  }
-  return kept;
-}
-
 /// Normals from the neighbours on both sides; none where these do not lie in a line.
 void add_normals(ScanPoints& points) {
   constexpr double kNear = 1.0;
@@ -163,46 +98,118 @@ void add_normals(ScanPoints& points) {
   }
 }
 
-ScanPoints all_returns(const PointCloud<Base>& cloud, const LidarModel& lidar,
-                       const CloudWallOptions& options) {
-  ScanPoints points;
+void take_all_returns(const PointCloud<Base>& cloud, const LidarModel& lidar, const CloudWallOptions& options,
+                      ScanPoints& points) {
   for (const CloudPoint& p : cloud.points) {
     const double x = p.x_m, y = p.y_m;
     if (std::hypot(x - lidar.mounting.x_m, y - lidar.mounting.y_m) <= options.max_range_m) points.add(x, y);
   }
-  return points;
 }
 
 }  // namespace
 
-ScanPoints extract_walls(const PointCloud<Base>& cloud, const LidarModel& lidar,
-                         const CloudWallOptions& options) {
-  if (lidar.kind == LidarKind::Planar) return all_returns(cloud, lidar, options);
-  const std::vector<Return> returns = region_of_interest(cloud, options);
-  ScanPoints points;
+/// By sector, then by range: counted into the sectors, each sorted by itself.
+void WallExtractor::sort_returns(int sectors) {
+  begin_.assign(static_cast<std::size_t>(sectors) + 1, 0);
+  for (const Return& r : inside_) ++begin_[r.sector + 1];
+  for (std::size_t s = 1; s < begin_.size(); ++s) begin_[s] += begin_[s - 1];
+  next_ = begin_;
+  returns_.resize(inside_.size());
+  for (const Return& r : inside_) returns_[next_[r.sector]++] = r;
+  for (std::size_t s = 0; s + 1 < begin_.size(); ++s)
+    std::sort(returns_.begin() + static_cast<std::ptrdiff_t>(begin_[s]),
+              returns_.begin() + static_cast<std::ptrdiff_t>(begin_[s + 1]),
+              [](const Return& a, const Return& b) { return a.range_m < b.range_m; });
+}
+
+void WallExtractor::find_region_of_interest(const PointCloud<Base>& cloud, const CloudWallOptions& options) {
+  inside_.clear();
+  inside_.reserve(cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const CloudPoint& p = cloud.points[i];
+    const double range = std::hypot(p.x_m, p.y_m);
+    if (!(p.z_m >= options.min_height_m && p.z_m <= options.max_height_m)) continue;
+    if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;
+    const double turn = (std::atan2(p.y_m, p.x_m) + kPi) / (2.0 * kPi);
+    const auto sector = static_cast<std::uint32_t>(std::min(turn, 0.999999) * options.sectors);
+    inside_.push_back({sector, static_cast<float>(range), p.z_m, static_cast<std::uint32_t>(i)});
+  }
+  sort_returns(options.sectors);
+}
+
+void WallExtractor::find_surfaces(const PointCloud<Base>& cloud, const LidarModel& lidar,
+                                  const CloudWallOptions& options) {
+  surfaces_.clear();
   std::size_t begin = 0;  // of the sector
-  for (std::size_t first = 0; first < returns.size();) {
+  for (std::size_t first = 0; first < returns_.size();) {
     std::size_t last = first;
-    while (last + 1 < returns.size() && returns[last + 1].sector == returns[first].sector &&
-           returns[last + 1].range_m - returns[last].range_m <= options.surface_gap_m)
+    while (last + 1 < returns_.size() && returns_[last + 1].sector == returns_[first].sector &&
+           returns_[last + 1].range_m - returns_[last].range_m <= options.surface_gap_m)
       ++last;
-    if (returns[first].sector != returns[begin].sector) begin = first;
-    const double weight = wall_weight(returns, begin, first, last, {lidar, options});
+    if (returns_[first].sector != returns_[begin].sector) begin = first;
+    const double weight = wall_weight(returns_, begin, first, last, {lidar, options});
     if (weight > 0.0) {
       double x = 0.0, y = 0.0;
       for (std::size_t i = first; i <= last; ++i) {
-        x += cloud.points[returns[i].index].x_m;
-        y += cloud.points[returns[i].index].y_m;
+        x += cloud.points[returns_[i].index].x_m;
+        y += cloud.points[returns_[i].index].y_m;
       }
       const auto n = static_cast<double>(last - first + 1);
-      points.add(x / n, y / n);
-      points.weight.push_back(static_cast<float>(weight));
+      surfaces_.add(x / n, y / n);
+      surfaces_.weight.push_back(static_cast<float>(weight));
     }
     first = last + 1;
   }
-  ScanPoints kept = thinned(points, options.voxel_m);
-  add_normals(kept);
-  return kept;
+}
+
+WallExtractor::Sum& WallExtractor::sum_of(std::uint64_t voxel) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = (voxel * 0x9E3779B97F4A7C15ULL >> 32) & mask;
+  while (slots_[at].sum >= 0 && slots_[at].voxel != voxel) at = (at + 1) & mask;
+  if (slots_[at].sum < 0) {
+    slots_[at] = {voxel, static_cast<std::int64_t>(sums_.size())};
+    sums_.emplace_back();
+  }
+  return sums_[static_cast<std::size_t>(slots_[at].sum)];
+}
+
+/// Keeps one point a voxel: the mean of those that fell into it, by weight.
+void WallExtractor::thin(double voxel_m) {
+  slots_.assign(std::bit_ceil(2 * surfaces_.size() + 2), {});
+  sums_.clear();
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const auto u = static_cast<std::int32_t>(std::floor(surfaces_.x_m[i] / voxel_m));
+    const auto v = static_cast<std::int32_t>(std::floor(surfaces_.y_m[i] / voxel_m));
+    Sum& sum = sum_of((std::uint64_t{static_cast<std::uint32_t>(u)} << 32) | static_cast<std::uint32_t>(v));
+    const double w = surfaces_.weight[i];
+    sum.x += w * surfaces_.x_m[i];
+    sum.y += w * surfaces_.y_m[i];
+    sum.w += w;
+    sum.most = std::max(sum.most, w);
+  }
+  for (const Sum& sum : sums_) {
+    walls_.add(sum.x / sum.w, sum.y / sum.w);
+    walls_.weight.push_back(static_cast<float>(sum.most));
+  }
+}
+
+const ScanPoints& WallExtractor::extract(const PointCloud<Base>& cloud, const LidarModel& lidar,
+                                         const CloudWallOptions& options) {
+  walls_.clear();
+  if (lidar.kind == LidarKind::Planar) {
+    take_all_returns(cloud, lidar, options, walls_);
+    return walls_;
+  }
+  find_region_of_interest(cloud, options);
+  find_surfaces(cloud, lidar, options);
+  thin(options.voxel_m);
+  add_normals(walls_);
+  return walls_;
+}
+
+ScanPoints extract_walls(const PointCloud<Base>& cloud, const LidarModel& lidar,
+                         const CloudWallOptions& options) {
+  return WallExtractor().extract(cloud, lidar, options);
 }
 
 }  // namespace madori::localization

@@ -6,92 +6,6 @@
 #include <optional>
 
 namespace madori::planning {
-namespace {
-
-struct Group {
-  Point2<Odom> centre;
-  double radius_m = 0.0;
-};
-
-/// Groups of columns that came where nothing was, and touch, with a gap of one cell allowed; by flooding over
-/// a grid of the cells between the outermost columns. What a person stands beside is no part of the group.
-class Grouping {
- public:
-  Grouping(const std::vector<Column>& columns, Stamp stamp)
-      : columns_(columns), taken_(columns.size(), false) {
-    if (columns.empty()) return;
-    x0_ = x1_ = columns.front().cell_x;
-    for (const Column& c : columns) {
-      x0_ = std::min(x0_, c.cell_x);
-      x1_ = std::max(x1_, c.cell_x);
-    }
-    y0_ = columns.front().cell_y;  // they are sorted by rows
-    y1_ = columns.back().cell_y;
-    const auto rows = static_cast<std::size_t>(y1_ - y0_) + 1;
-    slots_.assign(rows * (static_cast<std::size_t>(x1_ - x0_) + 1), -1);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      taken_[i] = !(columns[i].confirmed && columns[i].entered && columns[i].seen == stamp);
-      slots_[slot(columns[i].cell_x, columns[i].cell_y)] = static_cast<std::int32_t>(i);
-    }
-  }
-
-  std::vector<Group> groups(double widest_m) {
-    std::vector<Group> found;
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (taken_[i]) continue;
-      const auto members = flood(i);
-      if (const auto group = compact(members, widest_m)) found.push_back(*group);
-    }
-    return found;
-  }
-
- private:
-  std::vector<std::size_t> flood(std::size_t first) {
-    std::vector<std::size_t> members{first};
-    taken_[first] = true;
-    for (std::size_t next = 0; next < members.size(); ++next) {
-      const Column& column = columns_[members[next]];
-      for (std::int32_t dy = -2; dy <= 2; ++dy)
-        for (std::int32_t dx = -2; dx <= 2; ++dx) take(column.cell_x + dx, column.cell_y + dy, members);
-    }
-    return members;
-  }
-  void take(std::int32_t x, std::int32_t y, std::vector<std::size_t>& members) {
-    if (x < x0_ || x > x1_ || y < y0_ || y > y1_) return;
-    const std::int32_t found = slots_[slot(x, y)];
-    if (found < 0) return;
-    const auto index = static_cast<std::size_t>(found);
-    if (taken_[index]) return;
-    taken_[index] = true;
-    members.push_back(index);
-  }
-  [[nodiscard]] std::size_t slot(std::int32_t x, std::int32_t y) const {
-    return static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(x1_ - x0_ + 1) +
-           static_cast<std::size_t>(x - x0_);
-  }
-  [[nodiscard]] std::optional<Group> compact(const std::vector<std::size_t>& members, double widest_m) const {
-    Column box = columns_[members.front()];
-    for (const std::size_t i : members) {
-      box.min_x_m = std::min(box.min_x_m, columns_[i].min_x_m);
-      box.max_x_m = std::max(box.max_x_m, columns_[i].max_x_m);
-      box.min_y_m = std::min(box.min_y_m, columns_[i].min_y_m);
-      box.max_y_m = std::max(box.max_y_m, columns_[i].max_y_m);
-    }
-    const double width_m =
-        static_cast<double>(std::max(box.max_x_m - box.min_x_m, box.max_y_m - box.min_y_m));
-    if (width_m > widest_m) return std::nullopt;
-    return Group{{0.5 * static_cast<double>(box.min_x_m + box.max_x_m),
-                  0.5 * static_cast<double>(box.min_y_m + box.max_y_m)},
-                 std::max(0.1, width_m / 2.0)};
-  }
-
-  const std::vector<Column>& columns_;
-  std::vector<bool> taken_;
-  std::int32_t x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0;  ///< the outermost cells
-  std::vector<std::int32_t> slots_;                 ///< column of each cell, -1 where there is none
-};
-
-}  // namespace
 
 Mover<Odom> MovingObjects::Track::mover() const {
   const Sighting& a = sightings.front();
@@ -101,41 +15,60 @@ Mover<Odom> MovingObjects::Track::mover() const {
   return {b.at, (b.at.x_m - a.at.x_m) / time_s, (b.at.y_m - a.at.y_m) / time_s, radius_m};
 }
 
+MovingObjects::Track* MovingObjects::followed_by(const ColumnGroups::Group& group, Stamp stamp) {
+  Track* best = nullptr;
+  double best_m = options_.match_m;
+  for (Track& track : tracks_) {
+    if (track.sightings.empty()) continue;  // given to another group
+    const Mover<Odom> m = track.mover();
+    const double time_s = to_seconds(stamp - track.sightings.back().stamp);
+    const double away_m =
+        distance_m(group.centre, Point2<Odom>{m.at.x_m + m.vx_mps * time_s, m.at.y_m + m.vy_mps * time_s});
+    if (away_m >= best_m) continue;
+    best_m = away_m;
+    best = &track;
+  }
+  return best;
+}
+
 void MovingObjects::update(const std::vector<Column>& columns, Stamp stamp) {
-  std::vector<Track> followed;
-  for (const Group& group : Grouping(columns, stamp).groups(options_.widest_m)) {
-    Track* best = nullptr;
-    double best_m = options_.match_m;
-    for (Track& track : tracks_) {
-      if (track.sightings.empty()) continue;  // given to another group
-      const Mover<Odom> m = track.mover();
-      const double time_s = to_seconds(stamp - track.sightings.back().stamp);
-      const double away_m =
-          distance_m(group.centre, Point2<Odom>{m.at.x_m + m.vx_mps * time_s, m.at.y_m + m.vy_mps * time_s});
-      if (away_m >= best_m) continue;
-      best_m = away_m;
-      best = &track;
-    }
-    Track track;
-    if (best != nullptr) std::swap(track, *best);
+  for (const ColumnGroups::Group& group : groups_.find(columns, stamp, options_.widest_m)) {
+    Track* before = followed_by(group, stamp);
+    Track track = spare_.take();
+    if (before != nullptr) std::swap(track, *before);
     track.sightings.push_back({stamp, group.centre});
     track.radius_m = group.radius_m;
     while (to_seconds(stamp - track.sightings.front().stamp) > options_.history_s)
       track.sightings.pop_front();
-    followed.push_back(std::move(track));
+    followed_.push_back(std::move(track));
   }
-  tracks_ = std::move(followed);
+  for (Track& track : tracks_) spare_.give(std::move(track));
+  tracks_.clear();
+  std::swap(tracks_, followed_);
+  find_movers();
 }
 
-std::vector<Mover<Odom>> MovingObjects::movers() const {
-  std::vector<Mover<Odom>> found;
+void MovingObjects::restore(std::vector<Track> tracks) {
+  tracks_ = std::move(tracks);
+  find_movers();
+}
+
+void MovingObjects::find_movers() {
+  movers_.clear();
   for (const Track& track : tracks_) {
     if (static_cast<int>(track.sightings.size()) < options_.fewest_sightings) continue;
     const Mover<Odom> mover = track.mover();
     const double speed = std::hypot(mover.vx_mps, mover.vy_mps);
-    if (speed >= options_.slowest_mps && speed <= options_.fastest_mps) found.push_back(mover);
+    if (speed >= options_.slowest_mps && speed <= options_.fastest_mps) movers_.push_back(mover);
   }
-  return found;
+}
+
+MovingObjects::Track MovingObjects::Spare::take() {
+  if (tracks_.empty()) return {};
+  Track track = std::move(tracks_.back());
+  tracks_.pop_back();
+  track.sightings.clear();
+  return track;
 }
 
 namespace {

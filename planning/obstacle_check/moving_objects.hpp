@@ -1,12 +1,12 @@
 #pragma once
 
-#include <deque>
 #include <utility>
 #include <vector>
 
 #include "core/path.hpp"
+#include "core/ring.hpp"
 #include "core/transform2.hpp"
-#include "planning/obstacle_check/obstacle_field.hpp"
+#include "planning/obstacle_check/column_groups.hpp"
 #include "planning/obstacle_check/path_check.hpp"
 
 namespace madori::planning {
@@ -44,7 +44,7 @@ class MovingObjects {
     Point2<Odom> at;
   };
   struct Track {
-    std::deque<Sighting> sightings;
+    Ring<Sighting> sightings;
     double radius_m = 0.0;
     [[nodiscard]] Mover<Odom> mover() const;
   };
@@ -53,15 +53,31 @@ class MovingObjects {
 
   /// `columns` after a scan taken at `stamp`.
   void update(const std::vector<Column>& columns, Stamp stamp);
-  [[nodiscard]] std::vector<Mover<Odom>> movers() const;
+  [[nodiscard]] const std::vector<Mover<Odom>>& movers() const { return movers_; }
   [[nodiscard]] const MoverOptions& options() const { return options_; }
   /// What is remembered, and going on with what was remembered at another time.
   [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
-  void restore(std::vector<Track> tracks) { tracks_ = std::move(tracks); }
+  void restore(std::vector<Track> tracks);
 
  private:
+  /// Tracks that ended: their memory serves new ones.
+  class Spare {
+   public:
+    Track take();
+    void give(Track&& track) { tracks_.push_back(std::move(track)); }
+
+   private:
+    std::vector<Track> tracks_;
+  };
+  /// The track that a group goes on with; null where it begins one.
+  [[nodiscard]] Track* followed_by(const ColumnGroups::Group& group, Stamp stamp);
+  void find_movers();
+
   MoverOptions options_;
-  std::vector<Track> tracks_;
+  ColumnGroups groups_;
+  std::vector<Track> tracks_, followed_;  ///< followed_: empty between two updates
+  std::vector<Mover<Odom>> movers_;       ///< of the tracks
+  Spare spare_;
 };
 
 /// Points [from, ...] of the path against where the movers will be when the vehicle gets there: at the

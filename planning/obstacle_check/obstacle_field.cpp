@@ -45,10 +45,8 @@ bool ObstacleField::has_entered(const Column& column, Stamp now) const {
 
 /// A person beside the lidar: only what is higher than the vehicle is in view. What hung there all the time
 /// is no person.
-std::vector<Column> ObstacleField::assumed_feet(const SensorView& view,
-                                                const Transform2<Odom, Base>& odom_from_base,
-                                                Stamp now) const {
-  std::vector<Column> feet;
+void ObstacleField::assume_feet(const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
+                                Stamp now) {
   const auto base_from_odom = odom_from_base.inverse();
   for (Column column : high_.columns()) {
     if (!column.confirmed || low_.find(column.cell_x, column.cell_y) != nullptr) continue;
@@ -57,9 +55,8 @@ std::vector<Column> ObstacleField::assumed_feet(const SensorView& view,
     column.low_m = static_cast<float>(options_.ground_clearance_m);
     column.high_m = static_cast<float>(options_.top_m);
     column.part_of_tall = true;
-    feet.push_back(column);
+    seen_.push_back(column);
   }
-  return feet;
 }
 
 /// Whether something as high as the lidar, which it sees at any distance, is seen above a column or within
@@ -97,34 +94,33 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
   const bool sees_floor = view.min_elevation_rad < 0.0;
   if (sees_floor) ground_ = fit_ground(scan.points, options_.ground);
   take_scan(scan, view, odom_from_base);
-  std::vector<Column> seen = low_.columns();
-  const auto feet = assumed_feet(view, odom_from_base, scan.stamp);
-  seen.insert(seen.end(), feet.begin(), feet.end());
-  std::sort(seen.begin(), seen.end(), by_cell);
-  std::vector<Column> merged;
-  merged.reserve(seen.size() + columns_.size());
-  auto fresh = seen.begin();
+  seen_ = low_.columns();
+  assume_feet(view, odom_from_base, scan.stamp);
+  std::sort(seen_.begin(), seen_.end(), by_cell);
+  merged_.clear();
+  merged_.reserve(seen_.size() + columns_.size());
+  auto fresh = seen_.begin();
   for (Column& old : columns_) {
-    while (fresh != seen.end() && by_cell(*fresh, old)) merged.push_back(*fresh++);
-    if (fresh != seen.end() && !by_cell(old, *fresh)) {
+    while (fresh != seen_.end() && by_cell(*fresh, old)) merged_.push_back(*fresh++);
+    if (fresh != seen_.end() && !by_cell(old, *fresh)) {
       Column both = *fresh++;
       both.confirmed = true;  // seen twice in one place
       both.since = old.since;
       both.under = old.under;
       both.high_m = std::max(both.high_m, old.high_m);
       both.low_m = std::min(both.low_m, old.low_m);
-      merged.push_back(both);
+      merged_.push_back(both);
     } else if (keep(old, view, odom_from_base, scan.stamp)) {
-      merged.push_back(old);
+      merged_.push_back(old);
     }
   }
-  merged.insert(merged.end(), fresh, seen.end());
-  for (Column& column : merged) {
+  merged_.insert(merged_.end(), fresh, seen_.end());
+  for (Column& column : merged_) {
     if (column.seen != scan.stamp) continue;
     column.entered = has_entered(column, scan.stamp);
     if (is_under_something(column, view)) column.under = scan.stamp;
   }
-  columns_ = std::move(merged);
+  std::swap(columns_, merged_);
 }
 
 void ObstacleField::add_felt(const std::vector<Point2<Odom>>& places, Stamp now) {

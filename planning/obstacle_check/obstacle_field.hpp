@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <utility>
 #include <vector>
 
@@ -45,7 +44,7 @@ class ObstacleField {
   /// have come too near to be seen.
   void add_felt(const std::vector<Point2<Odom>>& places, Stamp now);
   /// Goes on with what was remembered at another time.
-  void restore(std::vector<Column> columns, std::deque<SightHistory::Sight> sights) {
+  void restore(std::vector<Column> columns, Ring<SightHistory::Sight> sights) {
     columns_ = std::move(columns);
     sights_.restore(std::move(sights));
   }
@@ -59,9 +58,8 @@ class ObstacleField {
  private:
   void take_scan(const PointCloud<Base>& scan, const SensorView& view,
                  const Transform2<Odom, Base>& odom_from_base);
-  [[nodiscard]] std::vector<Column> assumed_feet(const SensorView& view,
-                                                 const Transform2<Odom, Base>& odom_from_base,
-                                                 Stamp now) const;
+  /// Adds them to seen_.
+  void assume_feet(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp now);
   [[nodiscard]] bool is_under_something(const Column& column, const SensorView& view) const;
   [[nodiscard]] bool has_entered(const Column& column, Stamp now) const;
   [[nodiscard]] bool keep(Column& old, const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
@@ -71,8 +69,9 @@ class ObstacleField {
   GroundPlane ground_;
   SightHistory sights_;
   std::vector<Column> columns_;
-  ColumnLayer low_;   ///< of the scan at hand: up to the vehicle's height
-  ColumnLayer high_;  ///< ... from there to a person's, near the lidar
+  ColumnLayer low_;                    ///< of the scan at hand: up to the vehicle's height
+  ColumnLayer high_;                   ///< ... from there to a person's, near the lidar
+  std::vector<Column> seen_, merged_;  ///< room for one update
 };
 
 }  // namespace madori::planning

@@ -65,8 +65,8 @@ std::optional<Contact> meets_wall(const Transform2<Map, Base>& pose, const WallG
 }
 
 /// Obstacles that any placement along the checked points could meet.
-std::vector<Point2<Map>> near_path(const Path& path, std::size_t from, std::size_t end,
-                                   const std::vector<Point2<Map>>& obstacles, double reach_m) {
+void find_near(const Path& path, std::size_t from, std::size_t end, const std::vector<Point2<Map>>& obstacles,
+               double reach_m, std::vector<Point2<Map>>& near) {
   Point2<Map> low = path.points[from].position;
   Point2<Map> high = low;
   for (std::size_t i = from; i < end; ++i) {
@@ -74,12 +74,11 @@ std::vector<Point2<Map>> near_path(const Path& path, std::size_t from, std::size
     low = {std::min(low.x_m, p.x_m), std::min(low.y_m, p.y_m)};
     high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
   }
-  std::vector<Point2<Map>> near;
+  near.clear();
   for (const Point2<Map>& p : obstacles)
     if (p.x_m >= low.x_m - reach_m && p.x_m <= high.x_m + reach_m && p.y_m >= low.y_m - reach_m &&
         p.y_m <= high.y_m + reach_m)
       near.push_back(p);
-  return near;
 }
 
 Transform2<Map, Base> placed(const PathPoint& point, double heading_rad) {
@@ -103,24 +102,35 @@ bool any_heading(const Path& path, std::size_t i, double turn_step_rad, Visit&& 
   return false;
 }
 
+/// From the point before to this one; 0 at the first.
+double step_to(const Path& path, std::size_t from, std::size_t i) {
+  return i > from ? distance_m(path.points[i - 1].position, path.points[i].position) : 0.0;
+}
+
+/// Behind the first point that is farther along than `ahead_m`.
+std::size_t end_of_check(const Path& path, std::size_t from, double ahead_m) {
+  double along_m = 0.0;
+  std::size_t end = from + 1;
+  for (; end < path.points.size() && along_m <= ahead_m; ++end) along_m += step_to(path, from, end);
+  return end;
+}
+
 }  // namespace
 
-PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
-                     const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
-                     const CheckOptions& options) {
+PathCheck PathChecker::check(const Path& path, std::size_t from, double ahead_m,
+                             const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
+                             const CheckOptions& options) {
   PathCheck check;
   if (from >= path.points.size()) return check;
-  std::vector<double> along_m{0.0};
-  std::size_t end = from + 1;
-  for (; end < path.points.size() && along_m.back() <= ahead_m; ++end)
-    along_m.push_back(along_m.back() + distance_m(path.points[end - 1].position, path.points[end].position));
+  const std::size_t end = end_of_check(path, from, ahead_m);
   const Zone turning(options, options.turn_margin_m, options.turn_margin_m);
   const Zone care(options, options.ends_margin_m + options.care_margin_m,
                   options.sides_margin_m + options.care_margin_m);
-  const auto near = near_path(path, from, end, obstacles, care.reach_m());
+  find_near(path, from, end, obstacles, care.reach_m(), near_);
+  double here_m = 0.0;
   double checked_m = -options.step_m;
   for (std::size_t i = from; i < end; ++i) {
-    const double here_m = along_m[i - from];
+    here_m += step_to(path, from, i);
     const bool turns =
         i > 0 && distance_m(path.points[i - 1].position, path.points[i].position) < kSamePointM;
     if (here_m < checked_m + options.step_m && !turns && i + 1 != end) continue;
@@ -129,9 +139,10 @@ PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
     std::optional<Contact> contact;
     bool slow = false;
     any_heading(path, i, options.turn_step_rad, [&](const Transform2<Map, Base>& pose) {
-      contact = meets_point(pose, near, turns ? turning : stop_zone(options, path.points[i].speed_limit_mps));
+      contact =
+          meets_point(pose, near_, turns ? turning : stop_zone(options, path.points[i].speed_limit_mps));
       if (!contact) contact = meets_wall(pose, walls, options);
-      slow = slow || contact || meets_point(pose, near, care);
+      slow = slow || contact || meets_point(pose, near_, care);
       return contact.has_value();
     });
     if (slow && check.care_m == PathCheck::kFree) check.care_m = previous_m;
@@ -145,6 +156,12 @@ PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
     check.last_blocked = i;
   }
   return check;
+}
+
+PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
+                     const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
+                     const CheckOptions& options) {
+  return PathChecker().check(path, from, ahead_m, obstacles, walls, options);
 }
 
 bool is_free(const Transform2<Map, Base>& pose, const std::vector<Point2<Map>>& obstacles,

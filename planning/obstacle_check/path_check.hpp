@@ -81,6 +81,18 @@ struct PathCheck {
   [[nodiscard]] bool blocked() const { return free_m != kFree; }
 };
 
+/// Checks paths one after the other, in memory that it uses again.
+class PathChecker {
+ public:
+  /// See check_path().
+  [[nodiscard]] PathCheck check(const Path& path, std::size_t from, double ahead_m,
+                                const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
+                                const CheckOptions& options);
+
+ private:
+  std::vector<Point2<Map>> near_;  ///< obstacles that the path could meet
+};
+
 /// Checks points [from, ...] of the path as far as `ahead_m` along it: at every waypoint the published
 /// cylinder (its radius half the vehicle's width and a margin; layout-map paper, section 3.4) and the
 /// vehicle's outline at that heading must hold no obstacle and no drawn wall, so that a long vehicle's nose

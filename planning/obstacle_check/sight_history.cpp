@@ -38,16 +38,13 @@ bool SensorView::sees(const Point2<Base>& place, double low_m, double high_m) co
 bool SightHistory::begin(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp stamp) {
   if (!sights_.empty() && stamp < sights_.back().stamp) sights_.clear();  // the clock was set
   if (!sights_.empty() && to_seconds(stamp - sights_.back().stamp) < options_.apart_s) return false;
-  Sight sight;
-  while (!sights_.empty() && to_seconds(stamp - sights_.front().stamp) > options_.memory_s) {
-    sight.nearest_m = std::move(sights_.front().nearest_m);  // its memory is used again
+  while (!sights_.empty() && to_seconds(stamp - sights_.front().stamp) > options_.memory_s)
     sights_.pop_front();
-  }
+  Sight& sight = sights_.add();
   sight.stamp = stamp;
   sight.base_from_odom = odom_from_base.inverse();
   sight.view = view;
   sight.nearest_m.assign(kDirections, -1.0F);
-  sights_.push_back(std::move(sight));
   return true;
 }
 

@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <utility>
 #include <vector>
 
 #include "core/angle.hpp"
 #include "core/frames.hpp"
 #include "core/lidar_model.hpp"
+#include "core/ring.hpp"
 #include "core/stamp.hpp"
 #include "core/transform2.hpp"
 
@@ -67,8 +67,8 @@ class SightHistory {
   [[nodiscard]] bool was_empty(const Point2<Odom>& place, double side_m, double low_m, double high_m,
                                Stamp now) const;
   /// What is remembered, oldest first, and going on with what was remembered at another time.
-  [[nodiscard]] const std::deque<Sight>& sights() const { return sights_; }
-  void restore(std::deque<Sight> sights) { sights_ = std::move(sights); }
+  [[nodiscard]] const Ring<Sight>& sights() const { return sights_; }
+  void restore(Ring<Sight> sights) { sights_ = std::move(sights); }
 
  private:
   static constexpr int kDirections = 512;
@@ -86,7 +86,7 @@ class SightHistory {
   }
 
   SightOptions options_;
-  std::deque<Sight> sights_;
+  Ring<Sight> sights_;
 };
 
 }  // namespace madori::planning

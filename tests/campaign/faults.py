@@ -68,6 +68,8 @@ class DriveWire:
         while True:
             for ready in select.select([self.run_end, self.sim_end], [], [])[0]:
                 data = os.read(ready, 4096)
+                if not data:
+                    return  # the virtual drive has gone
                 to_drive = ready == self.run_end
                 data = self.fault(data, to_drive) if self.fault else data
                 if data:
