@@ -70,8 +70,7 @@ void DeadReckoning::match(const SurfaceScan& scan, const OdometryStep& step) {
   Eigen::Matrix3d error = step.covariance;
   Transform2<Map, Base> here = prediction;
   if (!recent_.empty()) {
-    const auto recent = recent_.recent_map(prediction.translation());
-    const LocalMap& map = *recent;
+    const LocalMap& map = recent_.recent_map(prediction.translation());
     SearchWindow window;
     window.sigma_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
     window.sigma_rad = std::sqrt(covariance(2, 2));

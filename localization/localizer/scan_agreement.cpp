@@ -29,7 +29,7 @@ void ScanAgreement::begin(Stamp stamp) {
 bool ScanAgreement::is_known_from_before(const SurfaceScan& scan, const MatchResult& match,
                                          const MapState& map, const LocalizerOptions& options) const {
   const Point2<Map> here = match.map_from_base.translation();
-  const LocalMap before = map.memory.whole_map(here, doubt_path_m_);
+  const LocalMap& before = map.memory.whole_map(here, doubt_path_m_);
   if (before.empty()) return false;
   const MatchResult again = before.refine(scan, match.map_from_base, {});
   return again.inlier_share > std::max(options.lost_inliers, options.known_share * usual_inliers_) &&

@@ -58,12 +58,12 @@ ScanMatch match_scan(const SurfaceScan& scan, const Pose& from, const OdometrySt
   const MatchPrior prior{prediction, covariance.inverse()};
   const SearchWindow window = near_window(covariance, step.path_m);
   const ExtraPull pull = drawing_pull(scan, map, options);
-  const auto recent = map.memory.recent_map(here);
+  const LocalMap& recent = map.memory.recent_map(here);
   if (window.sigma_m < options.sure_step_m && window.sigma_rad < options.sure_step_rad) {
-    const MatchResult at_once = recent->refine(scan, prediction, prior, pull, MatchStart::Near);
+    const MatchResult at_once = recent.refine(scan, prediction, prior, pull, MatchStart::Near);
     if (at_once.inlier_share > enough) return {at_once, at_once};
   }
-  const MatchResult near = search_and_refine(*recent, scan, window, prior, pull);
+  const MatchResult near = search_and_refine(recent, scan, window, prior, pull);
   if (near.inlier_share > enough) return {near, near};
   const MatchResult far =
       search_and_refine(map.memory.whole_map(here), scan, far_window(window, step.path_m), prior, pull);
@@ -74,7 +74,7 @@ ScanMatch match_scan(const SurfaceScan& scan, const Pose& from, const OdometrySt
 std::optional<Pose> place_in_memory(const SurfaceScan& scan, const MapState& map,
                                     const LocalizerOptions& options) {
   const StartPrior start = *map.told;  // recalled only where a start was given
-  const LocalMap whole = map.memory.whole_map(start.map_from_base.translation());
+  const LocalMap& whole = map.memory.whole_map(start.map_from_base.translation());
   const SearchWindow window{2.0 * start.sigma_m, 2.0 * start.sigma_rad, start.sigma_m, start.sigma_rad};
   const MatchResult found =
       whole.refine(scan, whole.search(scan, start.map_from_base, window).map_from_base, {});

@@ -22,7 +22,10 @@ SurfacePoint moved(const Transform2<Map, Base>& pose, const SurfacePoint& p) {
 
 }  // namespace
 
-LocalMap::LocalMap(const std::vector<Piece>& pieces, const Point2<Map>& centre, double radius_m) {
+void LocalMap::build(const std::vector<Piece>& pieces, const Point2<Map>& centre, double radius_m) {
+  has_grid_ = false;
+  points_.clear();
+  cell_begin_.clear();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     for (const SurfacePoint& p : pieces[i].scan->points) {
       const SurfacePoint q = moved(pieces[i].map_from_base, p);
@@ -76,12 +79,12 @@ void LocalMap::build_index() {
   for (std::size_t i = 1; i < cell_begin_.size(); ++i) {
     cell_begin_[i] += cell_begin_[i - 1];
   }
-  std::vector<Entry> sorted(points_.size());
-  std::vector<std::uint32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
+  sorted_.resize(points_.size());
+  next_.assign(cell_begin_.begin(), cell_begin_.end() - 1);
   for (const Entry& p : points_) {
-    sorted[next[cell_of(p)]++] = p;
+    sorted_[next_[cell_of(p)]++] = p;
   }
-  points_ = std::move(sorted);
+  std::swap(points_, sorted_);
 }
 
 const LocalMap::Entry* LocalMap::nearest(double x_m, double y_m, double normal_x, double normal_y,
@@ -114,15 +117,16 @@ const LocalMap::Entry* LocalMap::nearest(double x_m, double y_m, double normal_x
 
 SearchResult LocalMap::search(const SurfaceScan& scan, const Transform2<Map, Base>& prediction,
                               const SearchWindow& window) const {
-  if (!grid_) {
-    std::vector<ScoreGrid::Mark> points;
-    points.reserve(points_.size());
+  if (!has_grid_) {
+    marks_.clear();
+    marks_.reserve(points_.size());
     for (const Entry& e : points_) {
-      points.push_back({{e.point.x_m, e.point.y_m}, e.weight});
+      marks_.push_back({{e.point.x_m, e.point.y_m}, e.weight});
     }
-    grid_ = std::make_unique<ScoreGrid>(points);
+    grid_.build(marks_);
+    has_grid_ = true;
   }
-  return grid_->search(scan, prediction, window);
+  return grid_.search(scan, prediction, window);
 }
 
 namespace {

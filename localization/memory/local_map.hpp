@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "core/frames.hpp"
@@ -37,7 +36,8 @@ struct MatchPrior {
 /// How far off a match may start: within decimetres, or within some centimetres (and is quicker).
 enum class MatchStart { Rough, Near };
 
-/// The surfaces of some keyframes put together, for matching scans against. Immutable.
+/// The surfaces of some keyframes put together, for matching scans against. Of one thread: it works in its
+/// own room.
 class LocalMap {
  public:
   struct Piece {
@@ -45,7 +45,12 @@ class LocalMap {
     Transform2<Map, Base> map_from_base;
   };
   /// Keeps what lies within `radius_m` of `centre`.
-  LocalMap(const std::vector<Piece>& pieces, const Point2<Map>& centre, double radius_m);
+  LocalMap(const std::vector<Piece>& pieces, const Point2<Map>& centre, double radius_m) {
+    build(pieces, centre, radius_m);
+  }
+  LocalMap() = default;
+  /// Of other keyframes, in the same memory.
+  void build(const std::vector<Piece>& pieces, const Point2<Map>& centre, double radius_m);
 
   [[nodiscard]] bool empty() const { return points_.empty(); }
   /// Exhaustive search in a window around the prediction.
@@ -69,11 +74,14 @@ class LocalMap {
   void weigh();
 
   std::vector<Entry> points_;  ///< Map frame, sorted by cell
-  std::vector<std::uint32_t> cell_begin_;
+  std::vector<Entry> sorted_;  ///< room for build_index()
+  std::vector<std::uint32_t> cell_begin_, next_;
   int width_ = 0;
   int height_ = 0;
   Point2<Map> origin_;
-  mutable std::unique_ptr<ScoreGrid> grid_;  ///< built on the first search
+  mutable bool has_grid_ = false;  ///< it is built on the first search
+  mutable ScoreGrid grid_;
+  mutable std::vector<ScoreGrid::Mark> marks_;
 };
 
 }  // namespace madori::localization

@@ -37,20 +37,23 @@ double Memory::weakest_agreement(std::size_t first) const {
   return weakest;
 }
 
-std::shared_ptr<const LocalMap> Memory::recent_map(const Point2<Map>& centre) const {
+const LocalMap& Memory::recent_map(const Point2<Map>& centre) const {
   constexpr double kSameCentreM = 2.0;
-  if (recent_ && distance_m(centre, recent_centre_) < kSameCentreM) return recent_;
-  std::vector<LocalMap::Piece> pieces;
+  if (room_.has_recent && distance_m(centre, room_.recent_centre) < kSameCentreM) return room_.recent;
+  auto& pieces = room_.pieces;
+  pieces.clear();
   for (std::size_t i = window_begin(); i < keyframes_.size(); ++i) {
     pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }
-  recent_centre_ = centre;
-  recent_ = std::make_shared<const LocalMap>(pieces, centre, options_.map_radius_m);
-  return recent_;
+  room_.recent_centre = centre;
+  room_.recent.build(pieces, centre, options_.map_radius_m);
+  room_.has_recent = true;
+  return room_.recent;
 }
 
-LocalMap Memory::whole_map(const Point2<Map>& centre, double until_path_m) const {
-  std::vector<std::pair<double, std::size_t>> near;
+const LocalMap& Memory::whole_map(const Point2<Map>& centre, double until_path_m) const {
+  auto& near = room_.near;
+  near.clear();
   const std::size_t recent = window_begin();
   for (std::size_t i = 0; i < recent; ++i) {
     const double d = distance_m(poses_[i].translation(), centre);
@@ -60,15 +63,16 @@ LocalMap Memory::whole_map(const Point2<Map>& centre, double until_path_m) const
   }
   std::sort(near.begin(), near.end());
   near.resize(std::min(near.size(), static_cast<std::size_t>(options_.nearby_keyframes)));
-  std::vector<LocalMap::Piece> pieces;
-  pieces.reserve(near.size() + keyframes_.size() - recent);
+  auto& pieces = room_.pieces;
+  pieces.clear();
   for (const auto& [d, i] : near) {
     pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }
   for (std::size_t i = recent; i < keyframes_.size() && keyframes_[i].path_m <= until_path_m; ++i) {
     pieces.push_back({keyframes_[i].scan.get(), poses_[i]});
   }
-  return {pieces, centre, options_.map_radius_m};
+  room_.whole.build(pieces, centre, options_.map_radius_m);
+  return room_.whole;
 }
 
 void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
@@ -93,7 +97,7 @@ void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& m
   keyframes_.push_back(
       {std::make_shared<const SurfaceScan>(std::move(scan)), path, broken_, motion.agreement});
   poses_.push_back(map_from_base);
-  recent_.reset();
+  room_.has_recent = false;
   broken_ = false;
 }
 
@@ -106,7 +110,7 @@ void Memory::forget_broken_end() {
   std::erase_if(factors_,
                 [end](const RelativeFactor& f) { return std::max(f.from, f.to) >= static_cast<int>(end); });
   looked_back_ = std::min(looked_back_, end);
-  recent_.reset();
+  room_.has_recent = false;
 }
 
 void Memory::put_behind(Memory earlier) {
@@ -126,7 +130,7 @@ void Memory::put_behind(Memory earlier) {
   earlier.loops_ += loops_;
   earlier.looked_back_ = static_cast<std::size_t>(shift);
   earlier.broken_ = broken_;
-  earlier.recent_.reset();
+  earlier.room_.has_recent = false;
   *this = std::move(earlier);
 }
 
@@ -162,7 +166,7 @@ int Memory::fuse() {
   const auto fused = std::count(gone.begin(), gone.end(), 1);
   if (fused > 0) compact(gone, keyframes_, poses_, factors_);
   looked_back_ -= before - size();
-  recent_.reset();
+  room_.has_recent = false;
   return static_cast<int>(fused);
 }
 
@@ -189,13 +193,14 @@ Transform2<Map, Map> Memory::take_in(Memory other, std::size_t known) {
     }
   }
   other.broken_ = broken_;
-  other.recent_.reset();
+  other.room_ = std::move(room_);
+  other.room_.has_recent = false;
   *this = std::move(other);
   return by;
 }
 
 bool Memory::optimise(const std::vector<UnaryFactor>& unary) {
-  recent_.reset();
+  room_.has_recent = false;
   return optimise_graph(poses_, factors_, unary);
 }
 
@@ -204,7 +209,7 @@ double Memory::loops_against(const Transform2<Map, Map>& by, std::size_t first) 
 }
 
 void Memory::move(const Transform2<Map, Map>& by, std::size_t first) {
-  recent_.reset();
+  room_.has_recent = false;
   for (std::size_t i = first; i < poses_.size(); ++i) {
     poses_[i] = by * poses_[i];
   }

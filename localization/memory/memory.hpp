@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "localization/memory/keyframe.hpp"
-#include "localization/memory/local_map.hpp"
+#include "localization/memory/match_room.hpp"
 #include "localization/memory/memory_options.hpp"
 #include "localization/memory/pose_graph.hpp"
 
@@ -32,9 +32,10 @@ class Memory {
   /// The weakest agreement between the keyframes from `first` on: where all are strong, nothing has drifted.
   [[nodiscard]] double weakest_agreement(std::size_t first) const;
   /// The recent surfaces around a place; made anew only where the memory has changed, or the place by metres.
-  [[nodiscard]] std::shared_ptr<const LocalMap> recent_map(const Point2<Map>& centre) const;
-  /// These, and what older keyframes near the place saw; none that was added after so much driving.
-  [[nodiscard]] LocalMap whole_map(const Point2<Map>& centre, double until_path_m = 1e12) const;
+  /// Good until the memory changes or is asked again.
+  [[nodiscard]] const LocalMap& recent_map(const Point2<Map>& centre) const;
+  /// These, and what older keyframes near the place saw; none that was added after so much driving. Likewise.
+  [[nodiscard]] const LocalMap& whole_map(const Point2<Map>& centre, double until_path_m = 1e12) const;
   /// The chain of motions may be broken here: loops are sought in a wide window until one is closed.
   void note_break() { broken_ = true; }
   /// Adds a keyframe after `path_m` more of driving, tied to the newest one by the measured motion between
@@ -84,8 +85,7 @@ class Memory {
   std::size_t looked_back_ = 0;  ///< keyframes for which loops were sought
   double last_loop_path_m_ = 0.0;
   double extra_open_m_ = 0.0;
-  mutable std::shared_ptr<const LocalMap> recent_;  ///< of the last question, until the memory changes
-  mutable Point2<Map> recent_centre_;
+  mutable MatchRoom room_;
 };
 
 /// A memory and the one of before it, both where the place was sure. A copy is cheap.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace madori::localization {
 namespace {
@@ -27,7 +28,8 @@ std::array<std::uint8_t, kKernelSide * kKernelSide> smear_kernel() {
 
 }  // namespace
 
-ScoreGrid::ScoreGrid(const std::vector<Mark>& marks) {
+void ScoreGrid::build(const std::vector<Mark>& marks) {
+  width_ = height_ = 0;
   if (marks.empty()) {
     return;
   }
@@ -68,7 +70,8 @@ void ScoreGrid::smear(const std::vector<Mark>& marks) {
 void ScoreGrid::pool(int level) {
   const int half = 1 << (level - 1);
   const Level& fine = levels_[static_cast<std::size_t>(level - 1)];
-  Level across(fine);
+  Level& across = across_;
+  across = fine;
   for (int y = 0; y < height_; ++y) {
     const std::uint8_t* from = fine.data() + static_cast<std::size_t>(y) * width_;
     std::uint8_t* to = across.data() + static_cast<std::size_t>(y) * width_;
@@ -93,62 +96,59 @@ class BranchAndBound {
  public:
   BranchAndBound(const ScoreGrid& grid, const SurfaceScan& scan, const Transform2<Map, Base>& prediction,
                  const SearchWindow& window)
-      : grid_(grid), scan_(scan), prediction_(prediction), window_(window) {}
+      : grid_(grid), scan_(scan), prediction_(prediction), window_(window), room_(grid.room_) {}
 
   SearchResult run() {
     best_ = {prediction_, -1.0};
     make_rotations();
-    const int reach = static_cast<int>(std::ceil(window_.half_m / ScoreGrid::kResolutionM));
+    reach_ = static_cast<int>(std::ceil(window_.half_m / ScoreGrid::kResolutionM));
     constexpr int kTop = ScoreGrid::kLevels - 1;
-    std::vector<Candidate> top;
-    for (std::size_t r = 0; r < rotations_.size(); ++r) {
-      for (int y = -reach; y <= reach; y += 1 << kTop) {
-        for (int x = -reach; x <= reach; x += 1 << kTop) {
-          top.push_back({r, x, y, bound(r, x, y, kTop)});
+    auto& top = room_.top;
+    top.clear();
+    for (std::size_t r = 0; r < room_.rotations.size(); ++r) {
+      for (int y = -reach_; y <= reach_; y += 1 << kTop) {
+        for (int x = -reach_; x <= reach_; x += 1 << kTop) {
+          top.push_back({r, x, y, bound(r, x, y, kTop), top.size()});
         }
       }
     }
-    descend(top, kTop, reach);
+    descend(top, kTop);
     return best_;
   }
 
  private:
-  struct Rotation {
-    double offset_rad;
-    std::vector<int> x;
-    std::vector<int> y;
-  };
-  struct Candidate {
-    std::size_t rotation;
-    int x;
-    int y;
-    double bound;
-  };
+  using Candidate = ScoreGrid::Candidate;
 
-  void make_rotations() {
+  /// The angle by which three quarters of the points move by less than two cells.
+  [[nodiscard]] double step_rad() const {
     double far = 1.0;
-    std::vector<double> ranges;
+    auto& ranges = room_.ranges;
+    ranges.clear();
     for (const SurfacePoint& p : scan_.points) {
       ranges.push_back(std::hypot(p.x_m, p.y_m));
     }
-    if (!ranges.empty()) {  // a step moves three quarters of the points by less than two cells
+    if (!ranges.empty()) {
       std::nth_element(ranges.begin(), ranges.begin() + static_cast<long>(ranges.size() * 3 / 4),
                        ranges.end());
       far = std::max(far, ranges[ranges.size() * 3 / 4]);
     }
-    const double step = std::clamp(1.5 * ScoreGrid::kResolutionM / far, 0.005, 0.035);
+    return std::clamp(1.5 * ScoreGrid::kResolutionM / far, 0.005, 0.035);
+  }
+
+  void make_rotations() {
+    const double step = step_rad();
     const int count = static_cast<int>(std::ceil(window_.half_rad / step));
+    room_.rotations.clear();
+    room_.cells.clear();
     for (int i = -count; i <= count; ++i) {
-      rotations_.push_back({i * step, {}, {}});
-      Rotation& rotation = rotations_.back();
+      room_.rotations.push_back({i * step, room_.cells.size()});
       const Transform2<Map, Base> pose(prediction_.x_m(), prediction_.y_m(),
                                        prediction_.yaw_rad() + i * step);
       for (const SurfacePoint& p : scan_.points) {
         const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
-        rotation.x.push_back(
-            static_cast<int>(std::floor((q.x_m - grid_.origin_.x_m) / ScoreGrid::kResolutionM)));
-        rotation.y.push_back(
-            static_cast<int>(std::floor((q.y_m - grid_.origin_.y_m) / ScoreGrid::kResolutionM)));
+        room_.cells.push_back(
+            {static_cast<int>(std::floor((q.x_m - grid_.origin_.x_m) / ScoreGrid::kResolutionM)),
+             static_cast<int>(std::floor((q.y_m - grid_.origin_.y_m) / ScoreGrid::kResolutionM))});
       }
     }
   }
@@ -158,23 +158,25 @@ class BranchAndBound {
     const int width = (1 << level) - 1;
     const auto nearest = [width](int v) { return v > 0 ? v : std::min(0, v + width); };
     const double d = std::hypot(nearest(x), nearest(y)) * ScoreGrid::kResolutionM / window_.sigma_m;
-    const double a = rotations_[r].offset_rad / window_.sigma_rad;
+    const double a = room_.rotations[r].offset_rad / window_.sigma_rad;
     return kPenaltyWeight * std::log1p(d * d + a * a);
   }
 
   double bound(std::size_t r, int x, int y, int level) const {
-    const Rotation& rotation = rotations_[r];
+    const std::size_t points = scan_.points.size();
+    const std::array<int, 2>* cell = room_.cells.data() + room_.rotations[r].first;
     unsigned sum = 0;
-    for (std::size_t i = 0; i < rotation.x.size(); ++i) {
-      sum += grid_.at(level, rotation.x[i] + x, rotation.y[i] + y);
+    for (std::size_t i = 0; i < points; ++i) {
+      sum += grid_.at(level, cell[i][0] + x, cell[i][1] + y);
     }
-    const double mean = rotation.x.empty() ? 0.0 : sum / (255.0 * static_cast<double>(rotation.x.size()));
+    const double mean = points == 0 ? 0.0 : sum / (255.0 * static_cast<double>(points));
     return mean - penalty(r, x, y, level);
   }
 
-  void descend(std::vector<Candidate>& candidates, int level, int reach) {
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.bound > b.bound; });
+  void descend(std::span<Candidate> candidates, int level) {
+    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+      return a.bound != b.bound ? a.bound > b.bound : a.order < b.order;
+    });
     for (const Candidate& c : candidates) {
       if (c.bound <= best_.score) {
         return;
@@ -182,18 +184,20 @@ class BranchAndBound {
       if (level == 0) {
         const double cell = ScoreGrid::kResolutionM;
         best_ = {Transform2<Map, Base>(prediction_.x_m() + c.x * cell, prediction_.y_m() + c.y * cell,
-                                       prediction_.yaw_rad() + rotations_[c.rotation].offset_rad),
+                                       prediction_.yaw_rad() + room_.rotations[c.rotation].offset_rad),
                  c.bound};
         continue;
       }
       const int half = 1 << (level - 1);
-      std::vector<Candidate> children;
-      for (int y = c.y; y <= std::min(reach, c.y + half); y += half) {
-        for (int x = c.x; x <= std::min(reach, c.x + half); x += half) {
-          children.push_back({c.rotation, x, y, bound(c.rotation, x, y, level - 1)});
+      std::array<Candidate, 4> children;
+      std::size_t count = 0;
+      for (int y = c.y; y <= std::min(reach_, c.y + half); y += half) {
+        for (int x = c.x; x <= std::min(reach_, c.x + half); x += half) {
+          children[count] = {c.rotation, x, y, bound(c.rotation, x, y, level - 1), count};
+          ++count;
         }
       }
-      descend(children, level - 1, reach);
+      descend(std::span(children.data(), count), level - 1);
     }
   }
 
@@ -201,7 +205,8 @@ class BranchAndBound {
   const SurfaceScan& scan_;
   Transform2<Map, Base> prediction_;
   SearchWindow window_;
-  std::vector<Rotation> rotations_;
+  ScoreGrid::SearchRoom& room_;
+  int reach_ = 0;  ///< of the window, in cells
   SearchResult best_;
 };
 

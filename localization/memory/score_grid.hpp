@@ -36,7 +36,10 @@ class ScoreGrid {
     Point2<Map> point;
     double weight = 1.0;
   };
-  explicit ScoreGrid(const std::vector<Mark>& marks);
+  ScoreGrid() = default;
+  explicit ScoreGrid(const std::vector<Mark>& marks) { build(marks); }
+  /// Of other marks, in the same memory.
+  void build(const std::vector<Mark>& marks);
 
   [[nodiscard]] SearchResult search(const SurfaceScan& scan, const Transform2<Map, Base>& prediction,
                                     const SearchWindow& window) const;
@@ -57,6 +60,26 @@ class ScoreGrid {
   int height_ = 0;
   Point2<Map> origin_;
   std::array<Level, kLevels> levels_;
+  Level across_;  ///< room for pool()
+  /// Room that one search after the other works in.
+  struct Rotation {
+    double offset_rad = 0.0;
+    std::size_t first = 0;  ///< of its cells
+  };
+  struct Candidate {
+    std::size_t rotation;
+    int x;
+    int y;
+    double bound;
+    std::size_t order;  ///< as they were found: of equal bounds the first is looked at first
+  };
+  struct SearchRoom {
+    std::vector<double> ranges;
+    std::vector<Rotation> rotations;
+    std::vector<std::array<int, 2>> cells;  ///< of the scan's points, rotation after rotation
+    std::vector<Candidate> top;
+  };
+  mutable SearchRoom room_;
 
   friend class BranchAndBound;
 };
