@@ -165,8 +165,8 @@ void Localizer::think_if_due(Stamp stamp) {
 
 /// What the worker found out moves the memory, and the vehicle with its newest part.
 void Localizer::take_in_thoughts(Stamp stamp) {
-  if (std::optional<MapState> thought = worker_.take(stamp, thinking_, options_)) {
-    const Transform2<Map, Map> by = map_.take_in(*std::move(thought), worker_.known());
+  if (MapState* thought = worker_.take(stamp, thinking_, options_)) {
+    const Transform2<Map, Map> by = map_.take_in(*thought, worker_.known());
     anchor_ = by * anchor_;
     if (late_anchor_) late_anchor_ = by * *late_anchor_;
   }

@@ -22,16 +22,17 @@ void MapState::think(const LocalizerOptions& options) {
     place(options);
   else if (memory.loops() > 0)
     memory.optimise({});
+  memory.make_room();
 }
 
-Transform2<Map, Map> MapState::take_in(MapState thought, std::size_t known) {
-  const Transform2<Map, Map> by = memory.take_in(std::move(thought.memory), known);
-  thought.memory = std::move(memory);
+Transform2<Map, Map> MapState::take_in(MapState& thought, std::size_t known) {
+  const Transform2<Map, Map> by = memory.take_in(thought.memory, known);
+  std::swap(thought.memory, memory);
   thought.evidence.blind_scans = evidence.blind_scans;
   thought.evidence.blind_m = evidence.blind_m;
   thought.evidence.on_walls = evidence.on_walls;
   thought.evidence.on_memory = evidence.on_memory;
-  *this = std::move(thought);
+  std::swap(*this, thought);
   return by;
 }
 

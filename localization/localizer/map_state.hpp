@@ -40,8 +40,9 @@ struct MapState {
   /// The slow work, in the worker: closes loops, lays the memory on the drawing, solves the graph.
   void think(const LocalizerOptions& options);
   /// Becomes `thought`, a copy made when this map had `known` keyframes and changed since, and what the scans
-  /// have said since then. Returns what moves this map's newest surroundings there.
-  Transform2<Map, Map> take_in(MapState thought, std::size_t known);
+  /// have said since then; `thought` is of no use afterwards. Returns what moves this map's newest
+  /// surroundings there.
+  Transform2<Map, Map> take_in(MapState& thought, std::size_t known);
   /// Does the drawing explain what is seen, so that walls that are missed say something?
   [[nodiscard]] bool drawing_fits(const LocalizerOptions& options) const;
   /// Is the drawing exact enough to tell drift of centimetres?

@@ -1,47 +1,41 @@
 #include "localization/localizer/map_worker.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <utility>
 
-#include "core/thread_role.hpp"
-
 namespace madori::localization {
-namespace {
-
-bool has_ended(const std::future<MapState>& answer) {
-  return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
-
-}  // namespace
-
-bool MapWorker::is_unfinished() const {
-  return busy() && !has_ended(answer_);
-}
 
 void MapWorker::discard() {
-  std::erase_if(unwanted_, has_ended);
-  if (busy()) unwanted_.push_back(std::move(answer_));
+  if (busy_) unwanted_.push_back(std::move(desk_));
+  busy_ = false;
 }
 
-void MapWorker::start(Stamp now, MapState state, const LocalizerOptions& options) {
+std::unique_ptr<ThinkingDesk> MapWorker::free_desk() {
+  const auto free = std::ranges::find_if(unwanted_, [](const auto& desk) { return !desk->works(); });
+  if (free == unwanted_.end()) return std::make_unique<ThinkingDesk>();
+  auto desk = std::move(*free);
+  unwanted_.erase(free);
+  return desk;
+}
+
+void MapWorker::start(Stamp now, const MapState& state, const LocalizerOptions& options) {
   started_ = now;
   asked_ = 0;
   known_ = state.memory.size();
-  answer_ = std::async(std::launch::async, [state = std::move(state), options]() mutable {
-    (void)take_role("thinking", ThreadRole::Ordinary);
-    state.think(options);
-    return std::move(state);
-  });
+  if (!desk_) desk_ = free_desk();
+  desk_->begin(state, options);
+  busy_ = true;
 }
 
-std::optional<MapState> MapWorker::take(Stamp now, bool unfinished, const LocalizerOptions& options) {
+MapState* MapWorker::take(Stamp now, bool unfinished, const LocalizerOptions& options) {
   constexpr int kScans = 100;  // for logs whose time stands still
   const double due_s = known_ <= 1                   ? options.first_look_s
                        : known_ < options.young_size ? options.young_s
                                                      : options.thinking_s;
-  const bool is_due = busy() && (to_seconds(now - started_) >= due_s || ++asked_ >= kScans);
-  if (!is_due || unfinished) return std::nullopt;
-  return answer_.get();
+  const bool is_due = busy_ && (to_seconds(now - started_) >= due_s || ++asked_ >= kScans);
+  if (!is_due || unfinished) return nullptr;
+  busy_ = false;
+  return &desk_->answer();
 }
 
 }  // namespace madori::localization

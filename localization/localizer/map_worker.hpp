@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <future>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "core/stamp.hpp"
-#include "localization/localizer/map_state.hpp"
+#include "localization/localizer/thinking_desk.hpp"
 
 namespace madori::localization {
 
@@ -15,21 +14,25 @@ namespace madori::localization {
 /// waits, and what was said is recorded. Not thread-safe itself: one owner calls it.
 class MapWorker {
  public:
-  [[nodiscard]] bool busy() const { return answer_.valid(); }
+  [[nodiscard]] bool busy() const { return busy_; }
   /// Busy, and the thread has not come to its end. Read from outside the cycle alone: it is no input.
-  [[nodiscard]] bool is_unfinished() const;
+  [[nodiscard]] bool is_unfinished() const { return busy_ && desk_->works(); }
   /// Not while busy.
-  void start(Stamp now, MapState state, const LocalizerOptions& options);
-  /// The answer, once `now` is late enough; `unfinished`: not in this step.
-  [[nodiscard]] std::optional<MapState> take(Stamp now, bool unfinished, const LocalizerOptions& options);
+  void start(Stamp now, const MapState& state, const LocalizerOptions& options);
+  /// The answer, for the caller to change places with, once `now` is late enough; null before.
+  /// `unfinished`: not in this step.
+  [[nodiscard]] MapState* take(Stamp now, bool unfinished, const LocalizerOptions& options);
   /// The answer under way is not wanted any more.
   void discard();
   /// Keyframes that the map had when the work began.
   [[nodiscard]] std::size_t known() const { return known_; }
 
  private:
-  std::future<MapState> answer_;
-  std::vector<std::future<MapState>> unwanted_;  ///< that are still on their way: nobody waits for them
+  [[nodiscard]] std::unique_ptr<ThinkingDesk> free_desk();
+
+  std::unique_ptr<ThinkingDesk> desk_;                   ///< from the first start on
+  std::vector<std::unique_ptr<ThinkingDesk>> unwanted_;  ///< nobody waits for what they still think over
+  bool busy_ = false;
   Stamp started_{};
   int asked_ = 0;
   std::size_t known_ = 0;

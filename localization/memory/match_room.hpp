@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -8,8 +9,8 @@
 
 namespace madori::localization {
 
-/// What a memory matches scans against, made of it when asked, and the room to make it in. No part of what is
-/// remembered: who copies a memory gets room of his own.
+/// What a memory matches scans against, made of it when asked, and the room to make it and to remember more.
+/// No part of what is remembered: who copies a memory gets room of his own.
 struct MatchRoom {
   MatchRoom() = default;
   MatchRoom(const MatchRoom& /*other*/) {}
@@ -27,6 +28,7 @@ struct MatchRoom {
   LocalMap whole;
   std::vector<LocalMap::Piece> pieces;
   std::vector<std::pair<double, std::size_t>> near;  ///< distance and number of keyframes
+  std::vector<std::shared_ptr<SurfaceScan>> spare;   ///< for keyframes to come
 };
 
 }  // namespace madori::localization

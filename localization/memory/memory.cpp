@@ -75,14 +75,14 @@ const LocalMap& Memory::whole_map(const Point2<Map>& centre, double until_path_m
   return room_.whole;
 }
 
-void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
+void Memory::add(const SurfaceScan& scan, double path_m, const Transform2<Map, Base>& map_from_base,
                  const Eigen::Matrix3d& motion_information) {
-  add(std::move(scan), path_m, map_from_base,
+  add(scan, path_m, map_from_base,
       MeasuredMotion{empty() ? Transform2<Base, Base>() : poses_.back().inverse() * map_from_base,
                      motion_information});
 }
 
-void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
+void Memory::add(const SurfaceScan& scan, double path_m, const Transform2<Map, Base>& map_from_base,
                  const MeasuredMotion& motion) {
   const int id = static_cast<int>(size());
   double path = 0.0;
@@ -94,11 +94,32 @@ void Memory::add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& m
                                 options_.chain_rad * options_.chain_rad * metres);
     factors_.push_back({id - 1, id, motion.motion, limited(motion.information, grown), false});
   }
-  keyframes_.push_back(
-      {std::make_shared<const SurfaceScan>(std::move(scan)), path, broken_, motion.agreement});
+  keyframes_.push_back({kept(scan), path, broken_, motion.agreement});
   poses_.push_back(map_from_base);
   room_.has_recent = false;
   broken_ = false;
+}
+
+std::shared_ptr<const SurfaceScan> Memory::kept(const SurfaceScan& scan) {
+  if (room_.spare.empty()) return std::make_shared<const SurfaceScan>(scan);
+  auto copy = std::move(room_.spare.back());
+  room_.spare.pop_back();
+  *copy = scan;
+  return copy;
+}
+
+void Memory::make_room() {
+  constexpr std::size_t kAhead = 32;  ///< keyframes: at most 4 a second are driven, thinking takes 1 s
+  constexpr std::size_t kSpare = 16;
+  keyframes_.reserve(size() + kAhead);
+  poses_.reserve(size() + kAhead);
+  factors_.reserve(factors_.size() + kAhead);
+  std::size_t most = 0;
+  for (std::size_t i = window_begin(); i < size(); ++i)
+    most = std::max(most, keyframes_[i].scan->points.size());
+  room_.spare.reserve(kSpare);
+  while (room_.spare.size() < kSpare) room_.spare.push_back(std::make_shared<SurfaceScan>());
+  for (const auto& scan : room_.spare) scan->points.reserve(most + most / 4);
 }
 
 void Memory::forget_broken_end() {
@@ -178,7 +199,7 @@ std::size_t Memory::bytes() const {
   return sum;
 }
 
-Transform2<Map, Map> Memory::take_in(Memory other, std::size_t known) {
+Transform2<Map, Map> Memory::take_in(Memory& other, std::size_t known) {
   const Transform2<Map, Map> by = other.poses_.back() * poses_[known - 1].inverse();
   const int shift = static_cast<int>(other.size()) - static_cast<int>(known);
   const double way_m = other.keyframes_.back().path_m - keyframes_[known - 1].path_m;
@@ -193,9 +214,10 @@ Transform2<Map, Map> Memory::take_in(Memory other, std::size_t known) {
     }
   }
   other.broken_ = broken_;
-  other.room_ = std::move(room_);
-  other.room_.has_recent = false;
-  *this = std::move(other);
+  std::swap(room_.spare, other.room_.spare);
+  std::swap(*this, other);
+  std::swap(room_, other.room_);  // the cycle's room stays the cycle's, but for the spare scans
+  room_.has_recent = false;
   return by;
 }
 

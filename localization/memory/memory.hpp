@@ -40,10 +40,10 @@ class Memory {
   void note_break() { broken_ = true; }
   /// Adds a keyframe after `path_m` more of driving, tied to the newest one by the measured motion between
   /// them, which need not be the difference of the poses: where an old place was found again it is not.
-  void add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
+  void add(const SurfaceScan& scan, double path_m, const Transform2<Map, Base>& map_from_base,
            const MeasuredMotion& motion);
   /// The same where the poses' difference is what was measured, with its information (axes of the newest).
-  void add(SurfaceScan scan, double path_m, const Transform2<Map, Base>& map_from_base,
+  void add(const SurfaceScan& scan, double path_m, const Transform2<Map, Base>& map_from_base,
            const Eigen::Matrix3d& motion_information);
   /// Forgets the newest keyframes to which the chain of motions is broken: they lie anywhere.
   void forget_broken_end();
@@ -70,11 +70,15 @@ class Memory {
   /// Moves the keyframes from `first` on rigidly.
   void move(const Transform2<Map, Map>& by, std::size_t first = 0);
   /// Becomes `other`, a copy made when this memory had `known` keyframes and changed since, and what this one
-  /// has remembered since then behind it. Returns what moves this memory's newest surroundings there.
-  Transform2<Map, Map> take_in(Memory other, std::size_t known);
+  /// has remembered since then behind it; `other` is of no use afterwards. Returns what moves this memory's
+  /// newest surroundings there.
+  Transform2<Map, Map> take_in(Memory& other, std::size_t known);
+  /// Room for what the next seconds add, so that add() need not ask the heap for it.
+  void make_room();
 
  private:
   [[nodiscard]] std::size_t window_begin(std::size_t newest) const;
+  [[nodiscard]] std::shared_ptr<const SurfaceScan> kept(const SurfaceScan& scan);
 
   MemoryOptions options_;
   std::vector<Keyframe> keyframes_;

@@ -56,9 +56,9 @@ void GraphMapper::follow(const SurfaceScan& scan, const OdometryStep& step) {
   covariance_ = matched_covariance(place, map_);
 }
 
-void GraphMapper::remember(SurfaceScan scan) {
+void GraphMapper::remember(const SurfaceScan& scan) {
   map_.memory.add(
-      std::move(scan), since_keyframe_.path_m(), anchor_,
+      scan, since_keyframe_.path_m(), anchor_,
       map_.memory.empty() ? MeasuredMotion{} : since_keyframe_.measured(map_.memory.poses().back()));
   since_keyframe_ = {};
   scan_of_.push_back(reckoned_.size() - 1);

@@ -25,7 +25,7 @@ class GraphMapper final : public Mapper {
  private:
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
   void follow(const SurfaceScan& scan, const OdometryStep& step);
-  void remember(SurfaceScan scan);
+  void remember(const SurfaceScan& scan);
   void close_loops();
 
   LocalizerOptions options_;

@@ -1,0 +1,57 @@
+#include "localization/localizer/thinking_desk.hpp"
+
+#include <utility>
+
+#include "core/thread_role.hpp"
+
+namespace madori::localization {
+
+ThinkingDesk::ThinkingDesk() : thread_([this] { run(); }) {}
+
+ThinkingDesk::~ThinkingDesk() {
+  {
+    const std::scoped_lock lock(mutex_);
+    ends_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void ThinkingDesk::begin(const MapState& state, const LocalizerOptions& options) {
+  state_ = state;
+  options_ = options;
+  {
+    const std::scoped_lock lock(mutex_);
+    works_ = true;
+  }
+  changed_.notify_all();
+}
+
+MapState& ThinkingDesk::answer() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return !works_; });
+  if (problem_) std::rethrow_exception(std::exchange(problem_, nullptr));
+  return state_;
+}
+
+void ThinkingDesk::run() {
+  (void)take_role("thinking", ThreadRole::Ordinary);
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return works_ || ends_; });
+    if (!works_) return;
+    lock.unlock();
+    std::exception_ptr problem;
+    try {
+      state_.think(options_);
+    } catch (...) {
+      problem = std::current_exception();
+    }
+    lock.lock();
+    problem_ = problem;
+    works_ = false;
+    changed_.notify_all();
+  }
+}
+
+}  // namespace madori::localization
