@@ -147,7 +147,12 @@ def campaign(seed, rows):
                 if not re.search(arguments.only, fault.name) or (arguments.short and not fault.short):
                     continue
                 scene = scene or scene_of(seed, pathlib.Path(name) / f"{seed}-{number}")
-                rows.append({**try_fault(scene, Routes(scene.site), fault), "seed": seed})
+                try:
+                    row = try_fault(scene, Routes(scene.site), fault)
+                except (SystemExit, AssertionError) as error:  # what never came, or was answered otherwise
+                    row = {"fault": fault.name, "stood_s": None, "told": [], "off_m": 0.0, "around": False,
+                           "asked": False, "wrong": [str(error)]}
+                rows.append({**row, "seed": seed})
                 tell(rows[-1])
                 if rows[-1]["wrong"]:
                     scene.end()

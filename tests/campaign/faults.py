@@ -237,9 +237,20 @@ class Scene:
             time.sleep(pause_s)
 
     def tap_beside(self, metres):
-        """A person says that it stands `metres` from where it is."""
+        """A person says that it stands `metres` from where it is; the answer's status."""
         truth = self.factory.truth.newest()
-        self.post("/api/vehicle/pose", {"x": truth["x_m"] + metres, "y": truth["y_m"], "yaw": truth["yaw_rad"]})
+        return self.post("/api/vehicle/pose", {"x": truth["x_m"] + metres, "y": truth["y_m"], "yaw": truth["yaw_rad"]})
+
+    def tap_while_driving(self):
+        status = self.tap_beside(3.0)
+        assert status == 409, f"a vehicle that drives takes another place: {status}"
+        time.sleep(1.0)
+
+    def tap_while_paused(self, metres):
+        self.run.say("pause")
+        time.sleep(2.0)
+        status = self.tap_beside(metres)
+        assert status == 200, f"a vehicle that stands takes no place: {status}"
         time.sleep(1.0)
 
     def end(self):
@@ -467,7 +478,8 @@ COMPUTER_FAULTS = [
     Fault("300 half-open connections to the panel", lambda s: s.half_open(4.0), "goes on"),
     Fault("Stop pressed, then Resume", lambda s: s.words(["halt"], 1.5), "stands", 0.85, then=RESUME),
     Fault("Pause and Resume, five times a second", lambda s: s.words(["pause", "resume"] * 10, 0.1), then=RESUME),
-    Fault("a person taps 3 m beside the true place", lambda s: s.tap_beside(3.0), then=RESUME),
-    Fault("a person taps 20 m beside the true place", lambda s: s.tap_beside(20.0), then=RESUME),
+    Fault("a person taps 3 m beside the true place while it drives", lambda s: s.tap_while_driving(), "goes on"),
+    Fault("paused, a person taps 3 m beside the true place", lambda s: s.tap_while_paused(3.0), "stands", 0.85, then=RESUME),
+    Fault("paused, a person taps 20 m beside the true place", lambda s: s.tap_while_paused(20.0), "stands", 0.85, then=RESUME),
 ]
 FAULTS = LIDAR_FAULTS + DRIVE_FAULTS + COMPUTER_FAULTS
