@@ -69,6 +69,26 @@ TEST(LocalMap, ABareCorridorGivesNoInformationAlong) {
   EXPECT_LT(match.information(0, 0), 1e-3 * match.information(1, 1));
 }
 
+TEST(LocalMap, MemoryThatIsUsedAgainCarriesNothingOver) {
+  std::mt19937 engine(5);
+  const Transform2<Map, Base> first(10.0, 8.0, 0.3), second(14.0, 6.0, -0.4);
+  const SurfaceScan before = look(first, engine), after = look(second, engine);
+  const SurfaceScan now = look({14.1, 6.1, -0.35}, engine);
+  const SearchWindow window{0.5, 0.3, 0.5, 0.5};
+  LocalMap again({{&before, first}, {&after, second}}, first.translation(), 20.0);
+  (void)again.search(now, first, window);  // with a grid of its own
+  again.build({{&after, second}}, second.translation(), 9.0);
+  const LocalMap fresh({{&after, second}}, second.translation(), 9.0);
+  EXPECT_EQ(again.search(now, second, window).score, fresh.search(now, second, window).score);
+  const MatchResult a = again.refine(now, second, {}), b = fresh.refine(now, second, {});
+  EXPECT_EQ(a.information, b.information);
+  EXPECT_EQ(a.map_from_base.x_m(), b.map_from_base.x_m());
+  EXPECT_EQ(a.inlier_share, b.inlier_share);
+  again.build({}, second.translation(), 9.0);
+  EXPECT_TRUE(again.empty());
+  EXPECT_EQ(again.refine(now, second, {}).iterations, 0);
+}
+
 TEST(PoseGraph, ALoopClosureSpreadsTheDriftOfASquare) {
   std::vector<Transform2<Map, Base>> truth, poses;
   std::vector<RelativeFactor> factors;

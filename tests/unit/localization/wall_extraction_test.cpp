@@ -1,11 +1,10 @@
-#include "localization/wall_extraction/wall_extraction.hpp"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
 
 #include "localization/registration/segment_icp.hpp"
+#include "localization/wall_extraction/wall_extractor.hpp"
 #include "tests/support/lidar_models.hpp"
 #include "tests/support/made_up_buildings.hpp"
 
@@ -66,6 +65,24 @@ TEST_F(CloudWalls, LieOnTheWallsWithNormalsTowardsTheSensor) {
     EXPECT_NEAR(std::hypot(points.normal_x[i], points.normal_y[i]), 1.0, 1e-5);
   }
   EXPECT_GT(with_normal, 0.8 * static_cast<double>(points.size()));
+}
+
+TEST_F(CloudWalls, OneRevolutionLeavesNothingToTheNext) {
+  mapping::Walls machines;
+  test::add_box(machines, 3.0, 3.0, 6.5, 12.0);
+  WallExtractor extractor;
+  for (const double yaw_rad : {0.4, 2.0, -1.0}) {
+    const Pose pose(8.0 + yaw_rad, 7.0, yaw_rad);
+    const auto cloud =
+        revolution(hall_, yaw_rad > 1.0 ? machines : mapping::Walls{}, 1.5, pose, 1.2, engine_);
+    const ScanPoints alone = extract_walls(cloud, kLidar);
+    const ScanPoints& among = extractor.extract(cloud, kLidar);
+    EXPECT_EQ(among.x_m, alone.x_m);
+    EXPECT_EQ(among.y_m, alone.y_m);
+    EXPECT_EQ(among.weight, alone.weight);
+    EXPECT_EQ(among.normal_x, alone.normal_x);
+  }
+  EXPECT_TRUE(extractor.extract({}, kLidar).empty());
 }
 
 TEST_F(CloudWalls, SeeOverMachinesAndThroughGaps) {
