@@ -154,6 +154,8 @@ def campaign(seed, rows):
                            "asked": False, "wrong": [str(error)]}
                 rows.append({**row, "seed": seed})
                 tell(rows[-1])
+                if arguments.table:  # after each: a run that is ended early leaves what it has
+                    arguments.table.write_text(table(rows))
                 if rows[-1]["wrong"]:
                     scene.end()
                     scene = None
@@ -179,8 +181,6 @@ come_first()  # it shares its interpreter with the wires
 rows = []
 for seed in range(1, arguments.seeds + 1):
     campaign(seed, rows)
-if arguments.table:
-    arguments.table.write_text(table(rows))
 wrong = [f"{row['fault']}: {'; '.join(row['wrong'])}" for row in rows if row["wrong"]]
 if wrong:
     raise SystemExit("\n".join(wrong))
