@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <sstream>
 
 #include "core/result.hpp"
@@ -15,26 +14,6 @@ static_assert(std::endian::native == std::endian::little, "the model file is lit
 static_assert(sizeof(ForestNode) == 4);
 
 constexpr std::size_t kRowsAtOnce = 256;  // their steps and one tree stay in the processor's first cache
-
-const char* const kNoModel = "is no wall model of this version";
-const char* const kMend = "train it again: train_walls";
-
-template <class T>
-std::vector<T> take(const std::string& file, std::string_view& bytes, std::size_t count) {
-  if (count > bytes.size() / sizeof(T)) throw Error(file, kNoModel, kMend);
-  std::vector<T> values(count);
-  std::memcpy(values.data(), bytes.data(), count * sizeof(T));
-  bytes.remove_prefix(count * sizeof(T));
-  return values;
-}
-
-std::istringstream take_line(const std::string& file, std::string_view& bytes) {
-  const std::size_t end = bytes.find('\n');
-  if (end == std::string_view::npos) throw Error(file, kNoModel, kMend);
-  std::istringstream line{std::string(bytes.substr(0, end))};
-  bytes.remove_prefix(end + 1);
-  return line;
-}
 
 /// A walk from the root must stay in the tree and end.
 bool leads_to_leaves(const std::vector<ForestNode>& tree, std::size_t features) {
@@ -60,7 +39,8 @@ int leaf_of(const std::vector<ForestNode>& tree, const std::uint8_t* steps) {
 std::vector<float> Forest::judged(const FeatureTable& table) const {
   const auto same = [](const Feature& feature, const std::string& name) { return feature.name == name; };
   if (!std::equal(features.begin(), features.end(), table.names().begin(), table.names().end(), same))
-    throw Error("the wall model", "was trained on other features than this version measures", kMend);
+    throw Error("the wall model", "was trained on other features than this version measures",
+                "train it again: train_walls");
   std::vector<float> result;
   std::vector<std::uint8_t> steps(kRowsAtOnce * features.size());
   std::vector<int> sums(kRowsAtOnce);
@@ -99,24 +79,24 @@ std::string Forest::bytes() const {
   return out.str();
 }
 
-Forest Forest::read(const std::string& file, std::string_view& bytes) {
+Forest Forest::read(ModelBytes& bytes) {
   Forest forest;
   std::size_t features = 0, trees = 0;
-  if (!(take_line(file, bytes) >> features >> trees >> forest.leaf_step) || features >= ForestNode::kLeaf)
-    throw Error(file, kNoModel, kMend);
+  bytes.take_line(features, trees, forest.leaf_step);
+  bytes.demand(features < ForestNode::kLeaf);
   for (std::size_t k = 0; k < features; ++k) {
     Feature feature;
     std::size_t count = 0;
-    if (!(take_line(file, bytes) >> feature.name >> count) || count >= ForestNode::kLeaf)
-      throw Error(file, kNoModel, kMend);
-    feature.steps = take<float>(file, bytes, count);
+    bytes.take_line(feature.name, count);
+    bytes.demand(count < ForestNode::kLeaf);
+    feature.steps = bytes.take<float>(count);
     forest.features.push_back(std::move(feature));
   }
   for (std::size_t k = 0; k < trees; ++k) {
     std::size_t count = 0;
-    if (!(take_line(file, bytes) >> count)) throw Error(file, kNoModel, kMend);
-    forest.trees.push_back(take<ForestNode>(file, bytes, count));
-    if (!leads_to_leaves(forest.trees.back(), features)) throw Error(file, kNoModel, kMend);
+    bytes.take_line(count);
+    forest.trees.push_back(bytes.take<ForestNode>(count));
+    bytes.demand(leads_to_leaves(forest.trees.back(), features));
   }
   return forest;
 }

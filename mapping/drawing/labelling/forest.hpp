@@ -3,10 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "mapping/drawing/labelling/feature_table.hpp"
+#include "mapping/drawing/labelling/model_bytes.hpp"
 
 namespace madori::mapping {
 
@@ -33,8 +33,8 @@ struct Forest {
   [[nodiscard]] std::vector<float> judged(const FeatureTable& table) const;
 
   [[nodiscard]] std::string bytes() const;
-  /// Takes a forest from the beginning of `bytes`. Throws Error, naming `file`, where there is none.
-  static Forest read(const std::string& file, std::string_view& bytes);
+  /// Takes the forest that comes next in `bytes`. Throws Error where there is none.
+  static Forest read(ModelBytes& bytes);
 };
 
 }  // namespace madori::mapping

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <string>
 
 #include "core/result.hpp"
@@ -24,19 +23,17 @@ extern "C" const char madori_wall_model_end[];
 namespace madori::mapping {
 namespace {
 
-constexpr std::string_view kKind = "madori-walls-4\n";
+constexpr std::string_view kKind = "madori-walls-4";
 
-WallModel from_bytes(const std::string& name, std::string_view bytes) {
-  if (!bytes.starts_with(kKind))
-    throw Error(name, "is no wall model of this version", "train it again: train_walls");
-  bytes.remove_prefix(kKind.size());
-  std::istringstream line(std::string(bytes.substr(0, bytes.find('\n'))));
+WallModel from_bytes(const std::string& name, std::string_view content) {
+  ModelBytes bytes(name, content);
+  std::string kind;
+  bytes.take_line(kind);
+  bytes.demand(kind == kKind);
   Calibration calibration;
-  if (!(line >> calibration.slope >> calibration.offset) || bytes.find('\n') == std::string_view::npos)
-    throw Error(name, "is no wall model of this version", "train it again: train_walls");
-  bytes.remove_prefix(bytes.find('\n') + 1);
-  Forest first = Forest::read(name, bytes);
-  return {std::move(first), Forest::read(name, bytes), calibration};
+  bytes.take_line(calibration.slope, calibration.offset);
+  Forest first = Forest::read(bytes);
+  return {std::move(first), Forest::read(bytes), calibration};
 }
 
 }  // namespace
@@ -58,7 +55,7 @@ double WallModel::told(double judged) const {
 }
 
 std::string WallModel::bytes() const {
-  return fmt::format("{}{:.4f} {:.4f}\n", kKind, calibration_.slope, calibration_.offset) + first_.bytes() +
+  return fmt::format("{}\n{:.4f} {:.4f}\n", kKind, calibration_.slope, calibration_.offset) + first_.bytes() +
          second_.bytes();
 }
 

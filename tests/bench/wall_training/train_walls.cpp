@@ -81,21 +81,22 @@ void append(Examples& examples, const ExampleSheet& sheet) {
   const bool complete = !drawn && !home && sheet.truth != "contours";
   std::vector<double> weights, lengths;
   for (const std::size_t i : rows) {
-    const double length = length_of(sheet, i);
-    lengths.push_back(sampled ? std::sqrt(length) : length);
-    const double weight =
-        home ? length : std::sqrt(length);  // walls are long, what is no wall must count too
-    weights.push_back(sampled ? weight / std::sqrt(length) : weight);
+    const double length = length_of(sheet, i), often = sampled ? std::sqrt(length) : 1;
+    lengths.push_back(length / often);
+    // walls are long, what is no wall must count too
+    weights.push_back((home ? length : std::sqrt(length)) / often);
     const auto from = sheet.values.begin() + static_cast<std::ptrdiff_t>(i * columns);
     examples.values.insert(examples.values.end(), from, from + static_cast<std::ptrdiff_t>(columns));
     examples.labels.push_back(sheet.near[i] > 0.5F ? 1 : 0);
   }
-  const double total = std::max(1.0, std::accumulate(weights.begin(), weights.end(), 0.0));
+  const auto sum = [](const std::vector<double>& all) {
+    return std::max(1.0, std::accumulate(all.begin(), all.end(), 0.0));
+  };
+  const double whole_weight = sum(weights), whole_length = sum(lengths);
   for (const double weight : weights)
-    examples.weights.push_back(static_cast<float>(kSheetWeight * sheet.weight * weight / total));
-  const double whole = std::max(1.0, std::accumulate(lengths.begin(), lengths.end(), 0.0));
+    examples.weights.push_back(static_cast<float>(kSheetWeight * sheet.weight * weight / whole_weight));
   for (const double length : lengths)
-    examples.lengths.push_back(complete ? sheet.weight * length / whole : 0.0);
+    examples.lengths.push_back(complete ? sheet.weight * length / whole_length : 0.0);
   examples.names = sheet.features;
 }
 
@@ -188,6 +189,14 @@ ExampleSheet in_context(const ExampleSheet& sheet, const std::vector<float>& fir
   return second;
 }
 
+/// `contexts` are one a fold; of all folds where `fold` is none of theirs.
+Examples without_fold(const std::vector<Examples>& contexts, std::size_t fold) {
+  Examples examples;
+  for (std::size_t k = 0; k < contexts.size(); ++k)
+    if (k != fold) examples.add(contexts[k]);
+  return examples;
+}
+
 Examples without_fold(const std::vector<ExampleSheet>& sheets, const std::vector<std::size_t>& folds,
                       std::size_t fold) {
   Examples examples;
@@ -201,12 +210,9 @@ Examples without_fold(const std::vector<ExampleSheet>& sheets, const std::vector
 madori::mapping::Calibration calibrate(const std::vector<Examples>& folds) {
   CalibrationFit fit;
   for (std::size_t fold = 0; fold < folds.size(); ++fold) {
-    Examples others;
-    for (std::size_t k = 0; k < folds.size(); ++k)
-      if (k != fold) others.add(folds[k]);
     const Examples& unseen = folds[fold];
-    const auto said =
-        Judge(others, kSecondTrees, kSecondDepth).probabilities(unseen.values, unseen.labels.size());
+    const auto said = Judge(without_fold(folds, fold), kSecondTrees, kSecondDepth)
+                          .probabilities(unseen.values, unseen.labels.size());
     for (std::size_t i = 0; i < said.size(); ++i) fit.add(said[i], unseen.labels[i] > 0, unseen.lengths[i]);
   }
   return fit.fitted();
@@ -216,18 +222,17 @@ madori::mapping::Calibration calibrate(const std::vector<Examples>& folds) {
 void train(const std::vector<ExampleSheet>& sheets, const std::string& file) {
   const auto folds = folds_of(sheets);
   std::vector<Examples> contexts(kFolds);
-  Examples all;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     const Judge judge(without_fold(sheets, folds, fold), kTrees, kDepth);
     for (std::size_t k = 0; k < sheets.size(); ++k)
       if (folds[k] == fold)
         append(contexts[fold],
                in_context(sheets[k], judge.probabilities(sheets[k].values, sheets[k].rows())));
-    all.add(contexts[fold]);
   }
   const auto calibration = calibrate(contexts);
-  const madori::mapping::WallModel model(Judge(without_fold(sheets, folds, kFolds), kTrees, kDepth).forest(),
-                                         Judge(all, kSecondTrees, kSecondDepth).forest(), calibration);
+  const madori::mapping::WallModel model(
+      Judge(without_fold(sheets, folds, kFolds), kTrees, kDepth).forest(),
+      Judge(without_fold(contexts, kFolds), kSecondTrees, kSecondDepth).forest(), calibration);
   const std::string bytes = model.bytes();
   std::ofstream stream(file, std::ios::binary);
   if (!(stream << bytes)) throw madori::Error(file, "cannot be written", "name another --out");

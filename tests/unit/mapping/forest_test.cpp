@@ -1,6 +1,7 @@
 // Trees that judge rows of a table, and the bytes that they are kept in.
 #include "mapping/drawing/labelling/forest.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -104,9 +105,10 @@ TEST(Forest, JudgesAsItsTreesAreDrawn) {
 TEST(Forest, IsTheSameFromItsBytes) {
   const Grown grown = random_forest(7);
   const std::string bytes = grown.forest.bytes() + "what follows";
-  std::string_view rest = bytes;
-  const Forest read = Forest::read("model", rest);
-  EXPECT_EQ(rest, "what follows");
+  ModelBytes rest("model", bytes);
+  const Forest read = Forest::read(rest);
+  EXPECT_THAT(rest.take<char>(12), testing::ElementsAreArray(std::string("what follows")));
+  EXPECT_THROW(rest.take<char>(1), Error);
   const FeatureTable table = random_table(1, grown.forest, 300);
   EXPECT_EQ(read.judged(table), grown.forest.judged(table));
 }
@@ -118,9 +120,10 @@ TEST(Forest, DamagedBytesAreRefusedOrHarmless) {
   const FeatureTable table = random_table(1, grown.forest, 20);
   std::mt19937 random(5);
   int refused = 0;
-  const auto judge = [&](std::string_view from) {
+  const auto judge = [&](std::string_view damaged) {
     try {
-      (void)Forest::read("model", from).judged(table);
+      ModelBytes from("model", damaged);
+      (void)Forest::read(from).judged(table);
     } catch (const Error&) {
       ++refused;
     }
