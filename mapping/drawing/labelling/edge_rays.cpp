@@ -15,6 +15,7 @@ constexpr double kFar = 0.3;            // of the sheet: free beyond is free
 constexpr double kStep = 0.7;           // pixels: no 8-connected line is stepped over
 constexpr int kEvents = 5;
 constexpr double kNeutral = 128;
+constexpr double kNearEnds = 3.2;    // pixels: what is beside an edge
 constexpr double kPastEnd = 6;       // pixels: what abuts at an end is over
 constexpr double kThickest = 0.025;  // of the sheet: thicker is no wall
 
@@ -29,6 +30,19 @@ struct Ray {
   int count = 0;
   bool border = false;
   double near_grey = 0, red_green = 0, yellow_blue = 0, fill_grey = 0, fill_square = 0;
+
+  /// Beyond the reach of faces only the first edge counts, and what follows the last parallel one within it.
+  [[nodiscard]] bool asks_on(double distance, double reach) const {
+    if (count == 0 || distance <= reach) return count < kEvents;
+    const Event& last = events[static_cast<std::size_t>(count - 1)];
+    return count < kEvents && last.parallel && last.distance <= reach;
+  }
+};
+
+struct Tone {
+  double sum = 0, square = 0;
+  int count = 0;
+  void add(double grey) { sum += grey, square += grey * grey, ++count; }
 };
 
 class Looker {
@@ -75,49 +89,40 @@ class Looker {
     const double nu = side * e.normal_u, nv = side * e.normal_v;
     const double far = kFar * sheet_.size_px, reach = kReach * sheet_.size_px;
     Ray ray;
-    double sum = 0, square = 0;
-    int filled = 0, near = 0;
+    Tone near, fill;
     int last = static_cast<int>(from);
-    for (double d = kStep; d < far && ray.count < kEvents;) {
+    for (double d = kStep; d < far && ray.asks_on(d, reach);) {
       const double u = u0 + d * nu, v = v0 + d * nv;
       if (!sheet_.inside(u, v)) {
         ray.border = true;
         break;
       }
       const std::size_t pixel = sheet_.pixel(u, v);
-      const double grey = sheet_.grey.pixels[pixel];
-      if (d > 1 && d < 3.2) {
-        ray.near_grey += grey;
+      if (d > 1 && d < kNearEnds) {
+        near.add(sheet_.grey.pixels[pixel]);
         if (coloured_) {
           ray.red_green += sheet_.grey.red_green[pixel];
           ray.yellow_blue += sheet_.grey.yellow_blue[pixel];
         }
-        ++near;
       }
-      if (ray.count == 0 && d < reach && d > 1) {
-        sum += grey;
-        square += grey * grey;
-        ++filled;
+      if (ray.count == 0 && d < reach && d > 1) fill.add(sheet_.grey.pixels[pixel]);
+      const double clear = sheet_.clear_px[pixel];
+      if (clear <= 0) {
+        const int met = sheet_.edge_at[pixel];
+        if (met != last && met != static_cast<int>(from)) {
+          add(ray, e, met, d);
+          last = met;
+        }
       }
-      const int met = sheet_.edge_at[pixel];
-      if (met >= 0 && met != last && met != static_cast<int>(from)) {
-        add(ray, e, met, d);
-        last = met;
-      }
-      d += std::max(kStep, sheet_.clear_px[pixel] - 1.5);
+      d += std::max(kStep, clear - 1.5);
     }
-    if (near > 0) {
-      ray.near_grey /= near;
-      ray.red_green = coloured_ ? ray.red_green / near : kNeutral;
-      ray.yellow_blue = coloured_ ? ray.yellow_blue / near : kNeutral;
+    if (near.count > 0) {
+      ray.near_grey = near.sum / near.count;
+      ray.red_green = coloured_ ? ray.red_green / near.count : kNeutral;
+      ray.yellow_blue = coloured_ ? ray.yellow_blue / near.count : kNeutral;
     }
-    if (filled > 0) {
-      ray.fill_grey = sum / filled;
-      ray.fill_square = square / filled;
-    } else {
-      ray.fill_grey = ray.near_grey;
-      ray.fill_square = ray.near_grey * ray.near_grey;
-    }
+    ray.fill_grey = fill.count > 0 ? fill.sum / fill.count : ray.near_grey;
+    ray.fill_square = fill.count > 0 ? fill.square / fill.count : ray.near_grey * ray.near_grey;
     return ray;
   }
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <opencv2/imgproc.hpp>
+#include <numeric>
+#include <optional>
 
 namespace madori::mapping {
 namespace {
@@ -11,57 +12,119 @@ namespace {
 constexpr float kBarrier = 1.2F;  // pixels: edges seal corners that miss each other by a pixel or two
 constexpr double kBeside = 3;     // pixels off an edge its regions begin
 
+/// Connected areas by runs of open pixels in each row: a drawing is mostly paper, whose runs are long.
 class Areas {
  public:
   explicit Areas(const EdgeSheet& sheet) : sheet_(sheet) {
-    const cv::Mat clear(sheet.grey.height_px, sheet.grey.width_px, CV_32FC1,
-                        const_cast<float*>(sheet.clear_px.data()));
-    const cv::Mat open = clear > kBarrier;
-    cv::Mat stats, middles;
-    const int count = cv::connectedComponentsWithStats(open, labels_, stats, middles, 4, CV_32S);
-    std::vector<double> grey(static_cast<std::size_t>(count));
-    for (int v = 0; v < labels_.rows; ++v)
-      for (int u = 0; u < labels_.cols; ++u)
-        grey[static_cast<std::size_t>(labels_.at<int>(v, u))] += sheet.grey.at(u, v);
-    for (int k = 0; k < count; ++k) {
-      const int width = stats.at<int>(k, cv::CC_STAT_WIDTH), height = stats.at<int>(k, cv::CC_STAT_HEIGHT);
-      const int left = stats.at<int>(k, cv::CC_STAT_LEFT), top = stats.at<int>(k, cv::CC_STAT_TOP);
-      const double area = stats.at<int>(k, cv::CC_STAT_AREA);
-      all_.push_back({area, static_cast<double>(width) * height, static_cast<double>(std::min(width, height)),
-                      static_cast<double>(std::max(width, height)),
-                      grey[static_cast<std::size_t>(k)] / std::max(1.0, area),
-                      left == 0 || top == 0 || left + width == labels_.cols || top + height == labels_.rows});
+    for (int v = 0; v < sheet.grey.height_px; ++v) {
+      rows_.push_back(runs_.size());
+      find_runs(v);
+      if (v > 0) join(rows_[rows_.size() - 2], rows_.back());
+    }
+    rows_.push_back(runs_.size());
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+      const std::size_t first = root(k);
+      if (first != k) runs_[first].region.add(runs_[k].region);
     }
   }
 
   /// The region that most places beside the edge lie in; none where they lie between edges.
-  [[nodiscard]] Region beside(const Edge& edge, double side) const {
-    std::map<int, int> votes;
+  [[nodiscard]] Region beside(const Edge& edge, double side) {
+    std::map<std::size_t, int> votes;
     const int places = std::clamp(static_cast<int>(edge.length_px / 6), 3, 9);
     for (int k = 0; k < places; ++k) {
       const double t = (k + 0.5) / places;
       const double u = std::lerp(edge.segment.u1, edge.segment.u2, t) + side * kBeside * edge.normal_u;
       const double v = std::lerp(edge.segment.v1, edge.segment.v2, t) + side * kBeside * edge.normal_v;
       if (!sheet_.inside(u, v)) continue;
-      const int label = labels_.at<int>(static_cast<int>(v), static_cast<int>(u));
-      if (label > 0) ++votes[label];
+      if (const auto run = run_at(static_cast<int>(u), static_cast<int>(v))) ++votes[root(*run)];
     }
     if (votes.empty()) return {};
     const auto most = std::max_element(votes.begin(), votes.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-    return all_[static_cast<std::size_t>(most->first)];
+    return of(runs_[most->first].region);
   }
 
  private:
+  struct Sums {
+    double area = 0, grey = 0;
+    int left = 0, top = 0, right = 0, bottom = 0;  // the last two beyond it
+    void add(const Sums& o) {
+      area += o.area, grey += o.grey;
+      left = std::min(left, o.left), top = std::min(top, o.top);
+      right = std::max(right, o.right), bottom = std::max(bottom, o.bottom);
+    }
+  };
+  struct Run {
+    int from = 0, to = 0;
+    std::size_t parent = 0;
+    Sums region;
+  };
+
+  void find_runs(int v) {
+    const auto width = static_cast<std::size_t>(sheet_.grey.width_px);
+    const float* clear = &sheet_.clear_px[static_cast<std::size_t>(v) * width];
+    const std::uint8_t* grey = &sheet_.grey.pixels[static_cast<std::size_t>(v) * width];
+    for (std::size_t u = 0; u < width;) {
+      while (u < width && clear[u] <= kBarrier) ++u;
+      const std::size_t from = u;
+      while (u < width && clear[u] > kBarrier) ++u;
+      if (from == u) break;
+      const int left = static_cast<int>(from), right = static_cast<int>(u);
+      runs_.push_back(
+          {left,
+           right,
+           runs_.size(),
+           {static_cast<double>(u - from), static_cast<double>(std::accumulate(grey + from, grey + u, 0)),
+            left, v, right, v + 1}});
+    }
+  }
+
+  /// Runs of two rows, from `above` to `here` and from `here` on, that touch are of one region.
+  void join(std::size_t above, const std::size_t here) {
+    for (std::size_t run = here; run < runs_.size(); ++run) {
+      while (above < here && runs_[above].to <= runs_[run].from) ++above;
+      for (std::size_t other = above; other < here && runs_[other].from < runs_[run].to; ++other) {
+        const std::size_t a = root(other), b = root(run);
+        runs_[std::max(a, b)].parent = std::min(a, b);
+      }
+    }
+  }
+
+  std::size_t root(std::size_t i) {
+    while (runs_[i].parent != i) i = runs_[i].parent = runs_[runs_[i].parent].parent;
+    return i;
+  }
+
+  [[nodiscard]] std::optional<std::size_t> run_at(int u, int v) const {
+    const auto row = static_cast<std::size_t>(v);
+    const auto first = runs_.begin() + static_cast<std::ptrdiff_t>(rows_[row]);
+    const auto end = runs_.begin() + static_cast<std::ptrdiff_t>(rows_[row + 1]);
+    const auto run = std::upper_bound(first, end, u, [](int at, const Run& r) { return at < r.to; });
+    if (run == end || u < run->from) return std::nullopt;
+    return static_cast<std::size_t>(run - runs_.begin());
+  }
+
+  [[nodiscard]] Region of(const Sums& s) const {
+    const double width = s.right - s.left, height = s.bottom - s.top;
+    return {
+        s.area,
+        width * height,
+        std::min(width, height),
+        std::max(width, height),
+        s.grey / std::max(1.0, s.area),
+        s.left == 0 || s.top == 0 || s.right == sheet_.grey.width_px || s.bottom == sheet_.grey.height_px};
+  }
+
   const EdgeSheet& sheet_;
-  cv::Mat labels_;
-  std::vector<Region> all_;
+  std::vector<Run> runs_;          // row by row; those of a region hang below its first
+  std::vector<std::size_t> rows_;  // the first run of each row, and the end of all
 };
 
 }  // namespace
 
 std::vector<EdgeRegions> regions_beside(const EdgeSheet& sheet) {
-  const Areas areas(sheet);
+  Areas areas(sheet);
   std::vector<EdgeRegions> regions;
   for (const Edge& edge : sheet.edges) regions.push_back({areas.beside(edge, 1), areas.beside(edge, -1)});
   return regions;
