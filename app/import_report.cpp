@@ -21,20 +21,20 @@ mapping::Progress terminal_progress() {
 
 json import_json(const mapping::ImportReport& report) {
   json stages = json::array();
-  for (const auto& s : report.stages)
+  for (const auto& s : report.found.stages)
     stages.push_back({{"name", s.name}, {"ms", s.milliseconds}, {"count", s.count}});
   json out{{"name", report.site.name},
            {"drawing", report.site.drawing.file},
            {"width_px", report.site.drawing.width_px},
            {"height_px", report.site.drawing.height_px},
            {"scaled", report.site.scale.has_value()},
-           {"walls", report.walls},
-           {"wall_length", report.wall_length},
+           {"walls", report.walls.size()},
+           {"wall_length", report.wall_length()},
            {"length_unit", report.site.scale ? "m" : "px"},
-           {"rejected", report.rejected},
-           {"skew_deg", report.skew_deg},
-           {"points_sampled", report.points_sampled},
-           {"points", report.points},
+           {"rejected", report.found.rejected.size()},
+           {"skew_deg", report.found.skew_deg},
+           {"points_sampled", report.points.sampled},
+           {"points", report.points.points.size()},
            {"stages", stages},
            {"notes", report.notes}};
   if (report.site.scale) {
@@ -52,12 +52,13 @@ void print_import_summary(const mapping::ImportReport& report, const std::string
     std::printf(", %.1f x %.1f m, %.6g m/px (%s)", drawing.width_px * report.site.scale->m_per_px,
                 drawing.height_px * report.site.scale->m_per_px, report.site.scale->m_per_px,
                 report.site.scale->method.c_str());
-  std::printf("\nwalls     %zu faces, %.1f %s in all; %zu lines taken for something else\n", report.walls,
-              report.wall_length, unit, report.rejected);
-  std::printf("skew      %.2f deg\n", report.skew_deg);
-  std::printf("points    %zu sampled, %zu after the voxel grid\n", report.points_sampled, report.points);
+  std::printf("\nwalls     %zu faces, %.1f %s in all; %zu lines taken for something else\n",
+              report.walls.size(), report.wall_length(), unit, report.found.rejected.size());
+  std::printf("skew      %.2f deg\n", report.found.skew_deg);
+  std::printf("points    %zu sampled, %zu after the voxel grid\n", report.points.sampled,
+              report.points.points.size());
   double ms = 0;
-  for (const auto& stage : report.stages) ms += stage.milliseconds;
+  for (const auto& stage : report.found.stages) ms += stage.milliseconds;
   std::printf("time      %.2f s\n", 1e-3 * ms);
   for (const auto& note : report.notes) std::printf("note      %s\n", note.c_str());
   std::printf("look at   %s/import.png\n", site.c_str());

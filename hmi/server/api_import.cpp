@@ -8,10 +8,10 @@ namespace {
 using nlohmann::json;
 
 json to_wire(const mapping::ImportReport& report) {
-  return {{"walls", report.walls},
-          {"wall_length", report.wall_length},
-          {"rejected", report.rejected},
-          {"skew_deg", report.skew_deg},
+  return {{"walls", report.walls.size()},
+          {"wall_length", report.wall_length()},
+          {"rejected", report.found.rejected.size()},
+          {"skew_deg", report.found.skew_deg},
           {"notes", report.notes}};
 }
 
@@ -23,7 +23,7 @@ Response start_import(ApiContext& context, const Request& request) {
     const auto report =
         drawing.read([&](const auto& options) { return mapping::import_drawing(options, progress); });
     context.vehicle.reload_site();
-    return Job::Outcome{std::to_string(report.walls) + " walls", to_wire(report)};
+    return Job::Outcome{std::to_string(report.walls.size()) + " walls", to_wire(report)};
   });
   if (!started) return Response::error(409, "busy", "another drawing is being imported");
   return answer(context.job.state());

@@ -1,12 +1,12 @@
 #include "mapping/drawing/import_drawing.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "core/result.hpp"
+#include "mapping/drawing/raster/stage_clock.hpp"
 #include "mapping/georeference/scale_estimate.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site_transaction.hpp"
@@ -19,28 +19,6 @@ namespace madori::mapping {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Times the stages of the command itself beside those of the detector.
-class Stages {
- public:
-  Stages(std::vector<StageReport>& reports, const Progress& progress)
-      : reports_(reports), progress_(progress) {}
-  void begin(const std::string& name, double share) {
-    if (progress_) progress_(name, share);
-    name_ = name;
-    start_ = std::chrono::steady_clock::now();
-  }
-  void end(std::size_t count) {
-    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start_;
-    reports_.push_back({name_, spent.count(), count});
-  }
-
- private:
-  std::vector<StageReport>& reports_;
-  const Progress& progress_;
-  std::string name_;
-  std::chrono::steady_clock::time_point start_;
-};
 
 void refuse_existing(const ImportOptions& options) {
   if (options.force || !fs::exists(options.site)) return;
@@ -185,40 +163,39 @@ void stage_picture(const Plan& plan, const DetectedWalls& found, std::optional<d
   change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
-void describe(const DetectedWalls& found, const Walls& walls, const PointMap& points, ImportReport& report) {
-  report.walls = walls.size();
-  for (const auto& wall : walls) report.wall_length += wall.segment.length_m();
-  report.rejected = found.rejected.size();
-  report.skew_deg = found.skew_deg;
-  report.points_sampled = points.sampled;
-  report.points = points.points.size();
-}
-
 }  // namespace
+
+double ImportReport::wall_length() const {
+  double sum = 0;
+  for (const auto& wall : walls) sum += wall.segment.length_m();
+  return sum;
+}
 
 ImportReport import_drawing(const ImportOptions& options, const Progress& progress) {
   refuse_existing(options);
   ImportReport report;
-  Stages stages(report.stages, progress);
+  std::vector<StageReport> reports;
+  StageClock stages(reports, progress);
   stages.begin("load", 0.0);
   Plan plan = load_plan(options.drawing, options.plan);
   stages.end(plan.picture.pixels.size());
 
   SiteTransaction change(options.site);
-  const DetectedWalls found = find_walls(options, plan, change, progress);
-  report.stages.insert(report.stages.end(), found.stages.begin(), found.stages.end());
+  report.found = find_walls(options, plan, change, progress);
+  const DetectedWalls& found = report.found;
+  reports.insert(reports.end(), found.stages.begin(), found.stages.end());
   report.site = make_site(options, plan, "drawing" + options.drawing.extension().string());
   const auto& scale = report.site.scale;
   const double unit = scale ? scale->m_per_px : 1.0;
-  const Walls walls = to_map(found.walls, plan.picture.height_px, unit);
+  report.walls = to_map(found.walls, plan.picture.height_px, unit);
 
   stages.begin("points", 0.85);
-  const PointMap points = stage_walls(options, plan, walls, unit, scale.has_value(), change);
-  change.write("walls.csv", with_probabilities(walls_csv(walls), found.probabilities));
-  stages.end(points.points.size());
+  report.points = stage_walls(options, plan, report.walls, unit, scale.has_value(), change);
+  change.write("walls.csv", with_probabilities(walls_csv(report.walls), found.probabilities));
+  stages.end(report.points.points.size());
   stages.begin("save", 0.9);
   stage_site(options, report.site, change);
-  stages.end(walls.size());
+  stages.end(report.walls.size());
   stages.begin("picture", 0.95);
   stage_picture(plan, found, scale ? std::optional(unit) : std::nullopt, change);
   stages.end(found.walls.size());
@@ -226,7 +203,7 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
   change.commit();
   stages.end(1);
 
-  describe(found, walls, points, report);
+  report.found.stages = std::move(reports);
   report.notes = std::move(plan.notes);
   return report;
 }

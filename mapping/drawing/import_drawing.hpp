@@ -8,6 +8,8 @@
 #include "mapping/drawing/plan.hpp"
 #include "mapping/drawing/read_drawing.hpp"
 #include "mapping/site/site.hpp"
+#include "mapping/wall_map/point_map.hpp"
+#include "mapping/wall_map/wall.hpp"
 
 namespace madori::mapping {
 
@@ -32,14 +34,12 @@ struct ImportOptions {
 
 struct ImportReport {
   Site site;
-  std::size_t walls = 0;
-  double wall_length = 0.0;  ///< metres, pixels while unscaled
-  std::size_t rejected = 0;
-  double skew_deg = 0.0;
-  std::size_t points_sampled = 0;  ///< before the voxel grid
-  std::size_t points = 0;          ///< after it
-  std::vector<StageReport> stages;
+  Walls walls;          ///< metres, pixels while unscaled
+  DetectedWalls found;  ///< the same in the drawing, what was taken for something else, and all stages
+  PointMap points;
   std::vector<std::string> notes;
+
+  [[nodiscard]] double wall_length() const;
 };
 
 /// `madori import`: a drawing becomes a site folder, in one atomic step (SiteTransaction). Throws Error on

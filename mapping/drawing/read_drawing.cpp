@@ -28,8 +28,8 @@ void hand_over(const DrawnLines& lines, const GreyDrawing& drawing, const Detect
                DetectedWalls& found) {
   for (const DrawnLine& line : lines) {
     const PixelSegment& s = line.segment;
-    const PixelSegment own{s.u1 * drawing.u_scale, s.v1 * drawing.v_scale, s.u2 * drawing.u_scale,
-                           s.v2 * drawing.v_scale};
+    const PixelSegment own{s.u1 * drawing.scale.x, s.v1 * drawing.scale.y, s.u2 * drawing.scale.x,
+                           s.v2 * drawing.scale.y};
     if (line.rejected || own.length_px() < options.min_wall_length_px.value_or(0)) {
       found.rejected.push_back({own, line.rejected.value_or(RejectReason::TooShort), line.probability});
     } else {
@@ -46,7 +46,7 @@ DetectedWalls read_drawing(const GrayImage& image, const DetectionOptions& optio
   if (!options.is_valid()) throw Error("wall detection", options.why_invalid(), "correct the option");
   if (image.empty()) throw Error("wall detection", "the picture has no pixels", "import another drawing");
   DetectedWalls found;
-  StageClock clock(found, progress);
+  StageClock clock(found.stages, progress);
 
   clock.begin("edges", 0.1);  // every straight edge between a darker and a brighter side
   EdgeSheet edges = find_edges(image);
@@ -70,11 +70,12 @@ DetectedWalls read_drawing(const GrayImage& image, const DetectionOptions& optio
   clock.begin("lines", 0.9);  // edges become lines, walls from the sheet's own threshold on
   const double wall_from =
       wall_threshold(probabilities, sheet.edges.edges, options.strictness.value_or(kStrictness));
-  const GreyDrawing drawing{image, static_cast<double>(image.width_px) / sheet.edges.grey.width_px,
-                            static_cast<double>(image.height_px) / sheet.edges.grey.height_px,
+  const GreyDrawing drawing{image,
+                            {static_cast<double>(image.width_px) / sheet.edges.grey.width_px,
+                             static_cast<double>(image.height_px) / sheet.edges.grey.height_px},
                             sheet.edges.dark_ground};
   std::optional<double> gap_px;
-  if (options.close_gap_px) gap_px = *options.close_gap_px / drawing.u_scale;
+  if (options.close_gap_px) gap_px = *options.close_gap_px / drawing.scale.x;
   DrawnLines lines = strokes.lines(probabilities, wall_from, gap_px);
   for (DrawnLine& line : lines) line.probability = model.told(line.probability);
   clock.end(lines.size());

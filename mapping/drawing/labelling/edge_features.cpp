@@ -55,7 +55,7 @@ class Builder {
     }
     std::vector<double> pens;
     for (const double w : width_) pens.push_back(w > 0 ? w : 1e6);
-    pen_ = std::clamp(quantile(pens, edges_, 0.25), 1.0, 0.01 * sheet.size_px + 1);
+    pen_ = std::clamp(quantile(pens, edges_, 0.25), 1.0, 0.01 * sheet.size_px() + 1);
     measure_ground();
   }
 
@@ -70,8 +70,7 @@ class Builder {
     place();
     repeats();
     styles();
-    m_.width_px = std::move(width_);
-    m_.pen_px = pen_;
+    m_.strokes = {std::move(width_), pen_};
     return std::move(table_);
   }
 
@@ -80,7 +79,7 @@ class Builder {
   void add(const std::string& name, Value value) {
     table_.fill(name, value);
   }
-  [[nodiscard]] double of_size(double px) const { return px / sheet_.size_px; }
+  [[nodiscard]] double of_size(double px) const { return px / sheet_.size_px(); }
   [[nodiscard]] double of_pen(double px) const { return px / pen_; }
 
   static double commonest(const std::vector<std::uint8_t>& plane) {
@@ -188,7 +187,7 @@ class Builder {
         return hit.edge >= 0 && hit.opposite > 0.5 ? value(static_cast<std::size_t>(hit.edge)) : kNone;
       });
     };
-    const double whole = sheet_.size_px * sheet_.size_px;
+    const double whole = sheet_.size_px() * sheet_.size_px();
     behind("free", [&](std::size_t j) { return of_size(m_.views[j].bright.free_px); });
     behind("hit", [&](std::size_t j) {
       const SideView::ParallelHit& next = m_.views[j].bright.hits[0];
@@ -229,25 +228,27 @@ class Builder {
     }
     add("abutting", [&](std::size_t i) { return links[i].abutting; });
     add("abutting_density", [&](std::size_t i) { return links[i].abutting * pen_ / edges_[i].length_px; });
-    add("chain", [&](std::size_t i) { return of_size(links[i].chain_px); });
-    add("chain_extent", [&](std::size_t i) { return of_size(links[i].chain_extent_px); });
+    add("chain", [&](std::size_t i) { return of_size(links[i].chain.length_px); });
+    add("chain_extent", [&](std::size_t i) { return of_size(links[i].chain.extent_px); });
     add("chain_solid",
-        [&](std::size_t i) { return links[i].chain_px / std::max(1.0, links[i].chain_extent_px); });
+        [&](std::size_t i) { return links[i].chain.length_px / std::max(1.0, links[i].chain.extent_px); });
     add("line", [&](std::size_t i) { return of_size(links[i].line_px); });
-    add("cluster", [&](std::size_t i) { return links[i].cluster_px / total_; });
-    add("cluster_size", [&](std::size_t i) { return of_size(links[i].cluster_size_px); });
-    add("cluster_mean", [&](std::size_t i) { return of_size(links[i].cluster_px / links[i].cluster_edges); });
-    add("cluster_curl",
-        [&](std::size_t i) { return links[i].cluster_px / std::max(1.0, links[i].cluster_size_px); });
+    add("cluster", [&](std::size_t i) { return links[i].cluster.length_px / total_; });
+    add("cluster_size", [&](std::size_t i) { return of_size(links[i].cluster.extent_px); });
+    add("cluster_mean",
+        [&](std::size_t i) { return of_size(links[i].cluster.length_px / links[i].cluster.edges); });
+    add("cluster_curl", [&](std::size_t i) {
+      return links[i].cluster.length_px / std::max(1.0, links[i].cluster.extent_px);
+    });
   }
 
   void regions() {
-    const double whole = sheet_.size_px * sheet_.size_px;
+    const double whole = sheet_.size_px() * sheet_.size_px();
     const auto region = [&](const std::string& name, auto of) {
       add(name + "_area", [&](std::size_t i) { return std::sqrt(of(i).area_px / whole); });
-      add(name + "_fill", [&](std::size_t i) { return of(i).area_px / std::max(1.0, of(i).box_area_px); });
-      add(name + "_short", [&](std::size_t i) { return of_size(of(i).short_side_px); });
-      add(name + "_long", [&](std::size_t i) { return of_size(of(i).long_side_px); });
+      add(name + "_fill", [&](std::size_t i) { return of(i).area_px / std::max(1.0, of(i).box_px.area()); });
+      add(name + "_short", [&](std::size_t i) { return of_size(of(i).short_side_px()); });
+      add(name + "_long", [&](std::size_t i) { return of_size(of(i).long_side_px()); });
       add(name + "_grey", [&](std::size_t i) { return (of(i).grey - ground_) / range_; });
       add(name + "_border", [&](std::size_t i) { return of(i).at_border ? 1 : 0; });
     };
@@ -271,9 +272,10 @@ class Builder {
     };
     add("from_outside", [&](std::size_t i) {
       const auto [u, v] = middle(i);
-      return of_size(std::min({u - sheet_.left, sheet_.right - u, v - sheet_.top, sheet_.bottom - v}));
+      return of_size(
+          std::min({u - sheet_.box.left, sheet_.box.right - u, v - sheet_.box.top, sheet_.box.bottom - v}));
     });
-    const double cell = std::max(4.0, 0.02 * sheet_.size_px);
+    const double cell = std::max(4.0, 0.02 * sheet_.size_px());
     std::map<std::pair<int, int>, std::array<double, 3>>
         cells;  // length, length of short ones, turned length
     const auto cell_of = [&](std::size_t i) {
@@ -315,23 +317,21 @@ class Builder {
     struct Style {
       double length = 0, squares = 0, chains = 0, paired = 0, size = 0, free = 0, regions = 0, turned = 0,
              straight = 0;
-      double left = 1e9, top = 1e9, right = 0, bottom = 0;
+      PixelBox box;
     };
     std::map<int, Style> styles;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       Style& of = styles[style_of[i]];
-      const PixelSegment& s = edges_[i].segment;
       const double length = edges_[i].length_px;
       of.length += length;
       of.squares += length * length;
-      of.chains += length * m_.links[i].chain_px;
+      of.chains += length * m_.links[i].chain.length_px;
       of.paired += length * m_.views[i].bright.hits[0].share;
-      of.size += length * m_.links[i].cluster_size_px;
+      of.size += length * m_.links[i].cluster.extent_px;
       of.free += length * std::max(m_.views[i].bright.free_px, m_.views[i].dark.hits[0].free_after_px);
-      of.regions += length * m_.regions[i].bright.long_side_px;
+      of.regions += length * m_.regions[i].bright.long_side_px();
       of.straight += length * (m_.links[i].ends[0].continuing + m_.links[i].ends[1].continuing);
-      of.left = std::min({of.left, s.u1, s.u2}), of.right = std::max({of.right, s.u1, s.u2});
-      of.top = std::min({of.top, s.v1, s.v2}), of.bottom = std::max({of.bottom, s.v1, s.v2});
+      of.box.add(edges_[i].segment);
     }
     const auto of = [&](std::size_t i) -> const Style& { return styles.at(style_of[i]); };
     add(name + "_share", [&](std::size_t i) { return of(i).length / total_; });
@@ -342,9 +342,7 @@ class Builder {
     add(name + "_free", [&](std::size_t i) { return of_size(of(i).free / of(i).length); });
     add(name + "_region", [&](std::size_t i) { return of_size(of(i).regions / of(i).length); });
     add(name + "_straight", [&](std::size_t i) { return of(i).straight / of(i).length; });
-    add(name + "_extent", [&](std::size_t i) {
-      return of_size(std::hypot(of(i).right - of(i).left, of(i).bottom - of(i).top));
-    });
+    add(name + "_extent", [&](std::size_t i) { return of_size(of(i).box.diagonal()); });
     std::vector<double> mean, chain, share;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       mean.push_back(of(i).squares / of(i).length);

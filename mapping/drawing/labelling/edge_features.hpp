@@ -8,14 +8,19 @@
 
 namespace madori::mapping {
 
+/// Of the stroke or body on each edge's dark side, 0 where there is none; and of the pen that drew most.
+struct StrokeWidths {
+  std::vector<double> width_px;
+  double pen_px = 1;
+};
+
 /// What is measured of a sheet's edges, before it is made relative to the sheet.
 struct EdgeMeasures {
   std::vector<EdgeViews> views;
   std::vector<EdgeLinks> links;
   std::vector<EdgeRegions> regions;
   std::vector<int> styles, looks;  ///< edges of a number look alike, closely or roughly
-  std::vector<double> width_px;    ///< of the stroke or body on an edge's dark side; 0 where there is none
-  double pen_px = 1;
+  StrokeWidths strokes;
 };
 
 [[nodiscard]] EdgeMeasures measure_edges(const EdgeSheet& sheet);

@@ -17,13 +17,14 @@ constexpr double kGapInPens = 2, kGap = 4;  // a stroke that crosses, and what i
 
 /// The width, of those that can divide strokes from bodies, that the drawing uses least.
 double widest_stroke_px(const LabelSheet& sheet) {
-  const double widest = kWidestStroke * sheet.edges.size_px, pen = std::min(sheet.pen_px, 0.5 * widest);
+  const double widest = kWidestStroke * sheet.edges.size_px(),
+               pen = std::min(sheet.strokes.pen_px, 0.5 * widest);
   const double from = std::log(kThinnest * pen), to = std::log(std::min(kThickest * pen, widest));
   const double step = (to - from) / (kPlaces - 1);
   std::array<double, kPlaces> crowd{};
-  for (std::size_t i = 0; i < sheet.width_px.size(); ++i)
-    for (std::size_t k = 0; k < kPlaces && sheet.width_px[i] > 0; ++k) {
-      const double off = (from + static_cast<double>(k) * step - std::log(sheet.width_px[i])) / kBlur;
+  for (std::size_t i = 0; i < sheet.strokes.width_px.size(); ++i)
+    for (std::size_t k = 0; k < kPlaces && sheet.strokes.width_px[i] > 0; ++k) {
+      const double off = (from + static_cast<double>(k) * step - std::log(sheet.strokes.width_px[i])) / kBlur;
       crowd[k] += sheet.edges.edges[i].length_px * std::exp(-0.5 * off * off);
     }
   const auto least = std::min_element(crowd.begin(), crowd.end()) - crowd.begin();
@@ -49,15 +50,14 @@ DrawnLines EdgeStrokes::lines(const std::vector<float>& probabilities, double wa
     const Edge& edge = sheet_.edges.edges[i];
     DrawnLine line{.segment = edge.segment, .solid_face = !is_stroke(i), .probability = probabilities[i]};
     if (!line.solid_face) {
-      line.stroke_px = sheet_.width_px[i];
-      const double u = 0.5 * line.stroke_px * edge.normal_u, v = 0.5 * line.stroke_px * edge.normal_v;
+      line.stroke_px = sheet_.strokes.width_px[i];
+      const double u = 0.5 * line.stroke_px * edge.normal.x, v = 0.5 * line.stroke_px * edge.normal.y;
       line.segment = {line.segment.u1 + u, line.segment.v1 + v, line.segment.u2 + u, line.segment.v2 + v};
     }
     if (line.probability < wall_from) line.rejected = RejectReason::Other;
     lines.push_back(line);
   }
-  return merge_lines(std::move(lines),
-                     {.largest_gap_px = gap_px.value_or(std::max(kGap, kGapInPens * sheet_.pen_px))});
+  return merge_lines(std::move(lines), gap_px.value_or(std::max(kGap, kGapInPens * sheet_.strokes.pen_px)));
 }
 
 }  // namespace madori::mapping

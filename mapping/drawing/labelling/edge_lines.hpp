@@ -22,7 +22,7 @@ class EdgeStrokes {
 
  private:
   [[nodiscard]] bool is_stroke(std::size_t edge) const {
-    return sheet_.width_px[edge] > 0 && sheet_.width_px[edge] <= widest_px_;
+    return sheet_.strokes.width_px[edge] > 0 && sheet_.strokes.width_px[edge] <= widest_px_;
   }
 
   const LabelSheet& sheet_;

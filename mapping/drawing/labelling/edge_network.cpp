@@ -14,10 +14,10 @@ constexpr double kDoorway = 0.04;      // of the sheet: a gap that a wall may ha
 constexpr double kSameLine = 2;        // pixels off the line
 
 double sine_between(const Edge& a, const Edge& b) {
-  return std::abs(a.normal_u * b.normal_v - a.normal_v * b.normal_u);
+  return std::abs(a.normal.cross(b.normal));
 }
 double cosine_between(const Edge& a, const Edge& b) {
-  return a.normal_u * b.normal_u + a.normal_v * b.normal_v;
+  return a.normal.dot(b.normal);
 }
 
 class Clusters {
@@ -93,14 +93,15 @@ class Linker {
   void chains() {
     constexpr int kDirections = 90;
     std::vector<std::vector<std::size_t>> by_direction(kDirections);
-    const double mu = 0.5 * (sheet_.left + sheet_.right), mv = 0.5 * (sheet_.top + sheet_.bottom);
+    const double mu = 0.5 * (sheet_.box.left + sheet_.box.right),
+                 mv = 0.5 * (sheet_.box.top + sheet_.box.bottom);
     std::vector<double> offsets(sheet_.edges.size());
     for (std::size_t i = 0; i < offsets.size(); ++i) {
       const Edge& e = sheet_.edges[i];
       by_direction[static_cast<std::size_t>(e.angle_rad / std::numbers::pi * kDirections) % kDirections]
           .push_back(i);
-      offsets[i] = std::abs((0.5 * (e.segment.u1 + e.segment.u2) - mu) * e.normal_u +
-                            (0.5 * (e.segment.v1 + e.segment.v2) - mv) * e.normal_v);
+      offsets[i] = std::abs((0.5 * (e.segment.u1 + e.segment.u2) - mu) * e.normal.x +
+                            (0.5 * (e.segment.v1 + e.segment.v2) - mv) * e.normal.y);
     }
     const auto by_offset = [&](std::size_t a, std::size_t b) { return offsets[a] < offsets[b]; };
     for (auto& bin : by_direction) std::stable_sort(bin.begin(), bin.end(), by_offset);
@@ -108,7 +109,7 @@ class Linker {
       for (const std::size_t i : by_direction[d]) {
         stretches_.clear();
         for (const std::size_t bin : {(d + kDirections - 1) % kDirections, d, (d + 1) % kDirections}) {
-          const double slack = kSameLine + 0.04 * sheet_.size_px;  // a small turn moves far ends apart
+          const double slack = kSameLine + 0.04 * sheet_.size_px();  // a small turn moves far ends apart
           const auto& row = by_direction[bin];
           auto at = std::lower_bound(row.begin(), row.end(), offsets[i] - slack,
                                      [&](std::size_t a, double value) { return offsets[a] < value; });
@@ -122,13 +123,13 @@ class Linker {
     const Edge &edge = sheet_.edges[i], &other = sheet_.edges[j];
     if (cosine_between(edge, other) < 0.99) return;
     const auto across = [&](double u, double v) {
-      return (u - edge.segment.u1) * edge.normal_u + (v - edge.segment.v1) * edge.normal_v;
+      return (u - edge.segment.u1) * edge.normal.x + (v - edge.segment.v1) * edge.normal.y;
     };
     const double middle =
         across(0.5 * (other.segment.u1 + other.segment.u2), 0.5 * (other.segment.v1 + other.segment.v2));
     if (std::abs(middle) > kSameLine) return;
     const auto along = [&](double u, double v) {
-      return (v - edge.segment.v1) * edge.normal_u - (u - edge.segment.u1) * edge.normal_v;
+      return (v - edge.segment.v1) * edge.normal.x - (u - edge.segment.u1) * edge.normal.y;
     };
     const double a = along(other.segment.u1, other.segment.v1), b = along(other.segment.u2, other.segment.v2);
     stretches_.push_back({std::min(a, b), std::max(a, b), j, j == i});
@@ -142,37 +143,31 @@ class Linker {
       links_[i].line_px += stretches_[k].to - stretches_[k].from;
       if (stretches_[k].self) self = k;
     }
-    const double gap = kDoorway * sheet_.size_px;
+    const double gap = kDoorway * sheet_.size_px();
     std::size_t first = self, last = self;
     while (first > 0 && stretches_[first].from - stretches_[first - 1].to < gap) --first;
     while (last + 1 < stretches_.size() && stretches_[last + 1].from - stretches_[last].to < gap) ++last;
     for (std::size_t k = first; k <= last; ++k) {
-      links_[i].chain_px += stretches_[k].to - stretches_[k].from;
+      links_[i].chain.length_px += stretches_[k].to - stretches_[k].from;
       chains_.join(i, stretches_[k].edge);
     }
-    links_[i].chain_extent_px = stretches_[last].to - stretches_[first].from;
+    links_[i].chain.edges = static_cast<int>(last - first) + 1;
+    links_[i].chain.extent_px = stretches_[last].to - stretches_[first].from;
   }
 
   void measure_clusters() {
-    struct Box {
-      double length = 0, left = 1e9, top = 1e9, right = 0, bottom = 0;
-      int edges = 0;
-    };
-    std::vector<Box> boxes(links_.size());
+    std::vector<EdgeLinks::Group> clusters(links_.size());
+    std::vector<PixelBox> boxes(links_.size());
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      const PixelSegment& s = sheet_.edges[i].segment;
-      Box& box = boxes[clusters_.root(i)];
-      box = {box.length + sheet_.edges[i].length_px, std::min({box.left, s.u1, s.u2}),
-             std::min({box.top, s.v1, s.v2}),        std::max({box.right, s.u1, s.u2}),
-             std::max({box.bottom, s.v1, s.v2}),     box.edges + 1};
+      const std::size_t number = clusters_.root(i);
+      EdgeLinks::Group& cluster = clusters[number];
+      boxes[number].add(sheet_.edges[i].segment);
+      cluster = {number, cluster.edges + 1, cluster.length_px + sheet_.edges[i].length_px,
+                 boxes[number].diagonal()};
     }
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      const Box& box = boxes[clusters_.root(i)];
-      links_[i].cluster_px = box.length;
-      links_[i].cluster_size_px = std::hypot(box.right - box.left, box.bottom - box.top);
-      links_[i].cluster_edges = box.edges;
-      links_[i].cluster = clusters_.root(i);
-      links_[i].chain = chains_.root(i);
+      links_[i].cluster = clusters[clusters_.root(i)];
+      links_[i].chain.number = chains_.root(i);
     }
   }
 

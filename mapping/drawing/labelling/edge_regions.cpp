@@ -34,8 +34,8 @@ class Areas {
     const int places = std::clamp(static_cast<int>(edge.length_px / 6), 3, 9);
     for (int k = 0; k < places; ++k) {
       const double t = (k + 0.5) / places;
-      const double u = std::lerp(edge.segment.u1, edge.segment.u2, t) + side * kBeside * edge.normal_u;
-      const double v = std::lerp(edge.segment.v1, edge.segment.v2, t) + side * kBeside * edge.normal_v;
+      const double u = std::lerp(edge.segment.u1, edge.segment.u2, t) + side * kBeside * edge.normal.x;
+      const double v = std::lerp(edge.segment.v1, edge.segment.v2, t) + side * kBeside * edge.normal.y;
       if (!sheet_.inside(u, v)) continue;
       if (const auto run = run_at(static_cast<int>(u), static_cast<int>(v))) ++votes[root(*run)];
     }
@@ -48,12 +48,8 @@ class Areas {
  private:
   struct Sums {
     double area = 0, grey = 0;
-    int left = 0, top = 0, right = 0, bottom = 0;  // the last two beyond it
-    void add(const Sums& o) {
-      area += o.area, grey += o.grey;
-      left = std::min(left, o.left), top = std::min(top, o.top);
-      right = std::max(right, o.right), bottom = std::max(bottom, o.bottom);
-    }
+    cv::Rect box;
+    void add(const Sums& o) { area += o.area, grey += o.grey, box |= o.box; }
   };
   struct Run {
     int from = 0, to = 0;
@@ -71,12 +67,10 @@ class Areas {
       while (u < width && clear[u] > kBarrier) ++u;
       if (from == u) break;
       const int left = static_cast<int>(from), right = static_cast<int>(u);
-      runs_.push_back(
-          {left,
-           right,
-           runs_.size(),
-           {static_cast<double>(u - from), static_cast<double>(std::accumulate(grey + from, grey + u, 0)),
-            left, v, right, v + 1}});
+      const Sums sums{static_cast<double>(u - from),
+                      static_cast<double>(std::accumulate(grey + from, grey + u, 0)),
+                      {left, v, right - left, 1}};
+      runs_.push_back({left, right, runs_.size(), sums});
     }
   }
 
@@ -106,14 +100,9 @@ class Areas {
   }
 
   [[nodiscard]] Region of(const Sums& s) const {
-    const double width = s.right - s.left, height = s.bottom - s.top;
-    return {
-        s.area,
-        width * height,
-        std::min(width, height),
-        std::max(width, height),
-        s.grey / std::max(1.0, s.area),
-        s.left == 0 || s.top == 0 || s.right == sheet_.grey.width_px || s.bottom == sheet_.grey.height_px};
+    return {s.area, s.box.size(), s.grey / std::max(1.0, s.area),
+            s.box.x == 0 || s.box.y == 0 || s.box.br().x == sheet_.grey.width_px ||
+                s.box.br().y == sheet_.grey.height_px};
   }
 
   const EdgeSheet& sheet_;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <opencv2/core/types.hpp>
 #include <vector>
 
 #include "mapping/drawing/labelling/edge_sheet.hpp"
@@ -10,10 +11,12 @@ namespace madori::mapping {
 /// The area of the sheet that an edge bounds on one side: a room, the body of a wall, the seat of a chair.
 struct Region {
   double area_px = 0;
-  double box_area_px = 0;
-  double short_side_px = 0, long_side_px = 0;  ///< of the box around it
+  cv::Size2d box_px;  ///< of the box around it
   double grey = 0;
   bool at_border = false;  ///< reaches the border of the sheet: the ground
+
+  [[nodiscard]] double short_side_px() const { return std::min(box_px.width, box_px.height); }
+  [[nodiscard]] double long_side_px() const { return std::max(box_px.width, box_px.height); }
 };
 
 struct EdgeRegions {

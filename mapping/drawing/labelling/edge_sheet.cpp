@@ -14,7 +14,6 @@ namespace madori::mapping {
 namespace {
 
 constexpr double kSmallPixels = 2e6;  // below, the oracle's recall gains 0.01 to 0.05 by enlarging
-constexpr double kMostEnlarged = 4;   // times
 constexpr double kMostPixels = 7e6;   // above, the detector alone would be slower than a Hough transform
 constexpr double kShortest = 4;       // pixels: shorter edges are noise of the picture
 constexpr double kShortestDrawn = 2;  // pixels of the drawing: so are these
@@ -30,7 +29,7 @@ double factor_for(const GrayImage& drawing) {
   const double pixels = static_cast<double>(drawing.width_px) * drawing.height_px;
   if (pixels > kMostPixels) return std::sqrt(kMostPixels / pixels);
   double factor = 1;
-  while (factor < kMostEnlarged && pixels * factor * factor <= kSmallPixels) factor *= 2;
+  while (pixels * factor * factor <= kSmallPixels) factor *= 2;
   return factor;
 }
 
@@ -42,17 +41,18 @@ struct Tones {
 
 /// The ground is the commonest grey. It is dark where most steps from pixel to pixel lead to brighter greys.
 Tones tones_of(const GrayImage& image) {
-  std::array<std::size_t, 256> counts{};
-  for (const std::uint8_t value : image.pixels) ++counts[value];
-  const auto left_out = static_cast<std::size_t>(kRareTone * static_cast<double>(image.pixels.size()));
+  cv::Mat counts;
+  cv::calcHist(std::vector{cv_view(image)}, {0}, {}, counts, {256}, {0, 256});
+  const double left_out = std::floor(kRareTone * static_cast<double>(image.pixels.size()));
   Tones tones;
-  std::size_t below = 0, above = 0;
+  double below = 0, above = 0;
   int low = 0, high = 255;
-  while ((below += counts[static_cast<std::size_t>(low)]) <= left_out) ++low;
-  while ((above += counts[static_cast<std::size_t>(high)]) <= left_out) --high;
+  while ((below += counts.at<float>(low)) <= left_out) ++low;
+  while ((above += counts.at<float>(high)) <= left_out) --high;
   if (high - low < kLeastRange) return tones;
   tones.darkest = low, tones.brightest = high;
-  const auto ground = static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  const auto ground =
+      static_cast<int>(std::max_element(counts.begin<float>(), counts.end<float>()) - counts.begin<float>());
   std::size_t darker = 0, brighter = 0, asked = 0;
   for (int v = 0; v < image.height_px;
        v += 1 + image.height_px / kRowsAsked, asked += static_cast<std::size_t>(image.width_px))
@@ -81,26 +81,37 @@ std::array<std::uint8_t, 256> spread(const Tones& tones) {
   return table;
 }
 
-/// At `factor` times the size, its greys spread.
+/// At `factor` times the size, its greys spread: of its few pixels before it grows, or of those that are
+/// left.
 GrayImage prepared(const GrayImage& image, const Tones& tones, double factor) {
-  auto table = spread(tones);
   GrayImage out{.width_px = std::max(1, static_cast<int>(std::lround(image.width_px * factor))),
                 .height_px = std::max(1, static_cast<int>(std::lround(image.height_px * factor))),
                 .dpi = image.dpi * factor};
+  // down to half the size, four neighbours are all that a pixel covers
+  const int coarser = factor < 0.5 ? cv::INTER_AREA : cv::INTER_LINEAR;
   const auto scale = [&](const cv::Mat& source, std::vector<std::uint8_t>& to, int finer) {
     to.resize(static_cast<std::size_t>(out.width_px) * static_cast<std::size_t>(out.height_px));
     cv::Mat target(out.height_px, out.width_px, CV_8UC1, to.data());
-    cv::resize(source, target, target.size(), 0, 0, factor < 1 ? cv::INTER_AREA : finer);
+    cv::resize(source, target, target.size(), 0, 0, factor < 1 ? coarser : finer);
+    return target;
   };
-  const auto plane = [&](const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to, int finer) {
+  const auto plane = [&](const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to) {
     if (from.empty()) return;
-    scale({image.height_px, image.width_px, CV_8UC1, const_cast<std::uint8_t*>(from.data())}, to, finer);
+    scale({image.height_px, image.width_px, CV_8UC1, const_cast<std::uint8_t*>(from.data())}, to,
+          cv::INTER_LINEAR);
   };
-  cv::Mat greys;
-  cv::LUT(cv_view(image), cv::Mat(1, 256, CV_8UC1, table.data()), greys);
-  scale(greys, out.pixels, cv::INTER_CUBIC);
-  plane(image.red_green, out.red_green, cv::INTER_LINEAR);
-  plane(image.yellow_blue, out.yellow_blue, cv::INTER_LINEAR);
+  auto table = spread(tones);
+  const cv::Mat lut(1, 256, CV_8UC1, table.data());
+  if (factor < 1) {
+    cv::Mat greys = scale(cv_view(image), out.pixels, coarser);
+    cv::LUT(greys, lut, greys);
+  } else {
+    cv::Mat greys;
+    cv::LUT(cv_view(image), lut, greys);
+    scale(greys, out.pixels, cv::INTER_CUBIC);
+  }
+  plane(image.red_green, out.red_green);
+  plane(image.yellow_blue, out.yellow_blue);
   return out;
 }
 
@@ -112,8 +123,8 @@ double brightness(const EdgeSheet& sheet, const Edge& edge, double off) {
   int seen = 0;
   for (int k = 0; k < samples; ++k) {
     const double t = (k + 0.5) / samples;
-    const double u = std::lerp(s.u1, s.u2, t) + off * edge.normal_u;
-    const double v = std::lerp(s.v1, s.v2, t) + off * edge.normal_v;
+    const double u = std::lerp(s.u1, s.u2, t) + off * edge.normal.x;
+    const double v = std::lerp(s.v1, s.v2, t) + off * edge.normal.y;
     if (!sheet.inside(u, v)) continue;
     sum += sheet.grey.pixels[sheet.pixel(u, v)];
     ++seen;
@@ -124,27 +135,12 @@ double brightness(const EdgeSheet& sheet, const Edge& edge, double off) {
 void append(EdgeSheet& sheet, const PixelSegment& segment) {
   Edge edge{.segment = segment, .length_px = segment.length_px()};
   if (edge.length_px < std::max(kShortest, kShortestDrawn * sheet.factor)) return;
-  edge.normal_u = -(segment.v2 - segment.v1) / edge.length_px;
-  edge.normal_v = (segment.u2 - segment.u1) / edge.length_px;
-  if (brightness(sheet, edge, kBeside) > brightness(sheet, edge, -kBeside)) {
-    edge.normal_u = -edge.normal_u;
-    edge.normal_v = -edge.normal_v;
-  }
+  edge.normal = {-(segment.v2 - segment.v1) / edge.length_px, (segment.u2 - segment.u1) / edge.length_px};
+  if (brightness(sheet, edge, kBeside) > brightness(sheet, edge, -kBeside)) edge.normal = -edge.normal;
   const double angle = std::atan2(segment.v2 - segment.v1, segment.u2 - segment.u1);
   edge.angle_rad = std::fmod(angle + 2 * std::numbers::pi, std::numbers::pi);
   sheet.edges.push_back(edge);
-}
-
-void measure_box(EdgeSheet& sheet) {
-  sheet.left = sheet.grey.width_px, sheet.top = sheet.grey.height_px;
-  for (const Edge& edge : sheet.edges) {
-    const PixelSegment& s = edge.segment;
-    sheet.left = std::min({sheet.left, s.u1, s.u2});
-    sheet.right = std::max({sheet.right, s.u1, s.u2});
-    sheet.top = std::min({sheet.top, s.v1, s.v2});
-    sheet.bottom = std::max({sheet.bottom, s.v1, s.v2});
-  }
-  sheet.size_px = std::max(1.0, std::hypot(sheet.right - sheet.left, sheet.bottom - sheet.top));
+  sheet.box.add(segment);
 }
 
 /// Long edges are drawn last: they are what a ray meets where two share a pixel.
@@ -154,19 +150,19 @@ void draw_edges(EdgeSheet& sheet) {
                ? a.length_px < b.length_px
                : std::pair(a.segment.u1, a.segment.v1) < std::pair(b.segment.u1, b.segment.v1);
   });
+  const cv::Size size(sheet.grey.width_px, sheet.grey.height_px);
   sheet.edge_at.assign(sheet.grey.pixels.size(), -1);
-  cv::Mat numbers(sheet.grey.height_px, sheet.grey.width_px, CV_32SC1, sheet.edge_at.data());
+  sheet.clear_px.resize(sheet.edge_at.size());
+  cv::Mat numbers(size, CV_32SC1, sheet.edge_at.data()), free(size, CV_8UC1, cv::Scalar(255));
   for (std::size_t i = 0; i < sheet.edges.size(); ++i) {
     const PixelSegment& s = sheet.edges[i].segment;
     const auto at = [](double u, double v) {
       return cv::Point(static_cast<int>(std::floor(u)), static_cast<int>(std::floor(v)));
     };
     cv::line(numbers, at(s.u1, s.v1), at(s.u2, s.v2), cv::Scalar(static_cast<double>(i)));
+    cv::line(free, at(s.u1, s.v1), at(s.u2, s.v2), cv::Scalar(0));
   }
-  cv::Mat free(numbers.size(), CV_8UC1), distance;
-  cv::compare(numbers, cv::Scalar(-1), free, cv::CMP_EQ);
-  sheet.clear_px.resize(sheet.edge_at.size());
-  cv::Mat clear(numbers.size(), CV_32FC1, sheet.clear_px.data());
+  cv::Mat clear(size, CV_32FC1, sheet.clear_px.data());
   cv::distanceTransform(free, clear, cv::DIST_L2, 3);
 }
 
@@ -179,7 +175,6 @@ EdgeSheet find_edges(const GrayImage& drawing) {
   sheet.dark_ground = tones.dark_ground;
   sheet.grey = prepared(drawing, tones, sheet.factor);
   for (const PixelSegment& s : straight_edges(sheet.grey)) append(sheet, s);
-  measure_box(sheet);
   draw_edges(sheet);
   return sheet;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <opencv2/core/types.hpp>
 #include <vector>
 
 #include "mapping/drawing/gray_image.hpp"
+#include "mapping/drawing/pixel_box.hpp"
 #include "mapping/drawing/pixel_segment.hpp"
 
 namespace madori::mapping {
@@ -11,8 +13,8 @@ namespace madori::mapping {
 /// A straight edge between a dark and a bright side: one side of a pen stroke, of a fill or of a coloured
 /// area.
 struct Edge {
-  PixelSegment segment;               ///< pixels of the sheet
-  double normal_u = 0, normal_v = 0;  ///< unit length, towards the dark side
+  PixelSegment segment;  ///< pixels of the sheet
+  cv::Point2d normal{};  ///< unit length, towards the dark side
   double length_px = 0;
   double angle_rad = 0;  ///< [0, pi)
 };
@@ -26,9 +28,10 @@ struct EdgeSheet {
   std::vector<Edge> edges;
   std::vector<std::int32_t> edge_at;  ///< row-major; the edge that crosses a pixel, -1 where none does
   std::vector<float> clear_px;        ///< row-major; the distance to the next edge
-  double size_px = 1;                 ///< diagonal of the box around all edges
-  double left = 0, top = 0, right = 0, bottom = 0;  ///< that box
+  PixelBox box;                       ///< around all edges
 
+  /// Its diagonal: what "of the sheet" means.
+  [[nodiscard]] double size_px() const { return std::max(1.0, box.diagonal()); }
   [[nodiscard]] bool inside(double u, double v) const {
     return u >= 0 && v >= 0 && u < grey.width_px && v < grey.height_px;
   }

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/result.hpp"
+#include "mapping/drawing/labelling/log_odds.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -27,10 +28,15 @@ bool leads_to_leaves(const std::vector<ForestNode>& tree, std::size_t features) 
   return !tree.empty() && tree.back().feature == ForestNode::kLeaf;
 }
 
+/// Without a jump at the nodes: which side is taken cannot be foretold.
 int leaf_of(const std::vector<ForestNode>& tree, const std::uint8_t* steps) {
+  int at = 0;
   const ForestNode* node = tree.data();
-  while (node->feature != ForestNode::kLeaf)
-    node = steps[node->feature] < node->step ? node + 1 : tree.data() + node->right;
+  while (node->feature != ForestNode::kLeaf) {
+    const int below = steps[node->feature] < node->step ? 1 : 0;
+    at = node->right + below * (at + 1 - node->right);
+    node = tree.data() + at;
+  }
   return node->right;
 }
 
@@ -56,7 +62,7 @@ std::vector<float> Forest::judged(const FeatureTable& table) const {
     for (const auto& tree : trees)
       for (std::size_t i = 0; i < rows; ++i) sums[i] += leaf_of(tree, &steps[i * features.size()]);
     for (std::size_t i = 0; i < rows; ++i)
-      result.push_back(static_cast<float>(1 / (1 + std::exp(-leaf_step * sums[i]))));
+      result.push_back(static_cast<float>(probability_of(leaf_step * sums[i])));
   }
   return result;
 }

@@ -8,14 +8,13 @@ LabelSheet label_sheet(EdgeSheet edges) {
   LabelSheet sheet;
   EdgeMeasures measures = measure_edges(edges);
   sheet.features = edge_features(edges, measures);
-  sheet.width_px = std::move(measures.width_px);
-  sheet.pen_px = measures.pen_px;
+  sheet.strokes = std::move(measures.strokes);
   auto& [styles, looks, chains, clusters] = sheet.groups.together;
   styles = std::move(measures.styles);
   looks = std::move(measures.looks);
   for (std::size_t i = 0; i < edges.edges.size(); ++i) {
-    chains.push_back(static_cast<int>(measures.links[i].chain));
-    clusters.push_back(static_cast<int>(measures.links[i].cluster));
+    chains.push_back(static_cast<int>(measures.links[i].chain.number));
+    clusters.push_back(static_cast<int>(measures.links[i].cluster.number));
     sheet.groups.partner[0].push_back(measures.views[i].dark.hits[0].edge);
     sheet.groups.partner[1].push_back(measures.views[i].bright.hits[0].edge);
   }

@@ -10,8 +10,7 @@ namespace madori::mapping {
 struct LabelSheet {
   EdgeSheet edges;
   EdgeGroups groups;
-  std::vector<double> width_px;  ///< of the stroke or body on an edge's dark side; 0 where there is none
-  double pen_px = 1;
+  StrokeWidths strokes;
   FeatureTable features{0};
 };
 

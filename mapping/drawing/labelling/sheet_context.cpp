@@ -6,20 +6,18 @@
 #include <numeric>
 #include <string>
 
+#include "mapping/drawing/labelling/log_odds.hpp"
+#include "mapping/drawing/pixel_box.hpp"
+
 namespace madori::mapping {
 namespace {
 
-constexpr double kCertain = 1e-4;     // no judgement is more certain than that
+constexpr double kUncertain = 1e-4;   // of every judgement, at least
 constexpr double kSmallStyle = 0.01;  // of all length: less is too little to compare with
 
 double entropy(double p) {
   const double a = std::max(p, 1e-6), b = std::max(1 - p, 1e-6);
   return -(p * std::log(a) + (1 - p) * std::log(b));
-}
-
-double odds(double p) {
-  p = std::clamp(p, kCertain, 1 - kCertain);
-  return std::log(p / (1 - p));
 }
 
 /// Length-weighted sums over a group of edges.
@@ -64,7 +62,7 @@ class Context {
     std::vector<double> above(edges_.size());
     double sum = 0;
     for (const std::size_t i : order) above[i] = (sum += length_[i]) / total_;
-    add("odds", [&](std::size_t i) { return odds(p_[i]); });
+    add("odds", [&](std::size_t i) { return log_odds(p_[i], kUncertain); });
     add("above", [&](std::size_t i) { return above[i]; });
     const auto quantile = [&](double share) {
       const auto at =
@@ -101,7 +99,7 @@ class Context {
       of.length += length;
       of.walls += length * p;
       of.squares += length * p * p;
-      of.odds += length * odds(p);
+      of.odds += length * log_odds(p, kUncertain);
       of.probable += p > 0.5 ? length : 0;
     }
     return sums;
@@ -142,16 +140,13 @@ class Context {
 
   /// The judgement of all that lies in the same cell of a coarse grid.
   void around(const std::string& name, double cell_share) {
-    double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
-    for (const PixelSegment& s : edges_) {
-      left = std::min({left, s.u1, s.u2}), right = std::max({right, s.u1, s.u2});
-      top = std::min({top, s.v1, s.v2}), bottom = std::max({bottom, s.v1, s.v2});
-    }
-    const double cell = std::max(1e-3, cell_share * std::max(right - left, bottom - top));
+    PixelBox box;
+    for (const PixelSegment& s : edges_) box.add(s);
+    const double cell = std::max(1e-3, cell_share * std::max(box.width(), box.height()));
     std::vector<std::pair<int, int>> cell_of;
     for (const PixelSegment& s : edges_)
-      cell_of.emplace_back(static_cast<int>((0.5 * (s.u1 + s.u2) - left) / cell),
-                           static_cast<int>((0.5 * (s.v1 + s.v2) - top) / cell));
+      cell_of.emplace_back(static_cast<int>((0.5 * (s.u1 + s.u2) - box.left) / cell),
+                           static_cast<int>((0.5 * (s.v1 + s.v2) - box.top) / cell));
     const auto sums = summed(cell_of);
     add(name + "_mean", [&](std::size_t i) { return sums.at(cell_of[i]).mean(); });
     add(name + "_probable",

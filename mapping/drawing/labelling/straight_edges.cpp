@@ -13,10 +13,10 @@ namespace madori::mapping {
 namespace {
 
 // The constants of the paper.
-constexpr double kScale = 0.8, kBlur = 0.75;            // of the picture: against the stairs of slanted lines
-constexpr double kWithin = std::numbers::pi / 8;        // radians
-constexpr double kLeastStep = 2 / 0.38268343236508977;  // rounding can turn smaller ones further than that
-constexpr double kDense = 0.7, kShrink = 0.75;          // share of a rectangle that its places fill
+constexpr double kScale = 0.8, kBlur = 0.75;      // of the picture: against the stairs of slanted lines
+constexpr double kWithin = std::numbers::pi / 8;  // radians
+const double kLeastStep = 2 / std::sin(kWithin);  // rounding can turn smaller ones further than that
+constexpr double kDense = 0.7, kShrink = 0.75;    // share of a rectangle that its places fill
 constexpr std::size_t kLevels = 1024;
 
 /// A pixel where the grey changes.
@@ -35,6 +35,7 @@ class Grower {
  public:
   explicit Grower(const cv::Mat& picture) : width_(picture.cols), height_(picture.rows) {
     at_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1);
+    places_.reserve(at_.size() / 8);
     for (int y = 0; y + 1 < height_; ++y)
       row(picture.ptr<std::uint8_t>(y), picture.ptr<std::uint8_t>(y + 1), y);
     used_.assign(places_.size(), false);
@@ -58,11 +59,11 @@ class Grower {
 
  private:
   void row(const std::uint8_t* here, const std::uint8_t* below, int y) {
-    constexpr int kSquare = static_cast<int>(4 * kLeastStep * kLeastStep);
+    const int least = static_cast<int>(4 * kLeastStep * kLeastStep);
     for (int x = 0; x + 1 < width_; ++x) {
       const int falling = below[x + 1] - here[x], rising = here[x + 1] - below[x];
       const int gx = falling + rising, gy = falling - rising, square = gx * gx + gy * gy;
-      if (square <= kSquare) continue;
+      if (square <= least) continue;
       const float length = std::sqrt(static_cast<float>(square));
       at_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] =
           static_cast<std::int32_t>(places_.size());
@@ -109,7 +110,7 @@ class Grower {
           mark(i, true);
           region_.push_back(i);
           cosine += p.cosine, sine += p.sine;
-          length = std::hypot(cosine, sine);
+          length = std::sqrt(cosine * cosine + sine * sine);
         }
     }
   }

@@ -6,12 +6,14 @@
 #include <numeric>
 #include <string>
 
+#include "mapping/drawing/labelling/log_odds.hpp"
+
 namespace madori::mapping {
 namespace {
 
-constexpr double kTrust = 4;    // how far a touch moves the odds of its own edge, natural logarithm
-constexpr double kAlike = 0.3;  // unlikeness at which it moves others by three fifths of that
-constexpr double kCertain = 1e-3;
+constexpr double kTrust = 4;         // how far a touch moves the odds of its own edge, natural logarithm
+constexpr double kAlike = 0.3;       // unlikeness at which it moves others by three fifths of that
+constexpr double kUncertain = 1e-3;  // of every judgement, beside a touch
 
 /// What edges are compared by, each 0..1 over the sheet.
 constexpr std::array<const char*, 9> kCompared{"length_rank", "width_rank",     "contrast_rank",
@@ -66,11 +68,8 @@ std::vector<float> taught_edges(const LabelSheet& sheet, std::vector<float> prob
       moved[i] += (touch.wall ? kTrust : -kTrust) * std::exp(-square / (2 * kAlike * kAlike));
     }
   }
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    const double p = std::clamp<double>(probabilities[i], kCertain, 1 - kCertain);
-    const double odds = p / (1 - p) * std::exp(moved[i]);
-    probabilities[i] = static_cast<float>(odds / (1 + odds));
-  }
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    probabilities[i] = static_cast<float>(probability_of(log_odds(probabilities[i], kUncertain) + moved[i]));
   return probabilities;
 }
 

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include "core/result.hpp"
+#include "mapping/drawing/labelling/log_odds.hpp"
 
 // The model file becomes read-only data of the library.
 asm(".pushsection .rodata\n"
@@ -50,8 +49,7 @@ const WallModel& WallModel::shipped() {
 }
 
 double WallModel::told(double judged) const {
-  const double log_odds = std::log(std::max(1e-9, judged) / std::max(1e-9, 1 - judged));
-  return 1 / (1 + std::exp(-calibration_.slope * log_odds - calibration_.offset));
+  return probability_of(calibration_.slope * log_odds(judged, 1e-9) + calibration_.offset);
 }
 
 std::string WallModel::bytes() const {

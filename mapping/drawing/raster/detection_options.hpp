@@ -30,7 +30,15 @@ struct DetectionOptions {
   bool straighten = true;
 
   /// Why these options make no sense; empty when they do.
-  [[nodiscard]] std::string why_invalid() const;
+  [[nodiscard]] std::string why_invalid() const {
+    const auto outside = [](const std::optional<double>& value, double high) {
+      return value && !(*value >= 0 && *value <= high);
+    };
+    if (outside(min_wall_length_px, 1e6)) return "the shortest wall must be 0 pixels or more";
+    if (outside(close_gap_px, 1e4)) return "the gap to close must be 0 pixels or more";
+    if (outside(strictness, 1e3)) return "the strictness must be 0 or more";
+    return {};
+  }
   [[nodiscard]] bool is_valid() const { return why_invalid().empty(); }
 };
 

@@ -8,13 +8,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <string_view>
 
 namespace madori::mapping {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
-constexpr std::uint32_t kHeader = 0x49484452, kData = 0x49444154, kEnd = 0x49454E44, kAlpha = 0x74524E53;
-constexpr std::uint32_t kAncillary = 0x20000000;  // of a chunk's type: may be skipped
 constexpr std::size_t kSignature = 8, kAroundChunk = 12, kHeaderSize = 13;
 constexpr std::size_t kMostDeflated = 1032;  // bytes that one byte of DEFLATE can stand for
 
@@ -23,8 +22,10 @@ std::uint32_t u32(const std::uint8_t* at) {
 }
 
 struct Chunk {
-  std::uint32_t type = 0;
+  std::string_view type;
   Bytes data;
+
+  [[nodiscard]] bool may_be_skipped() const { return type.front() >= 'a'; }  // PNG 1.2, 3.3: small letters
 };
 
 /// The whole chunk at the head of `rest`, which moves behind it; nothing where it is cut off or damaged.
@@ -32,7 +33,7 @@ std::optional<Chunk> next_chunk(Bytes& rest) {
   if (rest.size() < kAroundChunk) return std::nullopt;
   const std::size_t length = u32(rest.data());
   if (length > rest.size() - kAroundChunk) return std::nullopt;
-  const Chunk chunk{u32(&rest[4]), rest.subspan(8, length)};
+  const Chunk chunk{{reinterpret_cast<const char*>(&rest[4]), 4}, rest.subspan(8, length)};
   if (libdeflate_crc32(0, &rest[4], length + 4) != u32(&rest[8 + length])) return std::nullopt;
   rest = rest.subspan(kAroundChunk + length);
   return chunk;
@@ -48,17 +49,17 @@ std::optional<Packed> unpack_chunks(Bytes rest) {
   rest = rest.subspan(kSignature);
   const auto header = next_chunk(rest);
   constexpr std::array<std::uint8_t, 5> kPlainGrey{8, 0, 0, 0, 0};  // depth, colour, ..., interlacing
-  if (!header || header->type != kHeader || header->data.size() != kHeaderSize ||
+  if (!header || header->type != "IHDR" || header->data.size() != kHeaderSize ||
       !std::equal(kPlainGrey.begin(), kPlainGrey.end(), header->data.begin() + 8))
     return std::nullopt;
   Packed packed{u32(header->data.data()), u32(&header->data[4]), {}};
   packed.data.reserve(rest.size());
   bool data_ended = false;
   for (auto chunk = next_chunk(rest); chunk; chunk = next_chunk(rest)) {
-    if (chunk->type == kEnd) return packed;
-    if (chunk->type == kAlpha || (chunk->type != kData && (chunk->type & kAncillary) == 0))
-      return std::nullopt;
-    if (chunk->type != kData) {
+    if (chunk->type == "IEND") return packed;
+    const bool pixels = chunk->type == "IDAT";
+    if (chunk->type == "tRNS" || (!pixels && !chunk->may_be_skipped())) return std::nullopt;
+    if (!pixels) {
       data_ended = !packed.data.empty();
       continue;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 namespace madori::mapping {
 namespace {
@@ -24,6 +25,10 @@ class Reader {
   }
   [[nodiscard]] std::uint32_t u16(std::size_t at) const { return integer(at, 2); }
   [[nodiscard]] std::uint32_t u32(std::size_t at) const { return integer(at, 4); }
+  [[nodiscard]] bool is(std::size_t at, std::string_view word) const {
+    const auto text = at < bytes_.size() ? bytes_.subspan(at) : std::span<const std::uint8_t>();
+    return text.size() >= word.size() && std::equal(word.begin(), word.end(), text.begin());
+  }
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
 
  private:
@@ -39,18 +44,16 @@ bool starts_with(std::span<const std::uint8_t> bytes, const std::array<std::uint
 ImageHeader png(std::span<const std::uint8_t> bytes) {
   const Reader read(bytes, true);
   ImageHeader header{ImageFormat::Png, read.u32(16), read.u32(20), 0};
-  constexpr std::uint32_t kPhys = 0x70485973, kData = 0x49444154;
   for (std::size_t at = 8; at + 12 <= read.size();) {
-    const std::uint32_t type = read.u32(at + 4);
-    if (type == kData) break;
-    if (type == kPhys && read.integer(at + 16, 1) == 1) header.dpi = read.u32(at + 8) * kInch;
+    if (read.is(at + 4, "IDAT")) break;
+    if (read.is(at + 4, "pHYs") && read.integer(at + 16, 1) == 1) header.dpi = read.u32(at + 8) * kInch;
     at += 12 + static_cast<std::size_t>(read.u32(at));
   }
   return header;
 }
 
 double jfif_dpi(const Reader& read, std::size_t at) {
-  if (read.u32(at + 4) != 0x4A464946) return 0;  // "JFIF"
+  if (!read.is(at + 4, "JFIF")) return 0;
   const std::uint32_t unit = read.integer(at + 11, 1);
   return unit == 1 ? read.u16(at + 12) : unit == 2 ? read.u16(at + 12) * 2.54 : 0;
 }

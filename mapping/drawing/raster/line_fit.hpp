@@ -1,31 +1,29 @@
 #pragma once
 
+#include <algorithm>
+#include <opencv2/core/types.hpp>
+
 #include "mapping/drawing/pixel_segment.hpp"
 
 namespace madori::mapping {
 
-struct LinePoint {
-  double u = 0, v = 0;
-};
-
-/// An endless line in Hesse form with its middle, pixels.
+/// An endless line, pixels.
 struct FittedLine {
-  double middle_u = 0, middle_v = 0;
-  double direction_u = 1, direction_v = 0;  ///< unit length
+  cv::Point2d middle, direction;  ///< unit length
 
-  [[nodiscard]] double along(double u, double v) const {
-    return (u - middle_u) * direction_u + (v - middle_v) * direction_v;
-  }
+  [[nodiscard]] double along(double u, double v) const { return (cv::Point2d(u, v) - middle).dot(direction); }
   [[nodiscard]] double across(double u, double v) const {
-    return (v - middle_v) * direction_u - (u - middle_u) * direction_v;
+    return direction.cross(cv::Point2d(u, v) - middle);
   }
-  [[nodiscard]] PixelSegment segment(double from, double to) const {
-    return {middle_u + from * direction_u, middle_v + from * direction_v, middle_u + to * direction_u,
-            middle_v + to * direction_v};
+  [[nodiscard]] cv::Point2d at(double along, double across) const {
+    return middle + along * direction + across * cv::Point2d(-direction.y, direction.x);
   }
 };
 
 /// Through both ends of a segment of some length.
-[[nodiscard]] FittedLine line_through(const PixelSegment& segment);
+[[nodiscard]] inline FittedLine line_through(const PixelSegment& s) {
+  const double length = std::max(1e-9, s.length_px());
+  return {{0.5 * (s.u1 + s.u2), 0.5 * (s.v1 + s.v2)}, {(s.u2 - s.u1) / length, (s.v2 - s.v1) / length}};
+}
 
 }  // namespace madori::mapping

@@ -12,9 +12,8 @@ LineIndex::LineIndex(const DrawnLines& lines, double cell_px) : cell_px_(cell_px
     right = std::max({right, s.u1, s.u2});
     bottom = std::max({bottom, s.v1, s.v2});
   }
-  columns_ = static_cast<int>(right / cell_px) + 1;
-  rows_ = static_cast<int>(bottom / cell_px) + 1;
-  cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  size_ = {static_cast<int>(right / cell_px) + 1, static_cast<int>(bottom / cell_px) + 1};
+  cells_.resize(static_cast<std::size_t>(size_.area()));
   for (std::size_t i = 0; i < lines.size(); ++i) insert(static_cast<std::uint32_t>(i), lines[i].segment);
 }
 
@@ -23,10 +22,10 @@ void LineIndex::insert(std::uint32_t line, const PixelSegment& s) {
   std::size_t before = cells_.size();
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
-    const int column = cell_of(std::lerp(s.u1, s.u2, t), columns_);
-    const int row = cell_of(std::lerp(s.v1, s.v2, t), rows_);
-    const auto cell =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+    const int column = cell_of(std::lerp(s.u1, s.u2, t), size_.width);
+    const int row = cell_of(std::lerp(s.v1, s.v2, t), size_.height);
+    const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(size_.width) +
+                      static_cast<std::size_t>(column);
     if (cell != before) cells_[cell].push_back(line);
     before = cell;
   }

@@ -54,10 +54,9 @@ ImageHeader checked_header(const fs::path& file, const std::vector<std::uint8_t>
 /// Whether the end-of-image marker follows the picture's data (ITU-T T.81 B.1.1.2; the data itself holds no
 /// such marker, a thumbnail before it may). Decoders fill what is missing of a JPEG with grey.
 bool ends_as_jpeg(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::uint8_t kStartOfScan = 0xDA;
-  constexpr std::array<std::uint8_t, 2> kEnd{0xFF, 0xD9};
+  constexpr std::array<std::uint8_t, 2> kScan{0xFF, 0xDA}, kEnd{0xFF, 0xD9};
   std::size_t at = 2;
-  while (at + 4 <= bytes.size() && bytes[at] == 0xFF && bytes[at + 1] != kStartOfScan)
+  while (at + 4 <= bytes.size() && bytes[at] == kScan[0] && bytes[at + 1] != kScan[1])
     at += bytes[at + 1] == 0xFF ? 1 : 2 + (std::size_t{bytes[at + 2]} << 8U | bytes[at + 3]);
   const auto data = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at, bytes.size()));
   return std::search(data, bytes.end(), kEnd.begin(), kEnd.end()) != bytes.end();

@@ -8,6 +8,8 @@ namespace madori::mapping {
 
 /// Larger pictures are refused before they are decoded.
 constexpr double kMaxImageMegapixels = 300;
+/// The longer side that a drawing without pixels is given, where nobody asks for another resolution.
+constexpr double kWantedPx = 5000;
 
 /// Reads PNG (grey, colour, palette, alpha; 1 to 16 bit), JPEG (its EXIF orientation applied), TIFF and BMP.
 /// Transparent becomes white. Throws Error naming the file and the mend: not a file, not readable, not an

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <optional>
 
 namespace madori::mapping {
 
@@ -14,21 +15,21 @@ class QuietStderr {
     std::fflush(stderr);
     const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (nowhere < 0) return;
-    kept_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-    if (kept_ >= 0) ::dup2(nowhere, STDERR_FILENO);
+    const int copy = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    if (copy >= 0) ::dup2(nowhere, STDERR_FILENO), kept_ = copy;
     ::close(nowhere);
   }
   ~QuietStderr() {
-    if (kept_ < 0) return;
+    if (!kept_) return;
     std::fflush(stderr);
-    ::dup2(kept_, STDERR_FILENO);
-    ::close(kept_);
+    ::dup2(*kept_, STDERR_FILENO);
+    ::close(*kept_);
   }
   QuietStderr(const QuietStderr&) = delete;
   QuietStderr& operator=(const QuietStderr&) = delete;
 
  private:
-  int kept_ = -1;
+  std::optional<int> kept_;
 };
 
 }  // namespace madori::mapping

@@ -12,16 +12,15 @@
 namespace madori::mapping {
 namespace {
 
-constexpr double kReach = 1.5;  // pixels of the lines: a line moves no further
-constexpr double kBeyond =
-    2.5;  // pixels of paper beside a stroke, or of both sides of a face, that are looked at
-constexpr double kStep = 0.5;  // across, pixels of the finer picture
-constexpr double kAlong = 2;   // pixels between samples
+constexpr double kReach = 1.5;   // pixels of the lines: a line moves no further
+constexpr double kBeyond = 2.5;  // pixels of paper beside a stroke, or of both sides of a face, looked at
+constexpr double kStep = 0.5;    // across, pixels of the finer picture
+constexpr double kAlong = 2;     // pixels between samples
 constexpr int kMostSamples = 300;
 constexpr std::size_t kFewest = 5, kFewestToTurn = 12;
-constexpr double kLeastShare = 0.25;  // of the samples
-constexpr double kAside = 0.5;        // pixels from the median: a sample on something else
-constexpr double kMostTurn = 0.75;    // pixels at the ends
+constexpr double kLeastShare = 0.25;      // of the samples
+constexpr double kAside = 0.5;            // pixels from the median: a sample on something else
+constexpr double kMostTurn = kReach / 2;  // pixels at the ends
 
 struct Sample {
   double along = 0, offset = 0;
@@ -41,16 +40,16 @@ class Settler {
     const auto [shift, turn] = moved(half);
     const double first = shift - turn * half, last = shift + turn * half;
     PixelSegment& s = line.segment;
-    s = {s.u1 - first * axis.direction_v, s.v1 + first * axis.direction_u, s.u2 - last * axis.direction_v,
-         s.v2 + last * axis.direction_u};
+    const cv::Point2d a = axis.at(-half, first), b = axis.at(half, last);
+    s = {a.x, a.y, b.x, b.y};
   }
 
  private:
-  /// Bilinear; beyond the border the border goes on. (u, v) in pixels of the lines.
-  [[nodiscard]] float darkness_at(double u, double v) const {
+  /// Bilinear; beyond the border the border goes on. Pixels of the lines.
+  [[nodiscard]] float darkness_at(const cv::Point2d& p) const {
     const GrayImage& image = drawing_.image;
-    const double x = std::clamp(u * drawing_.u_scale - 0.5, 0.0, image.width_px - 1.0);
-    const double y = std::clamp(v * drawing_.v_scale - 0.5, 0.0, image.height_px - 1.0);
+    const double x = std::clamp(p.x * drawing_.scale.x - 0.5, 0.0, image.width_px - 1.0);
+    const double y = std::clamp(p.y * drawing_.scale.y - 0.5, 0.0, image.height_px - 1.0);
     const int x0 = std::min(static_cast<int>(x), std::max(0, image.width_px - 2));
     const int y0 = std::min(static_cast<int>(y), std::max(0, image.height_px - 2));
     const int x1 = std::min(x0 + 1, image.width_px - 1), y1 = std::min(y0 + 1, image.height_px - 1);
@@ -64,15 +63,12 @@ class Settler {
   }
 
   void take_profile(const FittedLine& axis, double along, double half_width) {
-    profile_.step_px = kStep / std::max(1.0, drawing_.u_scale);
+    profile_.step_px = kStep / std::max(1.0, drawing_.scale.x);
     const int steps = static_cast<int>(std::ceil(half_width / profile_.step_px));
     profile_.first_px = -steps * profile_.step_px;
     profile_.darkness.clear();
-    const double u = axis.middle_u + along * axis.direction_u, v = axis.middle_v + along * axis.direction_v;
-    for (int k = -steps; k <= steps; ++k) {
-      const double across = k * profile_.step_px;
-      profile_.darkness.push_back(darkness_at(u - across * axis.direction_v, v + across * axis.direction_u));
-    }
+    for (int k = -steps; k <= steps; ++k)
+      profile_.darkness.push_back(darkness_at(axis.at(along, k * profile_.step_px)));
   }
 
   void take_samples(const DrawnLine& line, const FittedLine& axis) {

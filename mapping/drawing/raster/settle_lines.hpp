@@ -1,5 +1,7 @@
 #pragma once
 
+#include <opencv2/core/types.hpp>
+
 #include "mapping/drawing/gray_image.hpp"
 #include "mapping/drawing/raster/drawn_line.hpp"
 
@@ -7,9 +9,8 @@ namespace madori::mapping {
 
 /// What the lines are settled on.
 struct GreyDrawing {
-  const GrayImage& image;  ///< as it was drawn
-  double u_scale = 1;      ///< its pixels for one pixel of the lines
-  double v_scale = 1;
+  const GrayImage& image;     ///< as it was drawn
+  cv::Point2d scale{1, 1};    ///< its pixels for one pixel of the lines
   bool bright_lines = false;  ///< on a dark ground
 };
 

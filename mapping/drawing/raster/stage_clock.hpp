@@ -7,17 +7,25 @@
 
 namespace madori::mapping {
 
-/// Times the stages of one detection and announces them.
+/// Times the stages of an import and announces them.
 class StageClock {
  public:
-  StageClock(DetectedWalls& found, const Progress& progress) : found_(found), progress_(progress) {}
+  StageClock(std::vector<StageReport>& reports, const Progress& progress)
+      : reports_(reports), progress_(progress) {}
 
   /// `share` of the whole work is done when the stage begins.
-  void begin(const std::string& name, double share);
-  void end(std::size_t count);
+  void begin(const std::string& name, double share) {
+    if (progress_) progress_(name, share);
+    name_ = name;
+    start_ = std::chrono::steady_clock::now();
+  }
+  void end(std::size_t count) {
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start_;
+    reports_.push_back({name_, spent.count(), count});
+  }
 
  private:
-  DetectedWalls& found_;
+  std::vector<StageReport>& reports_;
   const Progress& progress_;
   std::string name_;
   std::chrono::steady_clock::time_point start_;

@@ -25,8 +25,7 @@ constexpr std::array<Unit, 6> kUnits{{{4, 0.001, "millimetres", "mm", true},
                                       {1, 0.0254, "inches", "in", false},
                                       {2, 0.3048, "feet", "ft", false}}};
 
-constexpr double kShortestBuildingM = 3.0;
-constexpr double kLongestBuildingM = 2000.0;
+constexpr double kShortestBuildingM = 3, kLongestBuildingM = 2000;
 
 /// How well a unit explains the drawing; negative where it cannot.
 int score(const Unit& unit, const DxfUnitEvidence& evidence) {

@@ -8,13 +8,13 @@
 #include <sstream>
 
 #include "core/result.hpp"
+#include "mapping/drawing/raster/load_image.hpp"
 #include "mapping/drawing/vector/dxf_layers.hpp"
 #include "mapping/drawing/vector/dxf_lines.hpp"
 
 namespace madori::mapping {
 namespace {
 
-constexpr double kLongerSidePx = 4000.0;
 constexpr double kMargin = 0.02;  // of the longer side
 
 struct Bounds {
@@ -143,12 +143,12 @@ Plan load_dxf(const std::filesystem::path& file, const PlanOptions& options) {
   const auto meaning = meanings(content, options, file.string());
   const bool unknown_is_wall = unknown_layers_are_walls(content, meaning);
 
-  const double unit_per_px = bounds.longer() * (1.0 + 2.0 * kMargin) / kLongerSidePx;
+  const double unit_per_px = bounds.longer() * (1.0 + 2.0 * kMargin) / kWantedPx;
   const double left = bounds.x0 - kMargin * bounds.longer(), low = bounds.y0 - kMargin * bounds.longer();
-  const int width = static_cast<int>(
-      std::ceil((bounds.x1 - left) / unit_per_px + kMargin * kLongerSidePx / (1 + 2 * kMargin)));
-  const int height = static_cast<int>(
-      std::ceil((bounds.y1 - low) / unit_per_px + kMargin * kLongerSidePx / (1 + 2 * kMargin)));
+  const int width =
+      static_cast<int>(std::ceil((bounds.x1 - left) / unit_per_px + kMargin * kWantedPx / (1 + 2 * kMargin)));
+  const int height =
+      static_cast<int>(std::ceil((bounds.y1 - low) / unit_per_px + kMargin * kWantedPx / (1 + 2 * kMargin)));
 
   Plan plan;
   plan.vectors.emplace();

@@ -17,7 +17,6 @@ namespace madori::mapping {
 namespace {
 
 constexpr double kPointsPerInch = 72.0;
-constexpr double kWantedPx = 5000.0;
 
 double choose_dpi(const poppler::rectf& page, std::optional<double> dpi) {
   if (dpi) return *dpi;

@@ -13,7 +13,6 @@
 namespace madori::mapping {
 namespace {
 
-constexpr double kWantedPx = 5000.0;
 constexpr double kCssDpi = 96.0;
 
 template <auto Free>

@@ -22,8 +22,9 @@ std::filesystem::path trace_file(const DriveOptions& options, std::string name) 
   return options.trace.empty() ? "" : options.trace / (name + ".csv");
 }
 
-app::SiteForDriving site_of(const BuildingStart& start, const std::filesystem::path& folder) {
+app::SiteForDriving site_of(const BuildingStart& start, const std::filesystem::path& folder, bool hand_made) {
   make_site(start, folder);
+  if (hand_made) use_hand_made_walls(start, folder);
   return app::load_for_driving(folder);
 }
 
@@ -41,7 +42,7 @@ std::string blocked_by(const app::Navigation& way) {
 
 BuildingDrive::BuildingDrive(const BuildingStart& start, const DriveOptions& options)
     : options_(options),
-      site_(site_of(start, folder_.path() / "site")),
+      site_(site_of(start, folder_.path() / "site", options.hand_made)),
       random_(options.seed, fnv1a(start.name), 0) {
   figures_.name = start.name;
   figures_.source = options.source + "/" + options.sensor;

@@ -10,8 +10,9 @@ struct DriveOptions {
   std::string source = "localizer";
   std::string sensor = "vlp16";  ///< or scan: what it localizes with
   unsigned seed = 1;
-  int laps = 2;                 ///< the first one learns
-  double limit_s = 300.0;       ///< of one delivery, simulated
+  int laps = 2;            ///< the first one learns
+  double limit_s = 300.0;  ///< of one delivery, simulated
+  bool hand_made = false;  ///< walls as a person marked them beside the drawing, in place of the import's
   std::filesystem::path trace;  ///< folder of one CSV a start; empty: none
 };
 

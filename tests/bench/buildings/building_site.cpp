@@ -1,6 +1,7 @@
 #include "tests/bench/buildings/building_site.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -8,6 +9,8 @@
 
 #include "core/result.hpp"
 #include "mapping/drawing/import_drawing.hpp"
+#include "mapping/site/site_transaction.hpp"
+#include "mapping/wall_map/wall_files.hpp"
 
 namespace madori::bench {
 namespace {
@@ -77,6 +80,27 @@ void make_site(const BuildingStart& start, const fs::path& site) {
            fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   fs::copy(start.folder / "true.csv", site / "true.csv");
   fs::copy(start.scenario, site / "start.yaml");
+}
+
+void use_hand_made_walls(const BuildingStart& start, const fs::path& site) {
+  const fs::path file = start.drawing.parent_path() / "walls.csv";
+  std::ifstream lines(file);
+  if (!lines) throw Error(file.string(), "not found", "only some drawings have walls that a person marked");
+  const mapping::Site record = mapping::load_site(site);
+  const double s = start.m_per_px;
+  mapping::Walls walls;
+  std::string line;
+  std::getline(lines, line);  // u1,v1,u2,v2
+  for (double u1 = 0, v1 = 0, u2 = 0, v2 = 0; std::getline(lines, line);) {
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &u1, &v1, &u2, &v2) != 4)
+      throw Error(file.string(), "has a line that is no wall: " + line, "");
+    const double height = record.drawing.height_px;
+    walls.push_back(
+        {static_cast<int>(walls.size()) + 1, {{u1 * s, (height - v1) * s}, {u2 * s, (height - v2) * s}}});
+  }
+  mapping::SiteTransaction change(site);
+  mapping::stage_wall_files(change, walls, record.drawing.width_px * s, record.drawing.height_px * s, {});
+  change.commit();
 }
 
 }  // namespace madori::bench

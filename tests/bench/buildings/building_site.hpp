@@ -27,4 +27,8 @@ struct BuildingStart {
 /// VLP-16, and the building's routes, true walls and start.
 void make_site(const BuildingStart& start, const std::filesystem::path& site);
 
+/// The walls.csv beside the drawing (pixels) take the place of the imported walls. Throws Error where nobody
+/// marked any.
+void use_hand_made_walls(const BuildingStart& start, const std::filesystem::path& site);
+
 }  // namespace madori::bench

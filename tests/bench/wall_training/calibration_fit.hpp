@@ -1,10 +1,9 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "mapping/drawing/labelling/log_odds.hpp"
 #include "mapping/drawing/labelling/wall_model.hpp"
 
 namespace madori::training {
@@ -14,8 +13,7 @@ namespace madori::training {
 class CalibrationFit {
  public:
   void add(double said, bool is_wall, double weight) {
-    const double p = std::clamp(said, 1e-6, 1.0 - 1e-6);
-    if (weight > 0) rows_.push_back({std::log(p / (1 - p)), is_wall ? 1.0 : 0.0, weight});
+    if (weight > 0) rows_.push_back({mapping::log_odds(said, 1e-6), is_wall ? 1.0 : 0.0, weight});
   }
 
   /// Newton's method; the likelihood is concave. As said where nothing was added.
@@ -27,7 +25,7 @@ class CalibrationFit {
       Eigen::Vector2d g(0, 0);
       for (const Row& row : rows_) {
         const Eigen::Vector2d x(row.log_odds, 1);
-        const double p = 1 / (1 + std::exp(-of.dot(x)));
+        const double p = mapping::probability_of(of.dot(x));
         g += row.weight * (row.right - p) * x;
         h += row.weight * p * (1 - p) * x * x.transpose();
       }

@@ -24,7 +24,7 @@ DrawnLine line(double u1, double v1, double u2, double v2) {
 
 TEST(Merge, JoinsPiecesAndKeepsDoorsAndSecondFaces) {
   const DrawnLines merged = merge_lines(
-      {line(0, 10, 100, 10), line(102, 10.4, 200, 10), line(0, 16, 200, 16), line(260, 10, 400, 10)}, {});
+      {line(0, 10, 100, 10), line(102, 10.4, 200, 10), line(0, 16, 200, 16), line(260, 10, 400, 10)}, 4);
   ASSERT_EQ(merged.size(), 3U);
   EXPECT_NEAR(merged[0].length_px(), 200, 0.1);
 }
@@ -33,7 +33,7 @@ TEST(Merge, ProbabilitiesAreMeansByLengthAndWallsStayApartFromOthers) {
   DrawnLine sure = line(0, 10, 300, 10), less = line(300, 10, 400, 10), none = line(400, 10, 500, 10);
   sure.probability = 0.9, less.probability = 0.5, none.probability = 0.1;
   none.rejected = RejectReason::Other;
-  const DrawnLines merged = merge_lines({sure, less, none}, {});
+  const DrawnLines merged = merge_lines({sure, less, none}, 4);
   ASSERT_EQ(merged.size(), 2U);
   EXPECT_NEAR(merged[0].probability, 0.8, 1e-9);
   EXPECT_NEAR(merged[0].length_px(), 400, 1e-9);

@@ -71,7 +71,7 @@ TEST_F(ImportDrawing, MakesAWholeSite) {
        {"site.yaml", "drawing.png", "walls.csv", "walls.pcd", "map.pgm", "map.yaml", "import.png"})
     EXPECT_TRUE(fs::exists(o.site / name)) << name;
   EXPECT_EQ(content(o.site / "drawing.png"), content(o.drawing));
-  EXPECT_GT(report.points_sampled, report.points);
+  EXPECT_GT(report.points.sampled, report.points.points.size());
   const Site site = load_scaled_site(o.site);
   EXPECT_EQ(site.drawing.width_px, 500);
   for (const auto& wall : load_walls(o.site / "walls.csv")) {

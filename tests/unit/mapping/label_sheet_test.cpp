@@ -37,8 +37,8 @@ TEST(EdgeSheet, BothSidesOfABarPointInwards) {
   ASSERT_NE(upper, nullptr);
   ASSERT_NE(lower, nullptr);
   EXPECT_GT(upper->length_px, 380 * sheet.factor);
-  EXPECT_GT(upper->normal_v, 0.99) << "the dark side is below";
-  EXPECT_LT(lower->normal_v, -0.99) << "the dark side is above";
+  EXPECT_GT(upper->normal.y, 0.99) << "the dark side is below";
+  EXPECT_LT(lower->normal.y, -0.99) << "the dark side is above";
 }
 
 TEST(EdgeViews, MeetTheOtherSideOfABar) {

@@ -34,16 +34,14 @@ GrayImage painted(const std::function<bool(double u, double v)>& is_ink, int ink
 }
 
 FittedLine axis_at(double u, double v, double angle_rad) {
-  return {u, v, std::cos(angle_rad), std::sin(angle_rad)};
+  return {{u, v}, {std::cos(angle_rad), std::sin(angle_rad)}};
 }
 
 /// A line 120 long about the axis, `off` beside it at its beginning and `off + turn` at its end.
 DrawnLine line_beside(const FittedLine& axis, double off, double turn) {
-  const PixelSegment s = axis.segment(-60, 60);
-  const double end = off + turn;
+  const cv::Point2d from = axis.at(-60, off), to = axis.at(60, off + turn);
   DrawnLine line;
-  line.segment = {s.u1 - off * axis.direction_v, s.v1 + off * axis.direction_u, s.u2 - end * axis.direction_v,
-                  s.v2 + end * axis.direction_u};
+  line.segment = {from.x, from.y, to.x, to.y};
   return line;
 }
 
@@ -82,7 +80,7 @@ TEST(SettleLines, FacesOfFillsComeToTheEdgeOfTheInk) {
     DrawnLine line = line_beside(truth, off(random), 0.4 * off(random));
     line.solid_face = true;
     EXPECT_LT(furthest_px(settled(line, {painted(fill)}), truth), kClose) << "round " << round;
-    EXPECT_LT(furthest_px(settled(line, {painted(fill, 255, 0), 1, 1, true}), truth), kClose) << round;
+    EXPECT_LT(furthest_px(settled(line, {painted(fill, 255, 0), {1, 1}, true}), truth), kClose) << round;
   }
 }
 
@@ -106,7 +104,7 @@ TEST(SettleLines, LinesInAnotherResolutionAreSettledOnTheDrawing) {
     PixelSegment& s = line.segment;
     s = {s.u1 / scale, s.v1 / scale, s.u2 / scale, s.v2 / scale};
     line.stroke_px = 8 / scale;
-    DrawnLine found = settled(line, {image, scale, scale});
+    DrawnLine found = settled(line, {image, {scale, scale}});
     PixelSegment& f = found.segment;
     f = {f.u1 * scale, f.v1 * scale, f.u2 * scale, f.v2 * scale};
     EXPECT_LT(furthest_px(found, truth), 0.08) << scale;
