@@ -21,6 +21,8 @@ constexpr double kMirroredDrawings = 0.1;
 constexpr double kLeastMirrored = 1e-4;  // nothing that was seen excludes it
 /// Poses that are given and wrong altogether: the wrong vehicle, site or button.
 constexpr double kWrongPriors = 0.05;
+/// A vehicle that said to be surer of its place was right in so many cases (docs/reference/buildings-figures.md).
+constexpr double kSurest = 0.95;
 /// What an observation is worth: rooms and aisles repeat, and so do the errors of a drawing.
 constexpr double kTrust = 0.4;
 constexpr std::size_t kSurveyed = 30;  // places that are refined, and half as many of the mirror image
@@ -110,12 +112,20 @@ struct PriorDensity {
   double wrong = 0.0;
 };
 
+double normal(const Transform2<Map, Base>& pose, const Transform2<Map, Base>& mean, double m, double rad) {
+  const double d = distance_m(pose.translation(), mean.translation()) / m;
+  const double a = wrap_angle(pose.yaw_rad() - mean.yaw_rad()) / rad;
+  return std::exp(-0.5 * (d * d + a * a)) / (std::pow(2.0 * kPi, 1.5) * m * m * rad);
+}
+
+/// The person is right and the vehicle was not, the other way round, or neither.
 PriorDensity density(const StartPrior& prior, const Transform2<Map, Base>& first, double area_m2) {
-  const double d = distance_m(first.translation(), prior.map_from_base.translation()) / prior.sigma_m;
-  const double a = wrap_angle(first.yaw_rad() - prior.map_from_base.yaw_rad()) / prior.sigma_rad;
-  const double peak = 1.0 / (std::pow(2.0 * kPi, 1.5) * prior.sigma_m * prior.sigma_m * prior.sigma_rad);
-  return {(1.0 - kWrongPriors) * peak * std::exp(-0.5 * (d * d + a * a)),
-          kWrongPriors / (2.0 * kPi * area_m2)};
+  const double vehicle = prior.former ? std::min(prior.former->probability, kSurest) : 0.0;
+  const double known =
+      vehicle > 0.0 ? normal(first, prior.former->map_from_base, 0.5 * kNearM, 0.5 * kNearRad) : 0.0;
+  return {(1.0 - kWrongPriors) * (1.0 - vehicle) *
+              normal(first, prior.map_from_base, prior.sigma_m, prior.sigma_rad),
+          kWrongPriors * (vehicle * known + (1.0 - vehicle) / (2.0 * kPi * area_m2))};
 }
 
 }  // namespace
@@ -181,6 +191,8 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
   const std::size_t known = found.size();  // they stay where they are as well as go where they are drawn to
   for (std::size_t i = 0; i < known; ++i) found.push_back(found[i]);
   if (prior) found.push_back({prior->map_from_base * memory.poses().front().inverse()});
+  if (prior && prior->former)
+    found.push_back({prior->former->map_from_base * memory.poses().front().inverse()});
   for (const auto& place : proposed) found.push_back({place * at.inverse()});
   if (everywhere) {
     for (const auto& correction : survey(fit.index(), seen.cloud, at, kSurveyed))

@@ -16,6 +16,12 @@ struct StartPrior {
   Transform2<Map, Base> map_from_base;
   double sigma_m = 0.5;
   double sigma_rad = 0.17;
+  /// Where the vehicle believed to be, and how surely, when a person told it the pose above.
+  struct Former {
+    Transform2<Map, Base> map_from_base;
+    double probability = 0.0;
+  };
+  std::optional<Former> former{};
 
   /// Of (x, y, yaw), about the pose: 1/m^2 and 1/rad^2.
   [[nodiscard]] Eigen::Matrix3d information() const {

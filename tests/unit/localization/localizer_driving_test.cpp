@@ -267,6 +267,30 @@ TEST(LocalizerDriving, APlaceThatAPersonGaveWronglyIsDoubtedSoonAndTheRightOneNa
   }));
 }
 
+TEST(LocalizerDriving, WhoKnowsItsPlaceIsNotToldAnotherOneNearBy) {
+  const mapping::Walls walls = test::factory_floor();
+  const auto moments = drive(walls, {{18.0, 6.5}, {18.0, 9.0}}, ten_hertz(), 13);
+  const Pose truth = moments.back().truth;
+  std::mt19937 engine(14);
+  for (const auto& [du, dv] : {std::pair{3.0, 0.0}, {-3.0, 0.0}, {0.0, 3.0}, {2.1, -2.1}}) {
+    Localizer localizer(walls, std::nullopt, driving_options());
+    for (const auto& moment : moments) (void)take(localizer, moment);
+    localizer.set_pose({truth.x_m() + du, truth.y_m() + dv, truth.yaw_rad()}, {});
+    PoseEstimate e;
+    for (int k = 1; k <= 80; ++k) {  // it stands
+      test::DriveMoment moment = moments.back();
+      moment.odometry.stamp = moment.odometry.stamp + std::chrono::milliseconds(100 * k);
+      moment.scan = test::simulate_scan(walls, truth, ten_hertz().lidar, engine);
+      moment.scan.stamp = moments.back().scan.stamp + std::chrono::milliseconds(100 * k);
+      e = take(localizer, moment);
+      EXPECT_FALSE(k > 20 && e.health.state == LocalizationState::Localized &&
+                   off_m(e.map_from_base, truth) > 1.0)
+          << du << ", " << dv << ": " << k;
+    }
+    EXPECT_LT(off_m(e.map_from_base, truth), 0.1) << du << ", " << dv << ": " << e.health.reason;
+  }
+}
+
 TEST(LocalizerDriving, NamesItsHypothesesWhileItSearches) {
   const mapping::Walls walls = test::laboratory_hall();
   const auto moments = drive(walls, {{1.5, 1.2}, {4.5, 1.2}}, ten_hertz(), 9);
