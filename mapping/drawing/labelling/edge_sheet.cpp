@@ -87,13 +87,10 @@ GrayImage prepared(const GrayImage& image, const Tones& tones, double factor) {
   GrayImage out{.width_px = std::max(1, static_cast<int>(std::lround(image.width_px * factor))),
                 .height_px = std::max(1, static_cast<int>(std::lround(image.height_px * factor))),
                 .dpi = image.dpi * factor};
-  // down to half the size, four neighbours are all that a pixel covers
-  const int coarser = factor < 0.5 ? cv::INTER_AREA : cv::INTER_LINEAR;
   const auto scale = [&](const cv::Mat& source, std::vector<std::uint8_t>& to, int finer) {
     to.resize(static_cast<std::size_t>(out.width_px) * static_cast<std::size_t>(out.height_px));
     cv::Mat target(out.height_px, out.width_px, CV_8UC1, to.data());
-    cv::resize(source, target, target.size(), 0, 0, factor < 1 ? coarser : finer);
-    return target;
+    cv::resize(source, target, target.size(), 0, 0, factor < 1 ? cv::INTER_AREA : finer);
   };
   const auto plane = [&](const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to) {
     if (from.empty()) return;
@@ -102,14 +99,9 @@ GrayImage prepared(const GrayImage& image, const Tones& tones, double factor) {
   };
   auto table = spread(tones);
   const cv::Mat lut(1, 256, CV_8UC1, table.data());
-  if (factor < 1) {
-    cv::Mat greys = scale(cv_view(image), out.pixels, coarser);
-    cv::LUT(greys, lut, greys);
-  } else {
-    cv::Mat greys;
-    cv::LUT(cv_view(image), lut, greys);
-    scale(greys, out.pixels, cv::INTER_CUBIC);
-  }
+  cv::Mat greys;
+  cv::LUT(cv_view(image), lut, greys);
+  scale(greys, out.pixels, cv::INTER_CUBIC);
   plane(image.red_green, out.red_green);
   plane(image.yellow_blue, out.yellow_blue);
   return out;
