@@ -9,13 +9,18 @@
 namespace madori::app {
 namespace {
 
-/// The slowest lidar rules how long nothing may be heard, and how late something is seen.
+/// The slowest lidar rules how long nothing may be heard, and how late something is seen; the highest one
+/// must fit under what is driven under.
 void take_lidars(std::vector<LidarModel> lidars, CycleConfig& config) {
   constexpr double kPatienceSweeps = 2.5;
+  constexpr double kHeadroomM = 0.1;
+  double top_m = config.check.vehicle.height_m;
   for (const LidarModel& lidar : lidars) {
+    top_m = std::max(top_m, lidar.mounting.z_m);
     config.lidar_silent_s = std::max(config.lidar_silent_s, kPatienceSweeps * lidar.period_s);
     config.braking.scan_period_s = std::max(config.braking.scan_period_s, lidar.period_s);
   }
+  config.field.top_m = top_m + kHeadroomM;
   config.check.before_braking_s = config.braking.reaction_s + config.braking.scan_period_s;
   config.sure_range_m = sure_ahead_m(lidars, config.check.vehicle.front_m);
   config.lidars = std::move(lidars);
@@ -26,7 +31,6 @@ void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
   constexpr double kTurnComfort = 2.0 / 3.0;
   config.odometry.wheels = {v.wheel_radius_m, v.wheel_radius_m, v.half_wheel_separation_m};
   config.check.vehicle = {v.length_m - v.base_to_rear_m, v.base_to_rear_m, v.width_m / 2.0, v.height_m};
-  config.field.top_m = v.height_m + 0.1;
   config.pursuit.speed.max_speed_mps = v.max_speed_mps;
   config.pursuit.speed.max_turn_rate_radps = v.max_turn_rate_radps;
   config.pursuit.speed.deceleration_mps2 = kComfort * v.max_deceleration_mps2;

@@ -14,6 +14,8 @@ DoorSpec read_door(StrictYaml& yaml) {
   d.trigger_m = yaml.number_or("trigger_m", d.trigger_m, 0.0, 100.0);
   d.hold_s = yaml.number_or("hold_s", d.hold_s, 0.0, 3600.0);
   d.period_s = yaml.number_or("period_s", d.period_s, 1.0, 86'400.0);
+  d.stuck_at = yaml.number_or("stuck_at", d.stuck_at, 0.0, 1.0);
+  d.stuck_until_s = yaml.number_or("stuck_until_s", d.stuck_until_s, 0.0, 1e7);
   yaml.refuse_unknown_keys();
   return d;
 }

@@ -79,10 +79,12 @@ struct DoorSpec {
   std::string name;
   Segment2<Plan> line;
   double height_m = 3.0;
-  double opening_s = 3.0;  ///< from shut to open
-  double trigger_m = 3.0;  ///< opens for vehicle and movers this near; 0: by the clock
-  double hold_s = 4.0;     ///< stays open after the last trigger
-  double period_s = 30.0;  ///< by the clock: opens every so often, for hold_s
+  double opening_s = 3.0;      ///< from shut to open
+  double trigger_m = 3.0;      ///< opens for vehicle and movers this near; 0: by the clock
+  double hold_s = 4.0;         ///< stays open after the last trigger
+  double period_s = 30.0;      ///< by the clock: opens every so often, for hold_s
+  double stuck_at = 1.0;       ///< share of its opening that it does not get beyond ...
+  double stuck_until_s = 0.0;  ///< ... until then
 };
 
 enum class MoverKind { Person, Forklift, Cart, Pallet, UprightBody, LyingBody };

@@ -118,7 +118,8 @@ void Door::advance(double now_s, double dt_s, const VehicleCircle& vehicle,
   const bool occupied = distance_to(vehicle.centre) < vehicle.reach_m;
   const double step = dt_s / spec_.opening_s;
   const bool opens = occupied || now_s <= wanted_until_s_;
-  openness_ = std::clamp(openness_ + (opens ? step : -step), 0.0, 1.0);
+  const double most = now_s < spec_.stuck_until_s ? spec_.stuck_at : 1.0;
+  openness_ = opens ? std::min(openness_ + step, most) : std::max(openness_ - step, 0.0);
 }
 
 std::optional<Body> Door::leaf() const {

@@ -46,6 +46,13 @@ TEST(SiteConfig, WeakAndSlowBrakesLengthenTheWayToStand) {
   EXPECT_EQ(weak.limits.turn_acceleration_radps2, 0.6);
 }
 
+TEST(SiteConfig, WhatIsDrivenUnderIsHigherThanVehicleAndLidar) {
+  mapping::VehicleRecord tall;
+  tall.height_m = 1.8;
+  EXPECT_NEAR(config_of({}).field.top_m, 1.3, 1e-9) << "the lidar at 1.2 m";
+  EXPECT_NEAR(config_of(tall).field.top_m, 1.9, 1e-9);
+}
+
 TEST(SiteConfig, RoutesAreChosenAsTheSiteSays) {
   EXPECT_EQ(config_of({}).metric, planning::RouteMetric::Hops);
   EXPECT_EQ(config_of({}, true).metric, planning::RouteMetric::Metres);

@@ -86,6 +86,22 @@ TEST(Door, ASlidingLeafDrawsBack) {
   EXPECT_NEAR(sliding.leaf()->centre.y_m, 3.0, 0.02);
 }
 
+TEST(Door, OneThatIsStuckOpensNoFurtherUntilItIsMended) {
+  DoorSpec spec = door(DoorKind::Lift);
+  spec.stuck_at = 0.5;
+  spec.stuck_until_s = 4.0;
+  Door lift(spec, kFrames);
+  double now = 0.0;
+  const auto wait = [&](double seconds) {
+    for (int i = 0; i < std::lround(seconds / kDt); ++i, now += kDt)
+      lift.advance(now, kDt, {{2.0, 2.0}, 0.6}, {});
+  };
+  wait(3.9);
+  EXPECT_NEAR(lift.openness(), 0.5, 1e-9);
+  wait(1.3);
+  EXPECT_EQ(lift.openness(), 1.0);
+}
+
 TEST(Door, NeverShutsOnTheVehicle) {
   DoorSpec spec = door(DoorKind::Lift);
   spec.trigger_m = 0.0;
