@@ -48,7 +48,6 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   if (!state.previous) state.begun = input.now;
   state.previous = input.now;
   if (step_s > config.gap_s) begin_gap(state, step_s, output);
-  state.protective_stop = input.protective_stop;
   localize(state, input, config, output);  // wheel angles and revolutions -> map_from_base
   remember_trail(state, input.now);
   watch_effort(state, input, config, output);  // driven, but not moved: something holds the vehicle
@@ -56,8 +55,8 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   check_way(state, input, config, output);     // path against scan and drawing: free, slow, blocked
   change_mode(state, input, config, output);   // what happened -> what the vehicle is about
   const VelocityCommand wanted = guarded(state, wanted_command(state, input, config), config);
-  const bool may_move = (drives(state.mode) || state.mode == Mode::Manual) && !state.protective_stop &&
-                        !state.gap && !is_silent(state.drive_heard, input.now, config.drive_silent_s);
+  const bool by_hand = state.mode == Mode::Manual;
+  const bool may_move = (drives(state.mode) || by_hand) && !forbidding_rule(state, input, config, by_hand);
   const double free_m =
       std::min(config.sure_range_m,
                drives(state.mode) ? state.way.stop_along_m - state.way.along_m : planning::PathCheck::kFree);

@@ -10,6 +10,7 @@
 #include "app/cycle/modes.hpp"
 #include "app/cycle/notice.hpp"
 #include "app/cycle/pose_source.hpp"
+#include "app/cycle/safety_rules.hpp"
 #include "app/cycle/site_in_building.hpp"
 #include "app/orders/order.hpp"
 #include "control/diff_drive/odometry.hpp"
@@ -47,6 +48,7 @@ struct CycleConfig {
   planning::WaypointOptions waypoints;
   std::vector<LidarModel> lidars;  ///< clouds and scans name theirs by its place here
   planning::RouteMetric metric = planning::RouteMetric::Hops;
+  std::vector<SafetyRule> safety_rules = standard_safety_rules();
   double look_ahead_m = 7.0;           ///< of the path, checked for obstacles
   double care_speed_mps = 0.4;         ///< beside something near
   double narrow_speed_mps = 0.2;       ///< with less than the ordinary margins
@@ -232,9 +234,8 @@ struct CycleState {
   Stamp looked{};                     ///< of the newest sweep that the way was checked with
   std::optional<Stamp> previous;
   std::optional<Stamp> gap;  ///< the first step after a time without steps, until something was measured anew
-  bool protective_stop = false;
-  Stamp begun{};                              ///< of the first step: before, no device could be heard
-  bool stopped = false;                       ///< by a person at a panel, until the next Resume
+  Stamp begun{};             ///< of the first step: before, no device could be heard
+  bool stopped = false;      ///< by a person at a panel, until the next Resume
   std::optional<std::int64_t> stopped_order;  ///< that ended with it
   VelocityCommand jog;
   Stamp jog_heard{};

@@ -19,27 +19,20 @@ bool has_fault(const CycleState& state) {
   return state.drive.state == DriveState::Fault || state.drive.faults != control::wire::kNoFault;
 }
 
-/// Whether lidar or drive data is stale, or of before a gap. All of it ends by itself.
-bool misses_a_device(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
-  return state.gap || is_silent(state.lidar_heard, input.now, config.lidar_silent_s) ||
-         is_silent(state.drive_heard, input.now, config.drive_silent_s);
-}
-
 /// Whether the way ahead lets the vehicle go on from a standstill.
 bool is_clear(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Navigation& way = state.way;
-  const bool sees = !misses_a_device(state, input, config) && !state.protective_stop;
   const bool has_way = !way.path.empty() && !way.arrived && way.turn_free && !way.held;
   const bool room = way.stop_along_m - way.along_m > kWorthGoingM;
   const bool lasting = !way.blocked_since || room;
   const bool settled = !way.free_since || to_seconds(input.now - *way.free_since) >= config.clear_for_s;
-  return sees && has_way && room && lasting && settled;
+  return !forbidding_rule(state, input, config) && has_way && room && lasting && settled;
 }
 
 bool is_blocked(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Navigation& way = state.way;
-  return way.path.empty() || way.arrived || !way.turn_free || way.held || state.protective_stop ||
-         misses_a_device(state, input, config) || way.stop_along_m - way.along_m < kStandsBeforeM;
+  return way.path.empty() || way.arrived || !way.turn_free || way.held ||
+         forbidding_rule(state, input, config) || way.stop_along_m - way.along_m < kStandsBeforeM;
 }
 
 std::optional<ModeEvent> event_of(OperatorWord word) {

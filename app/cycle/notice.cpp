@@ -11,19 +11,27 @@ namespace {
 static_assert(kCauses.size() == static_cast<std::size_t>(Cause::LidarBlind) + 1);
 static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::UncoverLidar) + 1);
 
-Notice filled(const CatalogueEntry& entry, std::map<std::string, std::string> values) {
+}  // namespace
+
+const CatalogueEntry& entry(Cause cause) {
+  return kCauses.at(static_cast<std::size_t>(cause));
+}
+
+const CatalogueEntry& entry(Remedy remedy) {
+  return kRemedies.at(static_cast<std::size_t>(remedy));
+}
+
+Notice notice(const CatalogueEntry& entry, std::map<std::string, std::string> values) {
   std::string text = fill_in(entry.english, values);
   return {entry.code, std::move(values), std::move(text)};
 }
 
-}  // namespace
-
 Notice notice(Cause cause, std::map<std::string, std::string> values) {
-  return filled(kCauses.at(static_cast<std::size_t>(cause)), std::move(values));
+  return notice(entry(cause), std::move(values));
 }
 
 Notice notice(Remedy remedy, std::map<std::string, std::string> values) {
-  return filled(kRemedies.at(static_cast<std::size_t>(remedy)), std::move(values));
+  return notice(entry(remedy), std::move(values));
 }
 
 }  // namespace madori::app

@@ -150,7 +150,10 @@ inline constexpr CatalogueEntry kTimeGapEvent{"event.time-gap",
                                               "forward, by {seconds} s; the vehicle stands until "
                                               "it has measured anew"};
 
+[[nodiscard]] const CatalogueEntry& entry(Cause cause);
+[[nodiscard]] const CatalogueEntry& entry(Remedy remedy);
 /// The notice with its English text. Precondition: `values` names every placeholder of the entry.
+[[nodiscard]] Notice notice(const CatalogueEntry& entry, std::map<std::string, std::string> values = {});
 [[nodiscard]] Notice notice(Cause cause, std::map<std::string, std::string> values = {});
 [[nodiscard]] Notice notice(Remedy remedy, std::map<std::string, std::string> values = {});
 

@@ -71,8 +71,8 @@ Standstill why_at_stop(const OrderStop& stop, Stamp now) {
 Standstill why_waiting(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Navigation& way = state.way;
   const Stamp now = input.now;
-  if (state.gap) return because(Cause::TimeGap, Remedy::ByItself, now);
-  if (state.protective_stop) return because(Cause::ProtectiveField, Remedy::ClearField, now);
+  if (const auto* rule = forbidding_rule(state, input, config))
+    return {notice(rule->cause), notice(rule->remedy), now};
   if (way.arrived) return why_at_stop(way.stop, now);
   if (!way.no_way.empty()) return {way.no_way, notice(Remedy::ClearOrDraw), now};
   if (way.felt) return because(Cause::HeldBack, Remedy::LookAndResume, now);

@@ -9,7 +9,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 10;
+constexpr std::uint32_t kFormat = 11;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -119,7 +119,7 @@ template <class Bytes, class State>
 void each_of(Bytes& bytes, State& s) {
   auto& [mode, standstill, odometry, track, localization, site, pose, obstacles, movers, drive, drive_heard,
          drive_clock, drive_us, drive_restarted, lidars_heard, lidar_heard, looked, previous, gap,
-         protective_stop, begun, stopped, stopped_order, jog, jog_heard, way, trail, trail_at, effort, limits,
+         begun, stopped, stopped_order, jog, jog_heard, way, trail, trail_at, effort, limits,
          unarmed_steps, bench] = s;
   static_cast<void>(bench);       // nothing in it lasts
   static_cast<void>(standstill);  // for people, each step anew
@@ -127,7 +127,7 @@ void each_of(Bytes& bytes, State& s) {
       static_cast<void>(pose);                              // a recording's own part
   static_cast<void>(obstacles), static_cast<void>(movers);  // below: they guard their fields
   each(bytes, mode, odometry, track, drive, drive_heard, drive_clock, drive_us, drive_restarted, lidars_heard,
-       lidar_heard, looked, previous, gap, protective_stop, begun, stopped, stopped_order, jog, jog_heard,
+       lidar_heard, looked, previous, gap, begun, stopped, stopped_order, jog, jog_heard,
        trail, trail_at, effort, limits, unarmed_steps);
   each_of_way(bytes, way);
 }

@@ -54,7 +54,7 @@ class ToyVehicle {
     time_s_ += kStep_s;
     const auto micros = static_cast<std::uint32_t>(std::llround((time_s_ - drive_started_s) * 1e6));
     turn_wheels();
-    controller_.tick({emergency_stop, bumper, drive_faults, angle(left_rad_), angle(right_rad_), 25'000},
+    controller_.tick({emergency_stop, bumper, drive_faults, angle(left_rad_), angle(right_rad_), battery_mv},
                      micros);
     app::CycleInput input;
     input.now = stamp_from_seconds(1'000.0 + time_s_ + clock_s);
@@ -120,6 +120,7 @@ class ToyVehicle {
   ToyLidar lidar;
   bool emergency_stop = false, bumper = false, drive_silent = false, lidar_silent = false;
   std::uint16_t drive_faults = 0;
+  std::uint16_t battery_mv = 25'000;
   double clock_s = 0.0;          ///< what was added to the computer's clock
   double cloud_age_s = 0.0;      ///< revolutions are stamped so long ago
   double drive_started_s = 0.0;  ///< when its power came: its clock counts from there

@@ -1,0 +1,46 @@
+#include "app/cycle/safety_rules.hpp"
+
+#include <algorithm>
+
+#include "app/cycle/stages.hpp"
+
+namespace madori::app {
+namespace {
+
+/// No step came for so long that what was heard is of another time.
+bool after_a_gap(const CycleState& state, const CycleInput& /*input*/, const CycleConfig& /*config*/) {
+  return state.gap.has_value();
+}
+
+bool field_is_entered(const CycleState& /*state*/, const CycleInput& input, const CycleConfig& /*config*/) {
+  return input.protective_stop;
+}
+
+bool drive_is_silent(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  return is_silent(state.drive_heard, input.now, config.drive_silent_s);
+}
+
+bool lidar_is_silent(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  return is_silent(state.lidar_heard, input.now, config.lidar_silent_s);
+}
+
+}  // namespace
+
+std::vector<SafetyRule> standard_safety_rules() {
+  return {
+      {entry(Cause::TimeGap), entry(Remedy::ByItself), true, after_a_gap},
+      {entry(Cause::ProtectiveField), entry(Remedy::ClearField), true, field_is_entered},
+      {entry(Cause::DriveSilent), entry(Remedy::CheckDrive), true, drive_is_silent},
+      {entry(Cause::LidarSilent), entry(Remedy::CheckLidar), false, lidar_is_silent},
+  };
+}
+
+const SafetyRule* forbidding_rule(const CycleState& state, const CycleInput& input, const CycleConfig& config,
+                                  bool by_hand) {
+  const auto rule = std::ranges::find_if(config.safety_rules, [&](const SafetyRule& r) {
+    return (r.by_hand || !by_hand) && r.holds(state, input, config);
+  });
+  return rule == config.safety_rules.end() ? nullptr : &*rule;
+}
+
+}  // namespace madori::app
