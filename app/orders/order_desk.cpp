@@ -25,7 +25,7 @@ OrderDesk::~OrderDesk() {
 
 std::optional<Order> OrderDesk::order(Stamp now, bool may_begin) {
   std::unique_lock lock(mutex_);
-  const bool due = !(to_seconds(now - asked_) < options_.poll_s);
+  const bool due = seen_ && !(to_seconds(now - asked_) < options_.poll_s);
   if (due) {
     asked_ = now;
     waiting_.look = true;
@@ -34,11 +34,7 @@ std::optional<Order> OrderDesk::order(Stamp now, bool may_begin) {
   }
   if (due && options_.lock_step) do_work(lock);
   if (due) wake_.notify_one();
-  return order_;
-}
-
-std::optional<Order> OrderDesk::newest() const {
-  const std::scoped_lock lock(mutex_);
+  seen_ = true;
   return order_;
 }
 
@@ -133,7 +129,7 @@ void OrderDesk::do_work(std::unique_lock<std::mutex>& lock) {
   lock.lock();
   waiting_.reports.insert(waiting_.reports.begin(), work.reports.begin(), work.reports.end());
   if (!reported && !work.look) return;
-  if (reported) waiting_.look = false;             // asked for before this: the cycle has not seen it yet
+  if (reported) waiting_.look = seen_ = false;     // a look asked for meanwhile did not know this
   if (!waiting_.fresh) order_ = std::move(order);  // a report that came meanwhile knows better
   tell(problem);
 }

@@ -32,14 +32,13 @@ class OrderDesk {
   OrderDesk(const OrderDesk&) = delete;
   OrderDesk& operator=(const OrderDesk&) = delete;
 
-  /// The order as it stood in the database lately. `may_begin`: the next one of the queue may begin.
+  /// The order as it stood in the database lately. `may_begin`: the next one of the queue may begin, once what
+  /// became of the one before was given here.
   [[nodiscard]] std::optional<Order> order(Stamp now, bool may_begin);
   void stop_reached(const Target& stop, Stamp label);
   /// The order ends at once.
   void refuse(std::int64_t id, const std::string& why, Stamp label);
   void add(EventRecord event);
-  /// The order that order() gave last.
-  [[nodiscard]] std::optional<Order> newest() const;
   /// Why orders cannot be read or written; empty while they can.
   [[nodiscard]] std::string problem() const;
 
@@ -73,6 +72,7 @@ class OrderDesk {
   std::optional<Order> order_;
   std::string problem_;
   Stamp asked_{};
+  bool seen_ = true;  ///< the cycle was given what its last report led to
   bool stop_ = false;
   std::thread thread_;
 };

@@ -74,14 +74,13 @@ void TransportRun::tick(Stamp now) {
   link_->send(result.output);
   carry_out(result.output, now);
   if (tap_) tap_(input, result.output, state_);
-  auto order = orders_.newest();
   const std::string problem = orders_.problem();
   const std::scoped_lock lock(mutex_);
   view_ = {now,
            state_.mode,
            state_.standstill,
            state_.pose,
-           std::move(order),
+           input.order,
            result.output.command,
            state_.way.cross_track_m,
            state_.drive.battery_mv / 1000.0,

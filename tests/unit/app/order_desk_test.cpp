@@ -66,7 +66,7 @@ TEST_F(OrderDeskTest, ARefusedOrderIsGoneAtOnceAndNeverComesBack) {
   OrderDesk desk(file_, {.poll_s = 0.1});
   tick_until(desk, is_running);
   desk.refuse(first, "no way", now_);
-  EXPECT_FALSE(desk.newest());
+  EXPECT_FALSE(desk.order(now_, true));
   EXPECT_EQ(tick_until(desk, is_running)->id, second);
   EXPECT_EQ(store.find(first)->state, OrderState::Refused);
 }
@@ -96,7 +96,30 @@ TEST_F(OrderDeskTest, InLockStepTheSameCallGivesTheSameOrder) {
   ASSERT_TRUE(order);
   EXPECT_EQ(order->id, id);
   desk.stop_reached({id, 0, 0}, now_);
-  EXPECT_EQ(desk.newest()->next_stop, 1U);
+  EXPECT_EQ(desk.order(now_ + std::chrono::milliseconds(110), true)->next_stop, 1U);
+}
+
+TEST_F(OrderDeskTest, TheEndOfAnOrderIsGivenBeforeTheNextOneBeginsHoweverOftenItIsLooked) {
+  OrderStore store(file_);
+  for (const bool lock_step : {true, false}) {
+    OrderDesk desk(file_, {.lock_step = lock_step, .poll_s = 0.0});
+    for (int i = 0; i < 50; ++i) {
+      const auto id = store.add({{1}}, 1, now_);
+      store.add({{2}}, 1, now_);
+      tick_until(desk, is_running);
+      desk.stop_reached({id, 0, 0}, now_);
+      std::optional<Order> given;
+      do {
+        now_ += kTick;
+        given = desk.order(now_, true);
+        ASSERT_TRUE(given && given->id == id) << "order " << id << ", lock step " << lock_step;
+      } while (given->state == OrderState::Running);
+      EXPECT_EQ(given->state, OrderState::Done);
+      const auto next = tick_until(desk, is_running);
+      desk.stop_reached({next->id, 0, 0}, now_);
+      tick_until(desk, [](const Order& order) { return order.state == OrderState::Done; });
+    }
+  }
 }
 
 }  // namespace
