@@ -7,16 +7,9 @@
 
 namespace madori::app {
 
-BackgroundJobs::BackgroundJobs() : thread_([this] { run(); }) {}
+BackgroundJobs::BackgroundJobs() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-BackgroundJobs::~BackgroundJobs() {
-  {
-    const std::scoped_lock lock(mutex_);
-    stop_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-}
+BackgroundJobs::~BackgroundJobs() = default;
 
 void BackgroundJobs::put(const std::string& kind, std::function<void()> job) {
   {
@@ -36,12 +29,10 @@ std::string BackgroundJobs::problem() const {
   return problem_;
 }
 
-void BackgroundJobs::run() {
+void BackgroundJobs::run(const std::stop_token& stop) {
   (void)take_role("keeping", ThreadRole::Behind);
   std::unique_lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
-    if (waiting_.empty()) return;
+  while (changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
     const auto job = std::move(waiting_.begin()->second);
     waiting_.erase(waiting_.begin());
     busy_ = true;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -26,15 +27,14 @@ class BackgroundJobs {
   [[nodiscard]] std::string problem() const;
 
  private:
-  void run();
+  void run(const std::stop_token& stop);
 
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable_any changed_;
   std::map<std::string, std::function<void()>> waiting_;
   bool busy_ = false;
-  bool stop_ = false;
   std::string problem_;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace madori::app

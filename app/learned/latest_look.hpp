@@ -4,6 +4,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <thread>
 #include <utility>
 
@@ -16,17 +17,8 @@ namespace madori::app {
 template <class Look>
 class LatestLook {
  public:
-  explicit LatestLook(std::function<void(const Look&)> work) : work_(std::move(work)) {
-    thread_ = std::thread([this] { run(); });
-  }
-  ~LatestLook() {
-    {
-      const std::scoped_lock lock(mailbox_);
-      stop_ = true;
-    }
-    wake_.notify_one();
-    thread_.join();
-  }
+  explicit LatestLook(std::function<void(const Look&)> work)
+      : work_(std::move(work)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
   LatestLook(const LatestLook&) = delete;
   LatestLook& operator=(const LatestLook&) = delete;
 
@@ -39,12 +31,10 @@ class LatestLook {
   }
 
  private:
-  void run() {
+  void run(const std::stop_token& stop) {
     (void)take_role("learning", ThreadRole::Behind);
     std::unique_lock lock(mailbox_);
-    while (true) {
-      wake_.wait(lock, [this] { return stop_ || waiting_; });
-      if (stop_) return;
+    while (wake_.wait(lock, stop, [this] { return waiting_.has_value(); }) && !stop.stop_requested()) {
       const Look look = *std::exchange(waiting_, std::nullopt);
       lock.unlock();
       work_(look);
@@ -54,10 +44,9 @@ class LatestLook {
 
   std::function<void(const Look&)> work_;
   std::mutex mailbox_;
-  std::condition_variable wake_;
+  std::condition_variable_any wake_;
   std::optional<Look> waiting_;
-  bool stop_ = false;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace madori::app

@@ -11,17 +11,10 @@ namespace madori::app {
 
 OrderDesk::OrderDesk(const std::filesystem::path& database, const Options& options)
     : options_(options), store_(database) {
-  if (!options_.lock_step) thread_ = std::thread([this] { run(); });
+  if (!options_.lock_step) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
-OrderDesk::~OrderDesk() {
-  {
-    const std::scoped_lock lock(mutex_);
-    stop_ = true;
-  }
-  wake_.notify_one();
-  if (thread_.joinable()) thread_.join();
-}
+OrderDesk::~OrderDesk() = default;
 
 std::optional<Order> OrderDesk::order(Stamp now, bool may_begin) {
   std::unique_lock lock(mutex_);
@@ -134,12 +127,12 @@ void OrderDesk::do_work(std::unique_lock<std::mutex>& lock) {
   tell(problem);
 }
 
-void OrderDesk::run() {
+void OrderDesk::run(const std::stop_token& stop) {
   (void)take_role("orders", ThreadRole::Ordinary);
   std::unique_lock lock(mutex_);
   for (bool last = false; !last;) {
-    wake_.wait(lock, [this] { return stop_ || waiting_.look || waiting_.fresh || !waiting_.events.empty(); });
-    last = stop_;
+    wake_.wait(lock, stop, [this] { return waiting_.look || waiting_.fresh || !waiting_.events.empty(); });
+    last = stop.stop_requested();
     do_work(lock);
   }
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -32,8 +33,8 @@ class OrderDesk {
   OrderDesk(const OrderDesk&) = delete;
   OrderDesk& operator=(const OrderDesk&) = delete;
 
-  /// The order as it stood in the database lately. `may_begin`: the next one of the queue may begin, once what
-  /// became of the one before was given here.
+  /// The order as it stood in the database lately. `may_begin`: the next one of the queue may begin, once
+  /// what became of the one before was given here.
   [[nodiscard]] std::optional<Order> order(Stamp now, bool may_begin);
   void stop_reached(const Target& stop, Stamp label);
   /// The order ends at once.
@@ -57,7 +58,7 @@ class OrderDesk {
   };
 
   void report(Report report);
-  void run();
+  void run(const std::stop_token& stop);
   void do_work(std::unique_lock<std::mutex>& lock);
   [[nodiscard]] std::optional<Order> settle(const Report& report);
   [[nodiscard]] std::optional<Order> look(std::optional<Order> order, const Work& work);
@@ -67,14 +68,13 @@ class OrderDesk {
   Options options_;
   OrderStore store_;  ///< of the thread that works
   mutable std::mutex mutex_;
-  std::condition_variable wake_;
+  std::condition_variable_any wake_;
   Work waiting_;
   std::optional<Order> order_;
   std::string problem_;
   Stamp asked_{};
   bool seen_ = true;  ///< the cycle was given what its last report led to
-  bool stop_ = false;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace madori::app

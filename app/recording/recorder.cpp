@@ -47,16 +47,11 @@ std::string scan_topic(std::size_t lidar) {
 }
 
 Recorder::Recorder(fs::path folder, const RecorderOptions& options)
-    : folder_(std::move(folder)), options_(options), thread_([this] { run(); }) {}
+    : folder_(std::move(folder)),
+      options_(options),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-Recorder::~Recorder() {
-  {
-    const std::scoped_lock lock(mutex_);
-    stop_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
-}
+Recorder::~Recorder() = default;
 
 void Recorder::add(const CycleInput& input, const CycleOutput& output, const CycleState& state) {
   Record record{without_clouds(input),
@@ -178,12 +173,10 @@ void Recorder::give_up_segment() {
   ++number_;
 }
 
-void Recorder::run() {
+void Recorder::run(const std::stop_token& stop) {
   (void)take_role("recorder", ThreadRole::Ordinary);
   std::unique_lock lock(mutex_);
-  while (true) {
-    wake_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
-    if (waiting_.empty()) break;
+  while (wake_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
     const auto batch = std::exchange(waiting_, {});
     lock.unlock();
     std::string problem;

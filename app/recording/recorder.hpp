@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -75,7 +76,7 @@ class Recorder {
     bool stop = false;
   };
 
-  void run();
+  void run(const std::stop_token& stop);
   bool write(const Record& record);
   void write_step(const Record& record);
   void give_up_segment();
@@ -88,11 +89,10 @@ class Recorder {
   std::filesystem::path folder_;
   RecorderOptions options_;
   mutable std::mutex mutex_;
-  std::condition_variable wake_;
+  std::condition_variable_any wake_;
   std::deque<Record> waiting_;
   std::uint64_t lost_ = 0;
   std::string problem_;
-  bool stop_ = false;
   // of add()
   bool drove_ = false;
   std::uint32_t path_of_ = 0;
@@ -104,7 +104,7 @@ class Recorder {
   std::deque<sensors::RawPacket> newest_;  ///< a little more than a revolution
   int number_ = 0;
   bool keep_ = false;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace madori::app

@@ -23,16 +23,12 @@ bool counts(Mode mode) {
 }  // namespace
 
 WorkMeter::WorkMeter(const std::filesystem::path& database)
-    : store_(database), written_(store_.sums()), since_(store_.since()), thread_([this] { run(); }) {}
+    : store_(database),
+      written_(store_.sums()),
+      since_(store_.since()),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-WorkMeter::~WorkMeter() {
-  {
-    const std::scoped_lock lock(mutex_);
-    stop_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
-}
+WorkMeter::~WorkMeter() = default;
 
 void WorkMeter::count(const CycleInput& input, const CycleState& state) {
   Step step{input.now, state.odometry.reading().odom_from_base, state.standstill.cause.code};
@@ -91,14 +87,12 @@ void WorkMeter::write() {
   }
 }
 
-void WorkMeter::run() {
+void WorkMeter::run(const std::stop_token& stop) {
   (void)take_role("work meter", ThreadRole::Behind);
-  bool stop = false;
-  while (!stop) {
+  while (!stop.stop_requested()) {
     {
       std::unique_lock lock(mutex_);
-      wake_.wait_for(lock, kWriteEvery, [this] { return stop_; });
-      stop = stop_;
+      wake_.wait_for(lock, stop, kWriteEvery, [] { return false; });
     }
     write();
   }

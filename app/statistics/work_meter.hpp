@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 
 #include "app/cycle/cycle.hpp"
@@ -29,7 +30,7 @@ class WorkMeter {
   [[nodiscard]] std::optional<Stamp> since() const;
 
  private:
-  void run();
+  void run(const std::stop_token& stop);
   void write();
 
   struct Step {
@@ -40,13 +41,12 @@ class WorkMeter {
   StatisticsStore store_;
   std::optional<Step> previous_;
   mutable std::mutex mutex_;
-  std::condition_variable wake_;
+  std::condition_variable_any wake_;
   Work written_;
   Work waiting_;
   Stamp now_{};
   std::optional<Stamp> since_;
-  bool stop_ = false;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace madori::app

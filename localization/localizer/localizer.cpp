@@ -46,8 +46,7 @@ void Localizer::begin_anew(const std::optional<StartPrior>& told, bool carried) 
 void Localizer::set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) {
   StartPrior told{map_.drawing ? map_.drawing->walls.in_building(map_from_base) : map_from_base,
                   sigma.position_m, sigma.yaw_rad};
-  if (map_.drawing && started_)
-    told.former = {anchor_ * since_scan_.motion, map_.evidence.here};
+  if (map_.drawing && started_) told.former = {anchor_ * since_scan_.motion, map_.evidence.here};
   begin_anew(told);
 }
 

@@ -6,16 +6,9 @@
 
 namespace madori::localization {
 
-ThinkingDesk::ThinkingDesk() : thread_([this] { run(); }) {}
+ThinkingDesk::ThinkingDesk() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-ThinkingDesk::~ThinkingDesk() {
-  {
-    const std::scoped_lock lock(mutex_);
-    ends_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-}
+ThinkingDesk::~ThinkingDesk() = default;
 
 void ThinkingDesk::begin(const MapState& state, const LocalizerOptions& options) {
   state_ = state;
@@ -34,12 +27,10 @@ MapState& ThinkingDesk::answer() {
   return state_;
 }
 
-void ThinkingDesk::run() {
+void ThinkingDesk::run(const std::stop_token& stop) {
   (void)take_role("thinking", ThreadRole::Ordinary);
   std::unique_lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return works_ || ends_; });
-    if (!works_) return;
+  while (changed_.wait(lock, stop, [this] { return works_.load(); })) {
     lock.unlock();
     std::exception_ptr problem;
     try {

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 
 #include "localization/localizer/map_state.hpp"
@@ -28,16 +29,15 @@ class ThinkingDesk {
   [[nodiscard]] MapState& answer();
 
  private:
-  void run();
+  void run(const std::stop_token& stop);
 
   MapState state_;
   LocalizerOptions options_;
   std::exception_ptr problem_;
   std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable_any changed_;
   std::atomic<bool> works_ = false;  ///< set by the owner, taken back by the thread
-  bool ends_ = false;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace madori::localization

@@ -21,7 +21,8 @@ constexpr double kMirroredDrawings = 0.1;
 constexpr double kLeastMirrored = 1e-4;  // nothing that was seen excludes it
 /// Poses that are given and wrong altogether: the wrong vehicle, site or button.
 constexpr double kWrongPriors = 0.05;
-/// A vehicle that said to be surer of its place was right in so many cases (docs/reference/buildings-figures.md).
+/// A vehicle that said to be surer of its place was right in so many cases
+/// (docs/reference/buildings-figures.md).
 constexpr double kSurest = 0.95;
 /// What an observation is worth: rooms and aisles repeat, and so do the errors of a drawing.
 constexpr double kTrust = 0.4;
@@ -101,10 +102,6 @@ double share_within(const Eigen::Matrix3d& hold, double m, double rad) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>());
   return within(m, std::sqrt(axes.eigenvalues()[1])) * within(rad, std::sqrt(covariance(2, 2)));
 }
-
-}  // namespace
-
-namespace {
 
 /// Density of a pose that was given rightly, and of one that was not, 1/(m^2 rad).
 struct PriorDensity {

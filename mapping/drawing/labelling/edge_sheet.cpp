@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "core/result.hpp"
 #include "mapping/drawing/labelling/straight_edges.hpp"
@@ -87,23 +88,19 @@ GrayImage prepared(const GrayImage& image, const Tones& tones, double factor) {
   GrayImage out{.width_px = std::max(1, static_cast<int>(std::lround(image.width_px * factor))),
                 .height_px = std::max(1, static_cast<int>(std::lround(image.height_px * factor))),
                 .dpi = image.dpi * factor};
-  const auto scale = [&](const cv::Mat& source, std::vector<std::uint8_t>& to, int finer) {
-    to.resize(static_cast<std::size_t>(out.width_px) * static_cast<std::size_t>(out.height_px));
-    cv::Mat target(out.height_px, out.width_px, CV_8UC1, to.data());
-    cv::resize(source, target, target.size(), 0, 0, factor < 1 ? cv::INTER_AREA : finer);
-  };
-  const auto plane = [&](const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to) {
+  const auto scale = [&](std::vector<std::uint8_t> from, std::vector<std::uint8_t>& to, int finer) {
     if (from.empty()) return;
-    scale({image.height_px, image.width_px, CV_8UC1, const_cast<std::uint8_t*>(from.data())}, to,
-          cv::INTER_LINEAR);
+    const cv::Mat source(image.height_px, image.width_px, CV_8UC1, from.data());
+    cv::Mat target;
+    cv::resize(source, target, {out.width_px, out.height_px}, 0, 0, factor < 1 ? cv::INTER_AREA : finer);
+    to.assign(target.datastart, target.dataend);
   };
-  auto table = spread(tones);
-  const cv::Mat lut(1, 256, CV_8UC1, table.data());
-  cv::Mat greys;
-  cv::LUT(cv_view(image), lut, greys);
-  scale(greys, out.pixels, cv::INTER_CUBIC);
-  plane(image.red_green, out.red_green);
-  plane(image.yellow_blue, out.yellow_blue);
+  const auto table = spread(tones);
+  auto greys = image.pixels;
+  for (std::uint8_t& grey : greys) grey = table[grey];
+  scale(std::move(greys), out.pixels, cv::INTER_CUBIC);
+  scale(image.red_green, out.red_green, cv::INTER_LINEAR);
+  scale(image.yellow_blue, out.yellow_blue, cv::INTER_LINEAR);
   return out;
 }
 
