@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -393,8 +394,9 @@ class Builder {
 EdgeMeasures measure_edges(const EdgeSheet& sheet) {
   EdgeMeasures measures;
   measures.views = look_across(sheet);
+  auto regions = std::async(std::launch::async, [&] { return regions_beside(sheet); });
   measures.links = link_edges(sheet, measures.views);
-  measures.regions = regions_beside(sheet);
+  measures.regions = regions.get();
   return measures;
 }
 

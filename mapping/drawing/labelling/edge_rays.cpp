@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <opencv2/core/utility.hpp>
 #include <optional>
 
 #include "core/median.hpp"
@@ -224,10 +225,14 @@ class Looker {
 }  // namespace
 
 std::vector<EdgeViews> look_across(const EdgeSheet& sheet) {
-  Looker looker(sheet);
   std::vector<EdgeViews> views(sheet.edges.size());
-  for (std::size_t i = 0; i < views.size(); ++i)
-    views[i] = {looker.look(i, 1), looker.look(i, -1), {looker.past_end(i, false), looker.past_end(i, true)}};
+  const auto look = [&](const cv::Range& edges) {
+    Looker looker(sheet);
+    for (auto i = static_cast<std::size_t>(edges.start); i < static_cast<std::size_t>(edges.end); ++i)
+      views[i] = {
+          looker.look(i, 1), looker.look(i, -1), {looker.past_end(i, false), looker.past_end(i, true)}};
+  };
+  cv::parallel_for_({0, static_cast<int>(views.size())}, look);
   return views;
 }
 

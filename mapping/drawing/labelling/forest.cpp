@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <opencv2/core/utility.hpp>
 #include <sstream>
 
 #include "core/result.hpp"
@@ -47,23 +48,27 @@ std::vector<float> Forest::judged(const FeatureTable& table) const {
   if (!std::equal(features.begin(), features.end(), table.names().begin(), table.names().end(), same))
     throw Error("the wall model", "was trained on other features than this version measures",
                 "train it again: train_walls");
-  std::vector<float> result;
-  std::vector<std::uint8_t> steps(kRowsAtOnce * features.size());
-  std::vector<int> sums(kRowsAtOnce);
-  for (std::size_t from = 0; from < table.rows(); from += kRowsAtOnce) {
+  std::vector<float> result(table.rows());
+  const auto judge = [&](std::size_t from) {
     const std::size_t rows = std::min(kRowsAtOnce, table.rows() - from);
+    std::vector<std::uint8_t> steps(rows * features.size());
+    std::vector<int> sums(rows);
     for (std::size_t k = 0; k < features.size(); ++k) {
       const auto& scale = features[k].steps;
       for (std::size_t i = 0; i < rows; ++i)
         steps[i * features.size() + k] = static_cast<std::uint8_t>(
             std::upper_bound(scale.begin(), scale.end(), table.at(from + i, k)) - scale.begin());
     }
-    std::fill(sums.begin(), sums.end(), 0);
     for (const auto& tree : trees)
       for (std::size_t i = 0; i < rows; ++i) sums[i] += leaf_of(tree, &steps[i * features.size()]);
     for (std::size_t i = 0; i < rows; ++i)
-      result.push_back(static_cast<float>(probability_of(leaf_step * sums[i])));
-  }
+      result[from + i] = static_cast<float>(probability_of(leaf_step * sums[i]));
+  };
+  const std::size_t blocks = (table.rows() + kRowsAtOnce - 1) / kRowsAtOnce;
+  cv::parallel_for_({0, static_cast<int>(blocks)}, [&](const cv::Range& some) {
+    for (int block = some.start; block < some.end; ++block)
+      judge(static_cast<std::size_t>(block) * kRowsAtOnce);
+  });
   return result;
 }
 
