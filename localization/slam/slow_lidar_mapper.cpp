@@ -1,5 +1,6 @@
 #include "localization/slam/slow_lidar_mapper.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <numeric>
@@ -18,6 +19,18 @@ void lean_on_wheels(PointIcpOptions& icp, const Transform2<Map, Base>& assumed,
   icp.prior_information = residual_sigma_m * residual_sigma_m * with_floor(covariance).inverse();
 }
 
+/// Of a scan that was laid on the map: 5 cm and 1 degree.
+const Eigen::Matrix3d kFitted = Eigen::Vector3d(2.5e-3, 2.5e-3, 3e-4).asDiagonal();
+
+/// Whether a pose that was found and what was believed may be one: chi-squared of three, of 1 in 10,000.
+bool agree(const Transform2<Map, Base>& found, const Belief& believed) {
+  constexpr double kChiSquared = 21.1;
+  const auto& at = believed.map_from_base;
+  const Eigen::Vector3d off(found.x_m() - at.x_m(), found.y_m() - at.y_m(),
+                            wrap_angle(found.yaw_rad() - at.yaw_rad()));
+  return off.dot((believed.covariance + 2.0 * kFitted).ldlt().solve(off)) < kChiSquared;
+}
+
 }  // namespace
 
 SlowLidarMapper::SlowLidarMapper(const SlowLidarOptions& options)
@@ -27,8 +40,7 @@ PoseEstimate SlowLidarMapper::estimate(Stamp stamp) const {
   PoseEstimate estimate;
   estimate.stamp = stamp;
   estimate.map_from_base = anchor_ * since_scan_.motion;
-  estimate.covariance = in_map_axes(since_scan_.covariance, anchor_.yaw_rad()) +
-                        Eigen::Matrix3d(Eigen::Vector3d(1e-3, 1e-3, 1e-4).asDiagonal());
+  estimate.covariance = carried({anchor_, covariance_}, since_scan_).covariance + kFitted;
   estimate.health.state = is_lost_ ? LocalizationState::Lost : LocalizationState::Localized;
   if (is_lost_) estimate.health.reason = "the last scan lies nowhere in the map";
   return estimate;
@@ -48,7 +60,7 @@ double SlowLidarMapper::e_max_m(double noise_m) const {
     const double mean = std::accumulate(e_psr_m_.end() - n, e_psr_m_.end(), 0.0) / static_cast<double>(n);
     e_max = std::max(e_max, options_.e_max_of_recent * mean);
   }
-  return std::min(e_max, options_.most_e_max_m);
+  return std::min(e_max, options_.strategies.most_e_psr_expected_m);
 }
 
 StrategyOptions SlowLidarMapper::strategies_for(const ScanPoints& points) const {
@@ -60,20 +72,50 @@ StrategyOptions SlowLidarMapper::strategies_for(const ScanPoints& points) const 
   return options;
 }
 
+/// What the wheels say of a pose, and how surely: the uncertainty of the heading swings the way that follows.
+Belief SlowLidarMapper::carried(const Belief& from, const OdometryStep& step) const {
+  const Transform2<Map, Base> to = from.map_from_base * step.motion;
+  Eigen::Matrix3d swing = Eigen::Matrix3d::Identity();
+  swing(0, 2) = from.map_from_base.y_m() - to.y_m();
+  swing(1, 2) = to.x_m() - from.map_from_base.x_m();
+  return {to, swing * from.covariance * swing.transpose() +
+                  in_map_axes(step.covariance, from.map_from_base.yaw_rad())};
+}
+
+/// A pose far from where the wheels say is not believed on one scan: halls are alike in places, and a noisy
+/// scan fits where it is not. It is kept, and believed when the next scans lead to where the wheels carry it.
+bool SlowLidarMapper::is_believed(const Transform2<Map, Base>& pose, const Belief& here,
+                                  const OdometryStep& step) {
+  if (agree(pose, here)) {
+    elsewhere_.reset();
+    return true;
+  }
+  const Belief next = elsewhere_ ? carried(elsewhere_->first, step) : here;
+  const int agreed = elsewhere_ && agree(pose, next) ? elsewhere_->second + 1 : 0;
+  elsewhere_ = {{pose}, agreed};
+  if (agreed < options_.scans_to_jump) return false;
+  elsewhere_.reset();
+  return true;
+}
+
 PoseEstimate SlowLidarMapper::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
   const OdometryStep step = started_ ? track_.between(anchor_stamp_, stamp, model_) : OdometryStep{};
   const Transform2<Map, Base> before = anchor_;
-  const Transform2<Map, Base> assumed = before * step.motion;
+  const Belief assumed = carried({before, covariance_}, step);
   path_m_ += step.path_m;
   std::optional<StrategyResult> found;
   if (started_) {
     StrategyOptions options = strategies_for(points);
-    lean_on_wheels(options.icp, assumed, in_map_axes(step.covariance, before.yaw_rad()),
+    lean_on_wheels(options.icp, assumed.map_from_base, assumed.covariance,
                    std::max(options_.residual_sigma_m, map_.noise_m()));
-    found = localize_relatively(points, map_.points(), assumed, options);
+    found = localize_around(points, map_.points(), assumed.map_from_base, options);
+    if (!found || !agree(found->fit.map_from_base, assumed))
+      found = localize_absolutely(points, map_.points(), options);
+    if (found && !is_believed(found->fit.map_from_base, assumed, step)) found.reset();
   }
   const bool accepted = found || (!started_ && !points.empty());
-  anchor_ = found ? found->fit.map_from_base : assumed;
+  anchor_ = found ? found->fit.map_from_base : assumed.map_from_base;
+  covariance_ = accepted ? Eigen::Matrix3d::Zero() : assumed.covariance;
   if (found) e_psr_m_.push_back(found->fit.e_psr_m);
   if (found && !is_lost_ && found->strategy == Strategy::Rdnm)
     model_.learn(step, before.inverse() * anchor_, 0.05, 0.02);

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "localization/localizer/options.hpp"
@@ -19,14 +22,21 @@ struct SlowLidarOptions {
   SurfaceScanOptions scan;
   double e_max_of_noise = 1.0;   ///< e_max is at least so many sigmas of the scan's own noise,
   double e_max_of_recent = 2.0;  ///< and so many times the mean e_psr of the scans accepted last;
-  double most_e_max_m = 0.3;     ///< a scan laid anywhere comes to about 0.4 m
   std::size_t recent = 10;
+  int scans_to_jump = 2;  ///< so many more have to lead to where the wheels do not, before that is believed
   double residual_sigma_m = 0.05;  ///< of a point from its surface at the least, beside the wheels' word
+};
+
+/// A pose, and its covariance in Map axes: m, m, rad.
+struct Belief {
+  Transform2<Map, Base> map_from_base;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
 /// SLAM for lidars that scan less than once a second, as published (Kis, Csemesz, Csáji 2021, Algorithms 1 to
 /// 3): each scan is laid on a growing point map by RDNM and ICP, failing that by CPD and ICP, failing that by
-/// the search of the whole map; a scan that lies nowhere is not added, and the wheels go on.
+/// the search of the whole map; a scan that lies nowhere is not added, and the wheels go on. Beyond the
+/// paper: where the wheels speak against a pose that was found, it takes more than one scan to believe it.
 class SlowLidarMapper final : public Mapper {
  public:
   explicit SlowLidarMapper(const SlowLidarOptions& options = {});
@@ -45,14 +55,20 @@ class SlowLidarMapper final : public Mapper {
  private:
   [[nodiscard]] double e_max_m(double noise_m) const;
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
+  [[nodiscard]] Belief carried(const Belief& from, const OdometryStep& step) const;
+  [[nodiscard]] bool is_believed(const Transform2<Map, Base>& pose, const Belief& here,
+                                 const OdometryStep& step);
 
   SlowLidarOptions options_;
   OdometryModel model_;
   OdometryTrack track_;
   OdometryStep since_scan_;
   GrowingMap map_;
-  Transform2<Map, Base> anchor_;  ///< the pose at the last scan
+  Transform2<Map, Base> anchor_;                          ///< the pose at the last scan
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  ///< of it, since a scan was laid on the map
   Stamp anchor_stamp_{};
+  /// Where scans lie that the wheels speak against, and how many more have led there.
+  std::optional<std::pair<Belief, int>> elsewhere_;
   bool started_ = false;
   int lost_ = 0;          ///< scans, all in all
   bool is_lost_ = false;  ///< the last one

@@ -70,7 +70,7 @@ std::vector<RdnmResult> globally_likeliest(const ScanPoints& scan, const PointMa
 }
 
 bool succeeded(const RegistrationResult& fit, const StrategyOptions& options) {
-  return fit.converged && fit.e_psr_m < options.most_e_psr_m && fit.near_fraction >= options.least_near;
+  return fit.e_psr_m < options.most_e_psr_m && fit.near_fraction >= options.least_near;
 }
 
 std::optional<StrategyResult> refined(const ScanPoints& scan, const PointMap& map, const Pose& rough,
@@ -122,14 +122,16 @@ std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const 
   return best;
 }
 
-std::optional<StrategyResult> localize_relatively(const ScanPoints& scan, const PointMap& map,
-                                                  const Pose& assumed, const StrategyOptions& options) {
+std::optional<StrategyResult> localize_around(const ScanPoints& scan, const PointMap& map,
+                                              const Pose& assumed, const StrategyOptions& options) {
   if (map.empty()) return std::nullopt;
+  StrategyOptions expected = options;
+  expected.most_e_psr_m = options.most_e_psr_expected_m;
+  expected.least_near = options.least_near_expected;
   const Pose near = locally_likeliest(scan, map, assumed, options);
-  if (const auto found = refined(scan, map, near, Strategy::Rdnm, options)) return found;
+  if (const auto found = refined(scan, map, near, Strategy::Rdnm, expected)) return found;
   const Pose drifted = cpd(scan, map, assumed).map_from_base;
-  if (const auto found = refined(scan, map, drifted, Strategy::Cpd, options)) return found;
-  return localize_absolutely(scan, map, options);
+  return refined(scan, map, drifted, Strategy::Cpd, expected);
 }
 
 }  // namespace madori::localization

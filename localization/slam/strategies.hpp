@@ -13,15 +13,19 @@ namespace madori::localization {
 /// The localization strategies of Kis, Csemesz, Csáji (2021). Their map is a PointMap, whatever it was made
 /// of: sampled walls of a drawing, the points of a growing map, the surfaces of keyframes.
 struct StrategyOptions {
-  double most_e_psr_m = 0.10;       ///< e_max: a registration of a larger error has failed
-  double least_near = 0.6;          ///< share of the scan that must lie within 1 m of the map (own addition:
-                                    ///< e_psr of few near points is small anywhere)
+  double most_e_psr_m = 0.10;  ///< e_max: a registration of a larger error has failed
+  double least_near = 0.6;     ///< share of the scan that must lie within 1 m of the map (own addition:
+                               ///< e_psr of few near points is small anywhere)
+  double most_e_psr_expected_m =
+      0.3;  ///< e_max around a pose that is expected; a scan laid anywhere comes to 0.4 m
+  double least_near_expected =
+      0.3;  ///< the same around a pose that is expected: the rest looks around a corner
   double candidate_radius_m = 0.3;  ///< of the six local candidates around the assumed position
   double most_turn_rad = kPi / 4.0;
   double grid_m = 0.5;  ///< g of the global candidates
   double clearance_m =
       0.25;                  ///< from every point of the map: where the vehicle would not fit is no candidate
-  std::size_t refined = 30;  ///< candidates of Algorithm 2 that ICP looks at (the paper: the best alone)
+  std::size_t refined = 300;  ///< candidates of Algorithm 2 that ICP looks at (the paper: the best alone)
   double view_radius_m = 30.0;  ///< the map's points within it make the candidates' views,
   double global_view_m = 15.0;  ///< the same for the candidates of Algorithm 2, of which there are thousands,
   double view_spacing_m = 0.15;  ///< thinned to this: a section averages over half a metre anyway
@@ -45,10 +49,10 @@ struct StrategyResult {
 [[nodiscard]] std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,
                                                                 const StrategyOptions& options = {});
 
-/// Algorithm 3 (the ICP of Algorithm 2 leans on nothing): RDNM around the assumed pose and ICP; failing that
-/// CPD and ICP; failing that Algorithm 2.
-[[nodiscard]] std::optional<StrategyResult> localize_relatively(const ScanPoints& scan, const PointMap& map,
-                                                                const Transform2<Map, Base>& assumed,
-                                                                const StrategyOptions& options = {});
+/// The first two parts of Algorithm 3 (the third is Algorithm 2, whose ICP leans on nothing): RDNM around the
+/// assumed pose and ICP; failing that CPD and ICP.
+[[nodiscard]] std::optional<StrategyResult> localize_around(const ScanPoints& scan, const PointMap& map,
+                                                            const Transform2<Map, Base>& assumed,
+                                                            const StrategyOptions& options = {});
 
 }  // namespace madori::localization

@@ -104,22 +104,23 @@ TEST_F(PointRegistration, CpdIsExactOnTheSameSet) {
   EXPECT_TRUE(right(r.map_from_base, truth, 1e-3, 0.05));
 }
 
-TEST_F(PointRegistration, TheRelativeStrategyFallsBackInOrder) {
+TEST_F(PointRegistration, AScanIsFoundAroundWhereItIsExpectedAndAnywhere) {
   const Pose truth(7.0, 2.5, 0.5);
   const ScanPoints scan = scan_from(truth);
-  const auto near = localize_relatively(scan, map_, {7.2, 2.4, 0.45});
+  const auto near = localize_around(scan, map_, {7.2, 2.4, 0.45});
   ASSERT_TRUE(near);
   EXPECT_EQ(near->strategy, Strategy::Rdnm);
   EXPECT_TRUE(right(near->fit.map_from_base, truth, 0.03, 0.5));
   EXPECT_GT(near->fit.near_fraction, 0.9);
-  const auto lost = localize_relatively(scan, map_, {16.0, 8.5, -2.0});
+  const auto lost = localize_absolutely(scan, map_);
   ASSERT_TRUE(lost);
   EXPECT_EQ(lost->strategy, Strategy::Absolute);
   EXPECT_TRUE(right(lost->fit.map_from_base, truth, 0.03, 0.5));
   StrategyOptions strict;
-  strict.most_e_psr_m = 1e-6;
-  EXPECT_FALSE(localize_relatively(scan, map_, truth, strict));
-  EXPECT_FALSE(localize_relatively(scan, PointMap({}), truth));
+  strict.most_e_psr_m = strict.most_e_psr_expected_m = 1e-6;
+  EXPECT_FALSE(localize_around(scan, map_, truth, strict));
+  EXPECT_FALSE(localize_absolutely(scan, map_, strict));
+  EXPECT_FALSE(localize_around(scan, PointMap({}), truth));
 }
 
 TEST_F(PointRegistration, GlobalCandidatesAreClearOfTheMap) {

@@ -140,6 +140,40 @@ TEST(SlowLidarMapper, KeepsTheWheelsWordForAScanThatLiesNowhere) {
   EXPECT_EQ(mapper.finish().lost_scans, 1);
 }
 
+/// Carried to another place of the hall between two scans: the wheels tell nothing of it, the scans do.
+TEST(SlowLidarMapper, BelievesAJumpOnceScansAgreeOnItAndNotBefore) {
+  std::mt19937 engine(7);
+  test::DriveSettings settings;
+  settings.lidar = test::ScanSettings{};
+  settings.steps_per_scan = 6;
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto moments = test::drive(walls, kTwoRounds, settings, engine);
+  SlowLidarMapper mapper;
+  for (const auto& moment : moments) {
+    (void)mapper.on_odometry(moment.odometry);
+    if (moment.has_scan) (void)mapper.on_scan(moment.scan.stamp, scan_points(moment.scan, {}), {});
+  }
+  const Transform2<Map, Base> elsewhere(5.0, 7.8, 2.0), start = moments.front().truth;
+  const auto& last = moments.back().odometry;
+  std::vector<LocalizationState> states;
+  double off_m = 0.0;
+  for (int k = 1; k <= 4; ++k) {
+    const double way_m = 0.2 * k;
+    const auto truth = elsewhere * Transform2<Base, Base>(way_m, 0.0, 0.0);
+    const Stamp stamp = last.stamp + duration_from_seconds(2.0 * k);
+    (void)mapper.on_odometry({stamp, last.odom_from_base * Transform2<Base, Base>(way_m, 0.0, 0.0)});
+    const auto scan = scan_points(test::simulate_scan(walls, truth, settings.lidar, engine), {});
+    const PoseEstimate pose = mapper.on_scan(stamp, scan, {});
+    states.push_back(pose.health.state);
+    const auto right = start.inverse() * truth;
+    off_m = std::hypot(pose.map_from_base.x_m() - right.x_m(), pose.map_from_base.y_m() - right.y_m());
+  }
+  EXPECT_EQ(states[0], LocalizationState::Lost);
+  EXPECT_EQ(states[1], LocalizationState::Lost);
+  EXPECT_EQ(states[3], LocalizationState::Localized);
+  EXPECT_LT(off_m, 0.1);
+}
+
 TEST(GrowingMap, ForgetsWhatIsSeenThrough) {
   std::mt19937 engine(9);
   const test::ScanSettings lidar = test::full_turn(720, 30.0);
