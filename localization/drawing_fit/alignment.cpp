@@ -84,7 +84,7 @@ double log_likelihood(const WallIndex& index, const MemoryCloud& cloud,
                       const Transform2<Map, Map>& correction, const WallMixture& mixture) {
   double sum = 0.0;
   for_each_hit(index, cloud, correction, [&](const CloudSurface& p, const auto&, const auto& hit) {
-    sum += p.weight * kShareOfObservation * std::log1p(mixture.odds(hit.distance_m));
+    sum += p.weight * kShareOfObservation * std::log1p(mixture.odds(hit));
   });
   return sum;
 }
@@ -119,7 +119,7 @@ Transform2<Map, Map> refine_alignment(const WallIndex& index, const MemoryCloud&
     Eigen::Matrix3d h = 1e-3 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     for_each_hit(index, cloud, correction, [&](const CloudSurface& p, const auto& q, const auto& hit) {
-      const double weight = p.weight * mixture.is_wall(hit.distance_m);
+      const double weight = p.weight * mixture.is_wall(hit);
       const Eigen::Vector3d j = jacobian(hit, q, pivot);
       h += weight * j * j.transpose();
       g += weight * hit.distance_m * j;

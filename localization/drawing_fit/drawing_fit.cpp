@@ -76,7 +76,7 @@ void DrawingFit::learn(const MemoryCloud& cloud) {
     double squares = kPriorCount * kPriorSigmaM * kPriorSigmaM;
     double count = 0.0;
     for_each_hit(*index_, cloud, {}, [&](const CloudSurface& p, const auto&, const auto& hit) {
-      const double share = p.weight * kShareOfObservation * mixture.is_wall(hit.distance_m);
+      const double share = p.weight * kShareOfObservation * mixture.is_wall(hit);
       squares += share * hit.distance_m * hit.distance_m;
       count += share;
     });
@@ -100,7 +100,7 @@ std::vector<UnaryFactor> DrawingFit::pulls(const MemoryCloud& cloud,
     const double variance =
         sigma * sigma + std::max(0.0, around.walls_at(p) - 1.0) * shared.sigma_m * shared.sigma_m;
     const double information =
-        p.weight * kShareOfObservation * WallMixture(model_, sigma).is_wall(hit.distance_m) / variance;
+        p.weight * kShareOfObservation * WallMixture(model_, sigma).is_wall(hit) / variance;
     const Eigen::Vector3d j = jacobian(hit, q, f.at.translation());
     f.hessian += information * j * j.transpose();
     f.gradient += information * hit.distance_m * j;
@@ -115,7 +115,7 @@ double DrawingFit::share_on_walls(const SurfaceScan& scan, const Transform2<Map,
   double all = 1e-9;
   for_each_surface(*index_, scan, pose, [&](const auto&, const WallIndex::Hit& hit, double length) {
     all += length;
-    on_walls += hit.wall >= 0 ? length * mixture.is_wall(hit.distance_m) : 0.0;
+    on_walls += hit.wall >= 0 ? length * mixture.is_wall(hit) : 0.0;
   });
   return on_walls / all;
 }
@@ -126,8 +126,7 @@ void DrawingFit::pull(const SurfaceScan& scan, const Transform2<Map, Base>& pose
   const WallMixture mixture(model_, model_.sigma_m);
   for_each_surface(*index_, scan, pose, [&](const Point2<Map>& q, const WallIndex::Hit& hit, double length) {
     if (hit.wall < 0) return;
-    const double information =
-        length / kVoxelM * kShareOfObservation * mixture.is_wall(hit.distance_m) / variance;
+    const double information = length / kVoxelM * kShareOfObservation * mixture.is_wall(hit) / variance;
     const Eigen::Vector3d j = jacobian(hit, q, pose.translation());
     hessian += information * j * j.transpose();
     gradient += information * hit.distance_m * j;

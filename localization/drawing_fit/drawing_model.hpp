@@ -25,14 +25,14 @@ class WallMixture {
     const double inliers = std::clamp(model.inliers, 0.05, 0.98);
     peak_ = inliers / (1.0 - inliers) * kClutterWidthM / (sigma_m * std::sqrt(2.0 * kPi));
   }
-  /// Odds of wall against clutter.
-  [[nodiscard]] double odds(double distance_m) const {
-    const double z = distance_m / sigma_m_;
-    return peak_ * std::exp(-0.5 * z * z);
+  /// Odds of wall against clutter, for a surface near a line of the drawing that may be none.
+  [[nodiscard]] double odds(const WallIndex::Hit& hit) const {
+    const double z = hit.distance_m / sigma_m_;
+    return hit.probability * peak_ * std::exp(-0.5 * z * z);
   }
   /// Probability of wall, 0..1.
-  [[nodiscard]] double is_wall(double distance_m) const {
-    const double o = odds(distance_m);
+  [[nodiscard]] double is_wall(const WallIndex::Hit& hit) const {
+    const double o = odds(hit);
     return o / (1.0 + o);
   }
 

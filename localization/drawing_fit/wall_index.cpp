@@ -73,7 +73,18 @@ WallIndex::Hit WallIndex::nearest(double x_m, double y_m, int direction) const {
   hit.distance_m = -uy * px + ux * py;
   hit.along_m = ux * px + uy * py;
   hit.beyond_m = std::max({0.0, -hit.along_m, hit.along_m - length});
+  hit.probability = walls_[id].probability;
   return hit;
+}
+
+WallIndex::Hit WallIndex::nearest(double x_m, double y_m) const {
+  Hit best;
+  const auto away = [](const Hit& hit) { return std::hypot(hit.distance_m, hit.beyond_m); };
+  for (int direction = 0; direction < kDirections; ++direction) {
+    const Hit hit = nearest(x_m, y_m, direction);
+    if (hit.wall >= 0 && (best.wall < 0 || away(hit) < away(best))) best = hit;
+  }
+  return best;
 }
 
 }  // namespace madori::localization

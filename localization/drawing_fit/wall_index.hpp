@@ -22,8 +22,9 @@ class WallIndex {
     double distance_m = 0.0;  ///< to the wall's line, signed along the normal
     double normal_x = 0.0;
     double normal_y = 0.0;
-    double along_m = 0.0;   ///< from the wall's start; may lie beyond its ends
-    double beyond_m = 0.0;  ///< how far beyond its ends, 0 beside the wall
+    double along_m = 0.0;      ///< from the wall's start; may lie beyond its ends
+    double beyond_m = 0.0;     ///< how far beyond its ends, 0 beside the wall
+    double probability = 0.0;  ///< that it is a wall at all, as the drawing has it
   };
 
   explicit WallIndex(const mapping::Walls& walls);
@@ -32,6 +33,8 @@ class WallIndex {
   /// The table of a surface with this normal.
   [[nodiscard]] static int direction_of(double normal_x, double normal_y);
   [[nodiscard]] Hit nearest(double x_m, double y_m, int direction) const;
+  /// Of whatever direction.
+  [[nodiscard]] Hit nearest(double x_m, double y_m) const;
   /// Distance to the nearest wall of the direction, centimetres, 255 for none within the radius.
   [[nodiscard]] std::uint8_t centimetres(double x_m, double y_m, int direction) const {
     const std::int64_t cell = frame_.find({x_m, y_m});

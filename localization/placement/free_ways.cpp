@@ -16,6 +16,7 @@ constexpr double kAwayM = 0.25;      // and be this far from it by then: what ru
 constexpr double kAsideM = 0.08;     // what passes a wall's end so near may pass beside it
 constexpr double kPieceM = 2.0;      // errors of a drawing persist along a wall for about so long
 constexpr int kFewestWays = 2;       // one beam alone may be a wrong point
+constexpr double kMissingWalls = 0.15;  // of the walls that are drawn: they are not there
 
 std::uint64_t piece_of(const Point2<Map>& p) {
   const auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x_m / kPieceM)));
@@ -91,18 +92,26 @@ FreeWays free_ways(const Memory& memory) {
   return ways;
 }
 
-int walls_crossed(const FreeWays& ways, const Transform2<Map, Map>& correction,
-                  const mapping::DistanceField& drawn) {
-  std::unordered_map<std::uint64_t, int> crossings;
-  const auto moved = [&](const Segment2<Map>& s) {
-    return Segment2<Map>{correction * s.a, correction * s.b};
+double nats_of_crossed_walls(const FreeWays& ways, const Transform2<Map, Map>& correction,
+                             const mapping::DistanceField& drawn, const WallIndex& walls) {
+  struct Piece {
+    int ways = 0;
+    double probability = 0.0;
   };
-  for (const auto& beam : ways.beams)
-    walk(moved(beam), drawn, [&](const Point2<Map>& p) { ++crossings[piece_of(p)]; });
-  for (const auto& drive : ways.driven)
-    walk(moved(drive), drawn, [&](const Point2<Map>& p) { crossings[piece_of(p)] += kFewestWays; });
-  return static_cast<int>(std::count_if(crossings.begin(), crossings.end(),
-                                        [](const auto& c) { return c.second >= kFewestWays; }));
+  std::unordered_map<std::uint64_t, Piece> pieces;
+  const auto cross = [&](const Segment2<Map>& way, int counts) {
+    walk({correction * way.a, correction * way.b}, drawn, [&](const Point2<Map>& p) {
+      Piece& piece = pieces[piece_of(p)];
+      piece.ways += counts;
+      piece.probability = std::max(piece.probability, walls.nearest(p.x_m, p.y_m).probability);
+    });
+  };
+  for (const auto& beam : ways.beams) cross(beam, 1);
+  for (const auto& drive : ways.driven) cross(drive, kFewestWays);
+  double nats = 0.0;
+  for (const auto& [place, piece] : pieces)
+    if (piece.ways >= kFewestWays) nats -= std::log(1.0 - piece.probability * (1.0 - kMissingWalls));
+  return nats;
 }
 
 }  // namespace madori::localization

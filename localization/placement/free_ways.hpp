@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/point2.hpp"
+#include "localization/drawing_fit/wall_index.hpp"
 #include "localization/memory/memory.hpp"
 #include "mapping/wall_map/distance_field.hpp"
 
@@ -17,9 +18,10 @@ struct FreeWays {
 /// Of the whole memory, beams spread evenly over keyframes and directions; frame of the memory's poses.
 [[nodiscard]] FreeWays free_ways(const Memory& memory);
 
-/// How many drawn walls, in pieces of two metres, are contradicted by free ways after `correction`: a beam or
-/// a drive came from well before the wall and went on well behind it. Pieces that many ways cross count once.
-[[nodiscard]] int walls_crossed(const FreeWays& ways, const Transform2<Map, Map>& correction,
-                                const mapping::DistanceField& drawn);
+/// Nats against a place, of the drawn walls, in pieces of two metres, that free ways contradict after
+/// `correction`: a beam or a drive came from well before the wall and went on well behind it. Pieces that
+/// many ways cross count once, and a line that may be none (`walls` has its probability) counts the less.
+[[nodiscard]] double nats_of_crossed_walls(const FreeWays& ways, const Transform2<Map, Map>& correction,
+                                           const mapping::DistanceField& drawn, const WallIndex& walls);
 
 }  // namespace madori::localization

@@ -14,8 +14,6 @@ namespace {
 
 /// Errors that drawings have, averaged over: drawn by CAD, drawn from plans, drawn as a sketch.
 constexpr std::array kDrawingSigmasM{0.05, 0.15, 0.4};
-/// Drawn walls that are not there; ln of it is what crossing one costs.
-constexpr double kMissingWalls = 0.15;
 /// A drawing that was imported the wrong way round, before anything is seen.
 constexpr double kMirroredDrawings = 0.1;
 constexpr double kLeastMirrored = 1e-4;  // nothing that was seen excludes it
@@ -78,7 +76,7 @@ double share_explained(const WallIndex& index, const MemoryCloud& cloud,
   double on_walls = 0.0;
   for (const CloudSurface& p : cloud) all += p.weight;
   for_each_hit(index, cloud, correction, [&](const CloudSurface& p, const auto&, const auto& hit) {
-    on_walls += p.weight * mixture.is_wall(hit.distance_m);
+    on_walls += p.weight * mixture.is_wall(hit);
   });
   return on_walls / all;
 }
@@ -89,7 +87,7 @@ Eigen::Matrix3d hold_of(const WallIndex& index, const MemoryCloud& cloud,
                         const WallMixture& mixture, double sigma_m) {
   Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
   for_each_hit(index, cloud, correction, [&](const CloudSurface& p, const auto& q, const auto& hit) {
-    const double information = p.weight * kShareOfObservation * mixture.is_wall(hit.distance_m);
+    const double information = p.weight * kShareOfObservation * mixture.is_wall(hit);
     const Eigen::Vector3d j = jacobian(hit, q, vehicle);
     h += kTrust * information / (sigma_m * sigma_m) * j * j.transpose();
   });
@@ -170,9 +168,8 @@ void PlaceBelief::judge(const DrawingFit& fit, const Seen& seen, const std::opti
   placement.near = share_within(hold, kNearM, kNearRad);
   placement.around = share_within(hold, kAroundM, kAroundRad);
   placement.votes = votes_at(fit.index(), seen.cloud, seen.pieces, placement.correction, mixture);
-  placement.votes.crossed = walls_crossed(seen.ways, placement.correction, *walls_);
-  placement.nats =
-      log_mean_exp(nats) + std::log(kMissingWalls) * placement.votes.crossed + placement.log_prior;
+  placement.votes.crossed_nats = nats_of_crossed_walls(seen.ways, placement.correction, *walls_, fit.index());
+  placement.nats = log_mean_exp(nats) - placement.votes.crossed_nats + placement.log_prior;
 }
 
 void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const MemoryCloud& all,

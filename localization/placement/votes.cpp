@@ -12,9 +12,6 @@ namespace madori::localization {
 namespace {
 
 constexpr double kPieceM = 2.0;
-/// One drawn wall in seven is not there, so that crossing one speaks by ln of it.
-constexpr double kCrossedNats = 1.9;
-
 /// How often a vote is right has the density q^(kTruthful - 1) between a half and one: walls mostly stand
 /// where they are drawn.
 constexpr double kTruthful = 3.0;
@@ -52,14 +49,14 @@ Votes votes_at(const WallIndex& index, const MemoryCloud& cloud, const WallPiece
     const WallIndex::Hit hit = index.nearest(q.x_m, q.y_m, turned_direction(p, correction));
     if (hit.wall >= 0 && hit.beyond_m <= kBeyondM)
       votes.nats[static_cast<std::size_t>(pieces.of_surface[i])] +=
-          p.weight * kShareOfObservation * std::log1p(mixture.odds(hit.distance_m));
+          p.weight * kShareOfObservation * std::log1p(mixture.odds(hit));
   }
   return votes;
 }
 
 double log_odds(const Votes& a, const Votes& b) {
-  double for_a = vote(kCrossedNats) * b.crossed;
-  double for_b = vote(kCrossedNats) * a.crossed;
+  double for_a = vote(b.crossed_nats);
+  double for_b = vote(a.crossed_nats);
   for (std::size_t i = 0; i < std::min(a.nats.size(), b.nats.size()); ++i) {
     const double v = vote(a.nats[i] - b.nats[i]);
     (v > 0.0 ? for_a : for_b) += std::abs(v);

@@ -18,8 +18,8 @@ struct WallPieces {
 
 /// What speaks for and against a place.
 struct Votes {
-  std::vector<double> nats;  ///< log likelihood of each remembered piece of wall there, over clutter
-  int crossed = 0;           ///< pieces of drawn walls that beams or ways pass through there
+  std::vector<double> nats;   ///< log likelihood of each remembered piece of wall there, over clutter
+  double crossed_nats = 0.0;  ///< against it: of drawn walls that beams or ways pass through there
 };
 [[nodiscard]] Votes votes_at(const WallIndex& index, const MemoryCloud& cloud, const WallPieces& pieces,
                              const Transform2<Map, Map>& correction, const WallMixture& mixture);

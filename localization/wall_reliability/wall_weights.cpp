@@ -57,7 +57,7 @@ WallWeights wall_weights(const mapping::Walls& walls, const WallReliability& rel
       const Segment2<Map> piece =
           whole ? walls[wall].segment
                 : Segment2<Map>{cells.all()[begin].segment.a, cells.all()[c - 1].segment.b};
-      result.walls.push_back({walls[wall].id, moved_aside(piece, first.offset_m)});
+      result.walls.push_back({walls[wall].id, moved_aside(piece, first.offset_m), walls[wall].probability});
       result.weights.push_back(first.weight);
     }
   }

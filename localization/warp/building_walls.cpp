@@ -67,7 +67,7 @@ BuildingWalls walls_in_building(const mapping::Walls& drawn, const WarpFit& fit)
       for (int k = 0; k < pieces; ++k) {
         const Point2<Map> a = between(s, static_cast<double>(k) / pieces);
         const Point2<Map> b = between(s, (k + 1.0) / pieces);
-        made.walls.push_back({drawn[i].id, {stands(a), stands(b)}});
+        made.walls.push_back({drawn[i].id, {stands(a), stands(b)}, drawn[i].probability});
         const double carried = face.seen ? 0.0 : warp.sigma_m(between(s, (k + 0.5) / pieces));
         made.sigma_m.push_back(std::hypot(face.sigma_m, carried));
       }

@@ -13,7 +13,6 @@
 #include "mapping/wall_map/import_picture.hpp"
 #include "mapping/wall_map/wall.hpp"
 #include "mapping/wall_map/wall_files.hpp"
-#include "mapping/wall_map/wall_probabilities.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -46,13 +45,14 @@ StageSink debug_sink(const ImportOptions& options, SiteTransaction& change) {
 }
 
 /// Image to Map: x = u * s, y = (height - v) * s (architecture.md, frames).
-Walls to_map(const std::vector<PixelSegment>& segments, int height_px, double m_per_px) {
+Walls to_map(const DetectedWalls& found, int height_px, double m_per_px) {
   Walls walls;
-  walls.reserve(segments.size());
-  for (const auto& s : segments) {
+  walls.reserve(found.walls.size());
+  for (const auto& s : found.walls) {
     const Point2<Map> a{s.u1 * m_per_px, (height_px - s.v1) * m_per_px};
     const Point2<Map> b{s.u2 * m_per_px, (height_px - s.v2) * m_per_px};
-    walls.push_back({static_cast<int>(walls.size()) + 1, {a, b}});
+    const double probability = found.probabilities.empty() ? 1.0 : found.probabilities[walls.size()];
+    walls.push_back({static_cast<int>(walls.size()) + 1, {a, b}, probability});
   }
   return walls;
 }
@@ -187,11 +187,10 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
   report.site = make_site(options, plan, "drawing" + options.drawing.extension().string());
   const auto& scale = report.site.scale;
   const double unit = scale ? scale->m_per_px : 1.0;
-  report.walls = to_map(found.walls, plan.picture.height_px, unit);
+  report.walls = to_map(found, plan.picture.height_px, unit);
 
   stages.begin("points", 0.85);
   report.points = stage_walls(options, plan, report.walls, unit, scale.has_value(), change);
-  change.write("walls.csv", with_probabilities(walls_csv(report.walls), found.probabilities));
   stages.end(report.points.points.size());
   stages.begin("save", 0.9);
   stage_site(options, report.site, change);

@@ -3,7 +3,6 @@
 #include "mapping/drawing/plan.hpp"
 #include "mapping/wall_map/import_picture.hpp"
 #include "mapping/wall_map/wall_files.hpp"
-#include "mapping/wall_map/wall_probabilities.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -23,15 +22,17 @@ void stage_picture(SiteTransaction& change, const fs::path& folder, const Site& 
   const Plan plan = load_plan(folder / site.drawing.file, options);
   const double m_per_px = site.scale->m_per_px;
   std::vector<PixelSegment> segments;
-  for (const auto& [id, s] : walls) {
+  std::vector<double> probabilities;
+  for (const auto& [id, s, probability] : walls) {
     PixelSegment pixel;
     pixel.u1 = s.a.x_m / m_per_px;
     pixel.v1 = site.drawing.height_px - s.a.y_m / m_per_px;
     pixel.u2 = s.b.x_m / m_per_px;
     pixel.v2 = site.drawing.height_px - s.b.y_m / m_per_px;
     segments.push_back(pixel);
+    probabilities.push_back(probability);
   }
-  const auto png = import_picture(plan.picture, segments, {}, m_per_px);
+  const auto png = import_picture(plan.picture, segments, {}, m_per_px, probabilities);
   change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
@@ -52,7 +53,6 @@ double apply_scale(const fs::path& folder, const ScaleEstimate& estimate, const 
   scale_walls(walls, factor);
   (void)stage_wall_files(change, walls, site.drawing.width_px * estimate.m_per_px,
                          site.drawing.height_px * estimate.m_per_px, {});
-  change.write("walls.csv", with_probabilities(walls_csv(walls), load_probabilities(folder / "walls.csv")));
   if (fs::exists(folder / "import.png")) stage_picture(change, folder, site, walls);
   if (others) others(change, factor);
   change.write("site.yaml", site_yaml(site));

@@ -45,7 +45,7 @@ std::string site_geojson(const Site& site, const GeoContent& content) {
       json::array({at(Point2<Map>{0, 0}), at(Point2<Map>{width, 0}), at(Point2<Map>{width, height}),
                    at(Point2<Map>{0, height}), at(Point2<Map>{0, 0})});
   features.push_back(feature("Polygon", json::array({ring}), {{"kind", "drawing"}, {"name", site.name}}));
-  for (const auto& [id, segment] : content.walls)
+  for (const auto& [id, segment, probability] : content.walls)
     features.push_back(feature("LineString", at(segment), {{"kind", "wall"}, {"id", id}}));
   for (const auto& leg : content.legs)
     features.push_back(

@@ -1,8 +1,10 @@
 #include "mapping/wall_map/wall.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 #include <string_view>
 
@@ -39,13 +41,13 @@ Walls load_walls(const std::filesystem::path& file) {
       throw Error(file.string() + ":1", "is not `id,x1,y1,x2,y2[,probability]`", "import the drawing anew");
     if (number == 1 || line.empty() || line == "\r") continue;
     Wall wall;
-    double probability = 1;  // that it is a wall; every line here was taken for one
     auto& [a, b] = wall.segment;
     std::string_view row = line;
     const bool good = take_number(row, wall.id) && take_number(row, a.x_m) && take_number(row, a.y_m) &&
                       take_number(row, b.x_m) && take_number(row, b.y_m) &&
-                      (row.empty() || take_number(row, probability)) && row.empty() &&
-                      std::isfinite(a.x_m + a.y_m + b.x_m + b.y_m) && probability >= 0 && probability <= 1;
+                      (row.empty() || take_number(row, wall.probability)) && row.empty() &&
+                      std::isfinite(a.x_m + a.y_m + b.x_m + b.y_m) && wall.probability >= 0 &&
+                      wall.probability <= 1;
     if (!good)
       throw Error(file.string() + ":" + std::to_string(number), "is not `id,x1,y1,x2,y2[,probability]`",
                   "mend or remove that line");
@@ -59,9 +61,14 @@ std::string walls_csv(const Walls& walls) {
   std::ostringstream out;
   out.setf(std::ios::fixed);
   out.precision(6);
-  out << "id,x1,y1,x2,y2\n";
-  for (const auto& [id, s] : walls)
-    out << id << ',' << s.a.x_m << ',' << s.a.y_m << ',' << s.b.x_m << ',' << s.b.y_m << '\n';
+  const bool judged =
+      std::any_of(walls.begin(), walls.end(), [](const Wall& wall) { return wall.probability < 1.0; });
+  out << "id,x1,y1,x2,y2" << (judged ? ",probability\n" : "\n");
+  for (const auto& [id, s, probability] : walls) {
+    out << id << ',' << s.a.x_m << ',' << s.a.y_m << ',' << s.b.x_m << ',' << s.b.y_m;
+    if (judged) out << std::setprecision(3) << ',' << probability << std::setprecision(6);
+    out << '\n';
+  }
   return out.str();
 }
 

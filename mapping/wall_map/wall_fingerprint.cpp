@@ -8,7 +8,9 @@
 namespace madori::mapping {
 
 std::uint64_t walls_checksum(const Walls& walls) {
-  return fnv1a(walls_csv(walls));
+  Walls places = walls;  // a wall that is judged anew stands where it stood
+  for (Wall& wall : places) wall.probability = 1.0;
+  return fnv1a(walls_csv(places));
 }
 
 std::string walls_fingerprint(const Walls& walls) {

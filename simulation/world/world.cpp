@@ -34,7 +34,7 @@ std::vector<Segment2<Plan>> true_walls(const mapping::Walls& site_walls, const S
   std::set<int> ids, asked(s.building.missing_walls.begin(), s.building.missing_walls.end());
   const std::set<int> missing = asked;
   std::vector<Segment2<Plan>> lines;
-  for (const auto& [id, segment] : walls) {
+  for (const auto& [id, segment, probability] : walls) {
     ids.insert(id);
     if (missing.contains(id)) continue;
     Segment2<Plan> line = own ? Segment2<Plan>{{segment.a.x_m, segment.a.y_m}, {segment.b.x_m, segment.b.y_m}}

@@ -17,7 +17,7 @@ inline double cast_ray(const mapping::Walls& walls, const Point2<Map>& origin, d
   const double dx = std::cos(angle_rad);
   const double dy = std::sin(angle_rad);
   double nearest = LaserScan::kNoReturn;
-  for (const auto& [id, s] : walls) {
+  for (const auto& [id, s, probability] : walls) {
     const double ex = s.b.x_m - s.a.x_m;
     const double ey = s.b.y_m - s.a.y_m;
     const double wx = s.a.x_m - origin.x_m;

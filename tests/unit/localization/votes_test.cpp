@@ -13,7 +13,8 @@ namespace madori::localization {
 namespace {
 
 Votes votes_of(std::vector<double> nats, int crossed = 0) {
-  return {std::move(nats), crossed};
+  constexpr double kCertainWall = 1.9;
+  return {std::move(nats), crossed * kCertainWall};
 }
 
 /// `count` pieces that speak for the first place, and `against` for the second, by two nats each: a vote.
@@ -84,12 +85,28 @@ TEST(Votes, APieceOfWallIsTwoMetresAndOneDirection) {
 TEST(FreeWays, WhatGoesThroughADoorCrossesNoWallThoughThePoseIsOffByAFewCentimetres) {
   const mapping::Walls walls{{1, {{-6.0, 0.0}, {-0.45, 0.0}}}, {2, {{0.45, 0.0}, {6.0, 0.0}}}};
   const mapping::DistanceField drawn(walls);
+  const WallIndex index(walls);
   FreeWays ways;
   for (double x_m = -0.44; x_m < 0.445; x_m += 0.02)
     ways.beams.push_back({{0.5 * x_m, -4.0}, {1.5 * x_m, 4.0}});
   for (const double off_m : {-0.05, -0.025, 0.0, 0.025, 0.05})
-    EXPECT_EQ(walls_crossed(ways, Transform2<Map, Map>(off_m, 0.0, 0.0), drawn), 0) << off_m;
-  EXPECT_GT(walls_crossed(ways, Transform2<Map, Map>(1.5, 0.0, 0.0), drawn), 0) << "the door is elsewhere";
+    EXPECT_EQ(nats_of_crossed_walls(ways, Transform2<Map, Map>(off_m, 0.0, 0.0), drawn, index), 0) << off_m;
+  EXPECT_GT(nats_of_crossed_walls(ways, Transform2<Map, Map>(1.5, 0.0, 0.0), drawn, index), 0)
+      << "the door is elsewhere";
+}
+
+/// A line that may be no wall is the likelier to be crossed: by the law of total probability.
+TEST(FreeWays, SpeakAgainstALineByAsMuchAsItIsAWall) {
+  FreeWays ways;
+  for (double x_m = -0.44; x_m < 0.445; x_m += 0.02) ways.beams.push_back({{x_m, -4.0}, {x_m, 4.0}});
+  const auto nats = [&](double probability) {
+    const mapping::Walls walls{{1, {{-6.0, 0.3}, {6.0, 0.3}}, probability}, {2, {{-6.0, 9.0}, {6.0, 9.0}}}};
+    return nats_of_crossed_walls(ways, {}, mapping::DistanceField(walls), WallIndex(walls));
+  };
+  const double missing = std::exp(-0.5 * nats(1.0));  // the beams cross it in two pieces
+  EXPECT_LT(missing, 0.5);
+  for (const double p : {0.0, 0.3, 0.6, 0.9})
+    EXPECT_NEAR(std::exp(-0.5 * nats(p)), 1.0 - p + p * missing, 1e-9) << p;
 }
 
 /// A pose that was given speaks where the vehicle may be there, and is of another place where it is not:

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "core/result.hpp"
-#include "mapping/wall_map/wall_probabilities.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::mapping {
@@ -16,22 +15,14 @@ TEST(Walls, SurviveSavingAndLoading) {
   EXPECT_EQ(load_walls(folder.write("walls.csv", walls_csv(walls))), walls);
 }
 
-TEST(Walls, MayHaveAProbability) {
+TEST(Walls, KeepTheirProbabilitiesWhenTheyAreWrittenAgain) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("walls.csv", "id,x1,y1,x2,y2,probability\n3,0,0,1,1,0.75\n4,0,1,1,1,1\n");
   const Walls walls = load_walls(file);
   ASSERT_EQ(walls.size(), 2U);
-  EXPECT_EQ(walls.front().id, 3);
-}
-
-TEST(Walls, KeepTheirProbabilitiesWhenTheyAreWrittenAgain) {
-  const test::TemporaryFolder folder;
-  const Walls walls{{1, {{0.0, 1.5}, {2.25, -3.0}}}, {7, {{10.0, 10.0}, {10.0, 20.125}}}};
-  const auto judged = folder.write("walls.csv", with_probabilities(walls_csv(walls), {0.75, 0.5}));
-  EXPECT_EQ(load_walls(judged), walls);
-  EXPECT_EQ(load_probabilities(judged), (std::vector<double>{0.75, 0.5}));
-  EXPECT_TRUE(
-      load_probabilities(folder.write("plain.csv", with_probabilities(walls_csv(walls), {}))).empty());
+  EXPECT_EQ(walls[0].probability, 0.75);
+  EXPECT_EQ(walls[1].probability, 1.0);
+  EXPECT_EQ(load_walls(folder.write("again.csv", walls_csv(walls))), walls);
 }
 
 TEST(Walls, RefuseABadRowWithItsLine) {
