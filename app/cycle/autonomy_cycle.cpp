@@ -40,26 +40,25 @@ void begin_gap(CycleState& state, double seconds, CycleOutput& output) {
   output.events.push_back(fill_in(kTimeGapEvent.english, {{"seconds", text}}));
 }
 
-}  // namespace
+/// What the vehicle would do were there no limits: by hand what the person holds down, else along its path.
+VelocityCommand wanted_command(CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  if (state.mode == Mode::Manual)
+    return to_seconds(input.now - state.jog_heard) <= config.jog_timeout_s ? state.jog : VelocityCommand{};
+  if (!drives(state.mode)) return {};
+  Pursued pursued = pursue_way(state, config);
+  state.progress = pursued.progress;
+  if (state.progress.status == control::PursuitStatus::Arrived) arrive(state, input.now);
+  return pursued.command;
+}
 
-StepResult step(CycleState state, const CycleInput& input, const CycleConfig& config) {
-  CycleOutput output;
-  const double step_s = state.previous ? to_seconds(input.now - *state.previous) : 0.0;
-  if (!state.previous) state.begun = input.now;
-  state.previous = input.now;
-  if (step_s > config.gap_s) begin_gap(state, step_s, output);
-  localize(state, input, config, output);  // wheel angles and revolutions -> map_from_base
-  remember_trail(state, input.now);
-  watch_effort(state, input, config, output);  // driven, but not moved: something holds the vehicle
-  navigate(state, input, config, output);      // order -> route -> path
-  check_way(state, input, config, output);     // path against scan and drawing: free, slow, blocked
-  change_mode(state, input, config, output);   // what happened -> what the vehicle is about
-  const VelocityCommand wanted = guarded(state, wanted_command(state, input, config), config);
+/// What the drive is told: no faster than vehicle and brakes allow, nothing where a safety rule holds.
+void command_drive(CycleState& state, const VelocityCommand& wanted, const CycleInput& input, double step_s,
+                   const CycleConfig& config, CycleOutput& output) {
   const bool by_hand = state.mode == Mode::Manual;
   const bool may_move = (drives(state.mode) || by_hand) && !forbidding_rule(state, input, config, by_hand);
-  const double free_m =
-      std::min(config.sure_range_m,
-               drives(state.mode) ? state.way.stop_along_m - state.way.along_m : planning::PathCheck::kFree);
+  const double ahead_m =
+      drives(state.mode) ? state.ahead.stop_along_m - state.progress.along_m : planning::PathCheck::kFree;
+  const double free_m = std::min(config.sure_range_m, ahead_m);
   const auto limited = control::limit(state.limits,
                                       {.requested = wanted,
                                        .may_move = may_move,
@@ -69,14 +68,37 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   state.limits = limited.state;
   output.command = limited.command;
   output.enable = enables(state, may_move);
+}
+
+/// Why it stands, where it does; said once.
+void say_why(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   const Standstill now = standstill_of(state, input, config);
   state.standstill.remedy = now.remedy;  // it may change while the cause lasts
-  if (now.cause != state.standstill.cause) {
-    state.standstill = now;
-    if (!now.cause.empty())
-      output.events.push_back(std::string(to_string(state.mode)) + ": " + now.cause.text + " - " +
-                              now.remedy.text);
-  }
+  if (now.cause == state.standstill.cause) return;
+  state.standstill = now;
+  if (!now.cause.empty())
+    output.events.push_back(std::string(to_string(state.mode)) + ": " + now.cause.text + " - " +
+                            now.remedy.text);
+}
+
+}  // namespace
+
+StepResult step(CycleState state, const CycleInput& input, const CycleConfig& config) {
+  CycleOutput output;
+  const double step_s = state.previous ? to_seconds(input.now - *state.previous) : 0.0;
+  if (!state.previous) state.begun = input.now;
+  state.previous = input.now;
+  if (step_s > config.gap_s) begin_gap(state, step_s, output);
+  localize(state, input, config, output);  // wheel angles and revolutions -> map_from_base, bodies, movers
+  remember_trail(state, input.now);
+  watch_effort(state, input, config, output);  // driven, but not moved: something holds the vehicle
+  navigate(state, input, config, output);      // order -> errand -> route -> way
+  check_way(state, input, config, output);     // way against bodies and drawing -> ahead, block
+  change_mode(state, input, config, output);   // what happened -> what the vehicle is about
+  const VelocityCommand wanted = wanted_command(state, input, config);  // way, ahead -> progress, command
+  const VelocityCommand safe = guarded(state, wanted, config);          // it leads into nothing
+  command_drive(state, safe, input, step_s, config, output);            // always last
+  say_why(state, input, config, output);
   return {std::move(state), std::move(output)};
 }
 

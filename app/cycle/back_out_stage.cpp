@@ -60,7 +60,7 @@ bool is_free_behind(const CycleState& state, const Path& path, const std::vector
   check.vehicle.front_m -= kBeforeM + kBehindM;  // the margin is added at both ends
   check.ends_margin_m = kBehindM;
   check.sides_margin_m = 0.0;
-  check.wall_margin_m = -state.way.squeeze.wall_slack_m;
+  check.wall_margin_m = -state.block.squeeze.wall_slack_m;
   return std::all_of(path.points.begin(), path.points.end(), [&](const PathPoint& point) {
     const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m, point.facing_rad());
     return planning::is_free(pose, obstacles, *state.site->walls(), check);
@@ -74,7 +74,7 @@ std::optional<Path> free_way_back(CycleState& state, const CycleConfig& config) 
   constexpr double kShorterM = 0.1;
   const auto& obstacles = obstacle_points(state);
   const auto is_free = [&](const Path& path) { return is_free_behind(state, path, obstacles, config); };
-  auto came = state.way.backing_held ? std::nullopt : way_back(state, config);
+  auto came = state.errand.backing_held ? std::nullopt : way_back(state, config);
   if (came && is_free(*came)) return came;
   for (double length_m = config.back_out_m; length_m > kShortestM - 1e-6; length_m -= kShorterM)
     if (Path path = straight_back(state, length_m, config); is_free(path)) return path;
@@ -84,12 +84,13 @@ std::optional<Path> free_way_back(CycleState& state, const CycleConfig& config) 
 /// Whether going back may help: it stands too near to something to go around it.
 bool is_wedged(const CycleState& state, const CycleConfig& config) {
   constexpr double kNearM = 0.6;
-  const Navigation& way = state.way;
-  const bool waits = state.mode == Mode::Waiting && way.blocked_since && !way.arrived && !way.by_mover &&
-                     !way.detour_pending && !way.path.empty();
-  const bool near = way.stop_along_m - way.along_m < kNearM && !way.detour_failed.empty();
+  const bool waits = state.mode == Mode::Waiting && state.block.since && !state.errand.arrived &&
+                     !state.block.by_mover && !state.detour.pending && !state.way.path.empty();
+  const bool near =
+      state.ahead.stop_along_m - state.progress.along_m < kNearM && !state.detour.failed.empty();
   return waits && !waits_for_door(state, config) &&
-         (way.felt || way.held || !way.turn_free || way.squeeze.share < 1.0 || near);
+         (state.block.felt || state.ahead.held || !state.ahead.turn_free || state.block.squeeze.share < 1.0 ||
+          near);
 }
 
 }  // namespace
@@ -113,18 +114,17 @@ void remember_trail(CycleState& state, Stamp now) {
 }
 
 void back_out(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
-  Navigation& way = state.way;
   const double stood_s = to_seconds(input.now - state.trail_at);
   const bool due = stood_s > config.back_out_after_s && stood_s < config.trail_fresh_s;
-  if (!due || way.back_outs >= kMostBackOuts || !is_wedged(state, config)) return;
+  if (!due || state.errand.back_outs >= kMostBackOuts || !is_wedged(state, config)) return;
   const auto path = free_way_back(state, config);
   if (!path) return;
   output.events.emplace_back("no way from here: going back the way it came, to have room");
-  take_path(way, *path, config);
-  way.backing = true;
-  way.backing_held = false;
-  ++way.back_outs;
-  way.rejoin_m = planning::PathCheck::kFree;  // until it is planned anew
+  take_path(state, *path, config);
+  state.way.backing = true;
+  state.errand.backing_held = false;
+  ++state.errand.back_outs;
+  state.way.rejoin_m = planning::PathCheck::kFree;  // until it is planned anew
 }
 
 void end_back_out(CycleState& state) {

@@ -26,11 +26,10 @@ std::vector<planning::Mover<Map>>& movers_on_map(CycleState& state) {
 
 /// Whether the vehicle turns on the spot, or is about to.
 bool may_turn(const CycleState& state, const CycleConfig& config) {
-  const Navigation& way = state.way;
-  if (way.pursuit.begun) return way.pursuit.turning;
-  if (way.path.empty()) return false;
+  if (state.progress.pursuit.begun) return state.progress.pursuit.turning;
+  if (state.way.path.empty()) return false;
   const double off_rad =
-      wrap_angle(way.path.points().front().facing_rad() - state.pose.map_from_base.yaw_rad());
+      wrap_angle(state.way.path.points().front().facing_rad() - state.pose.map_from_base.yaw_rad());
   return std::abs(off_rad) > config.pursuit.turn_first_rad;
 }
 
@@ -38,9 +37,9 @@ bool may_turn(const CycleState& state, const CycleConfig& config) {
 bool turn_is_free(CycleState& state, const std::vector<Point2<Map>>& obstacles,
                   const planning::CheckOptions& margins) {
   static const planning::WallGrid kNoWalls;
-  const Navigation& way = state.way;
-  if (way.pursuit.piece >= way.path.pieces().size()) return true;
-  const PathPoint& next = way.path.points()[way.path.pieces()[way.pursuit.piece].first];
+  if (state.progress.pursuit.piece >= state.way.path.pieces().size()) return true;
+  const PathPoint& next =
+      state.way.path.points()[state.way.path.pieces()[state.progress.pursuit.piece].first];
   const Point2<Map> here = state.pose.map_from_base.translation();
   Path& turn = state.bench.turn;
   turn.points.assign(2, PathPoint{here, state.pose.map_from_base.yaw_rad()});
@@ -64,12 +63,11 @@ double wall_slack_m(const CycleState& state, const CycleConfig& config, double s
 bool passes(CycleState& state, const std::vector<Point2<Map>>& obstacles,
             const planning::CheckOptions& margins, const CycleConfig& config) {
   constexpr double kAheadM = 3.0;  ///< what is further away is judged when the vehicle gets there
-  const Navigation& way = state.way;
   const planning::WallGrid& walls = *state.site->walls();
   if (!planning::is_free(state.pose.map_from_base, obstacles, walls, margins)) return false;
   if (may_turn(state, config) && !turn_is_free(state, obstacles, margins)) return false;
-  const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
-  return !state.bench.checker.check(way.plain, from, kAheadM, obstacles, walls, margins).blocked();
+  const std::size_t from = std::min(state.progress.pursuit.index, state.way.plain.points.size() - 1);
+  return !state.bench.checker.check(state.way.plain, from, kAheadM, obstacles, walls, margins).blocked();
 }
 
 /// What is kept of the ordinary margins. Where no way with all of them has shown itself for a while, because
@@ -80,20 +78,19 @@ planning::Squeeze squeeze_here(CycleState& state, const std::vector<Point2<Map>>
   constexpr double kHalf = 0.5;
   constexpr double kLeast = 0.2;
   constexpr double kAllAgain = 1.5;  ///< more than all of them: what is seen of a body flickers
-  const Navigation& way = state.way;
   const auto passes_with = [&](const planning::Squeeze& squeeze) {
     return passes(state, obstacles, planning::with_margins(config.check, squeeze), config);
   };
-  const bool squeezes = way.squeeze.share < 1.0;
-  const bool stands = state.mode == Mode::Waiting && way.blocked_since && !way.by_mover &&
-                      to_seconds(now - *way.blocked_since) > config.squeeze_after_s;
+  const bool squeezes = state.block.squeeze.share < 1.0;
+  const bool stands = state.mode == Mode::Waiting && state.block.since && !state.block.by_mover &&
+                      to_seconds(now - *state.block.since) > config.squeeze_after_s;
   if (!squeezes && !stands) return {};
   if (passes_with({squeezes ? kAllAgain : 1.0, 0.0})) return {};
-  if (!stands) return way.squeeze;
+  if (!stands) return state.block.squeeze;
   if (passes_with({kHalf, 0.0})) return {kHalf, 0.0};
   const planning::Squeeze least{kLeast, wall_slack_m(state, config, kLeast)};
   if (passes_with(least)) return least;
-  const bool long_since = to_seconds(now - *way.blocked_since) > 2.0 * config.squeeze_after_s;
+  const bool long_since = to_seconds(now - *state.block.since) > 2.0 * config.squeeze_after_s;
   return long_since ? least : planning::Squeeze{kHalf, 0.0};  // a way around may do with so much
 }
 
@@ -112,7 +109,7 @@ bool stays(std::vector<Stirring>& stirring, const Point2<Map>& where, Stamp now,
 const std::vector<planning::Mover<Map>>& true_movers(CycleState& state, Stamp now,
                                                      const CycleConfig& config) {
   constexpr double kGapS = 1.0;
-  auto& stirring = state.way.stirring;
+  auto& stirring = state.block.stirring;
   std::erase_if(stirring, [&](const Stirring& s) { return to_seconds(now - s.last) > kGapS; });
   auto& movers = movers_on_map(state);
   std::erase_if(movers,
@@ -140,77 +137,75 @@ bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now) {
 }
 
 /// What is free for a moment only, by the noise of what is seen, is blocked all along.
-void note_blocked(Navigation& way, Stamp now, double clear_for_s) {
-  const bool blocked = way.check.blocked() || !way.turn_free || way.held;
+void note_blocked(CycleState& state, Stamp now, double clear_for_s) {
+  const bool blocked = state.ahead.check.blocked() || !state.ahead.turn_free || state.ahead.held;
   if (blocked) {
-    way.free_since.reset();
-    if (!way.blocked_since) way.blocked_since = now;
+    state.block.free_since.reset();
+    if (!state.block.since) state.block.since = now;
   } else {
-    if (!way.free_since) way.free_since = now;
-    if (to_seconds(now - *way.free_since) >= clear_for_s) way.blocked_since.reset();
+    if (!state.block.free_since) state.block.free_since = now;
+    if (to_seconds(now - *state.block.free_since) >= clear_for_s) state.block.since.reset();
   }
 }
 
 void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& config,
                     const std::vector<Point2<Map>>& obstacles, CycleOutput& output) {
-  Navigation& way = state.way;
-  const bool stuck = !way.turn_free || way.held;
-  const bool due = (way.check.blocked() || stuck) && !way.backing && !way.by_mover && way.blocked_since &&
-                   !way.detour_pending &&
-                   to_seconds(input.now - *way.blocked_since) >= config.detour_after_s &&
-                   to_seconds(input.now - way.asked_detour) >= config.detour_again_s;
-  const bool near = stuck || way.stop_along_m - way.along_m < kDetourWithinM;
+  const bool stuck = !state.ahead.turn_free || state.ahead.held;
+  const bool due = (state.ahead.check.blocked() || stuck) && !state.way.backing && !state.block.by_mover &&
+                   state.block.since && !state.detour.pending &&
+                   to_seconds(input.now - *state.block.since) >= config.detour_after_s &&
+                   to_seconds(input.now - state.detour.asked) >= config.detour_again_s;
+  const bool near = stuck || state.ahead.stop_along_m - state.progress.along_m < kDetourWithinM;
   const bool going = drives(state.mode) || state.mode == Mode::Waiting;
   if (!due || !near || !going || waits_for_door(state, config)) return;
-  way.asked_detour = input.now;
-  way.detour_pending = true;
-  ++way.detour_id;
-  planning::PathCheck check = way.check;
-  if (!check.blocked()) check.first_blocked = check.last_blocked = way.pursuit.index;
-  const auto goal = state.site->routes().index_of(way.stop.node);
+  state.detour.asked = input.now;
+  state.detour.pending = true;
+  ++state.detour.id;
+  planning::PathCheck check = state.ahead.check;
+  if (!check.blocked()) check.first_blocked = check.last_blocked = state.progress.pursuit.index;
+  const auto goal = state.site->routes().index_of(state.errand.stop.node);
   const bool any_end_heading = goal && !state.site->routes().nodes()[*goal].heading_rad;
   output.detour_wanted = planning::DetourRequest{
-      way.detour_id,   way.plain, way.pursuit.index,  state.pose.map_from_base, check, obstacles, way.squeeze,
-      any_end_heading, !stuck,    state.site->walls()};
+      state.detour.id, state.way.plain,    state.progress.pursuit.index, state.pose.map_from_base,
+      check,           obstacles,          state.block.squeeze,          any_end_heading,
+      !stuck,          state.site->walls()};
 }
 
 void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
                  const CycleConfig& config) {
-  Navigation& way = state.way;
-  const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
-  way.squeeze = squeeze_here(state, obstacles, now, config);
-  const auto margins = planning::with_margins(config.check, way.squeeze);
-  way.check = state.bench.checker.check(way.plain, from, config.look_ahead_m, obstacles, *state.site->walls(),
-                                        margins);
+  const std::size_t from = std::min(state.progress.pursuit.index, state.way.plain.points.size() - 1);
+  state.block.squeeze = squeeze_here(state, obstacles, now, config);
+  const auto margins = planning::with_margins(config.check, state.block.squeeze);
+  state.ahead.check = state.bench.checker.check(state.way.plain, from, config.look_ahead_m, obstacles,
+                                                *state.site->walls(), margins);
   const auto& movers = true_movers(state, now, config);
   const auto crossing =
-      planning::check_movers(way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps, movers,
-                             config.check, config.movers);
-  way.by_mover = crossing.free_m < way.check.free_m;
-  if (way.by_mover) way.check = crossing;
-  way.unseen =
-      way.check.blocked() && !way.check.by_wall && !way.by_mover && is_unseen(state, way.check.where, now);
-  const double from_m = way.path.along_m(from);
-  way.stop_along_m = from_m + way.check.free_m;
-  way.care_along_m = from_m + way.check.care_m;
-  way.turn_free = !may_turn(state, config) ||
-                  (turn_is_free(state, obstacles, margins) &&
-                   !planning::turn_meets(state.pose.map_from_base, movers, config.check, config.movers));
+      planning::check_movers(state.way.plain, from, config.look_ahead_m, state.limits.previous.linear_mps,
+                             movers, config.check, config.movers);
+  state.block.by_mover = crossing.free_m < state.ahead.check.free_m;
+  if (state.block.by_mover) state.ahead.check = crossing;
+  state.block.unseen = state.ahead.check.blocked() && !state.ahead.check.by_wall && !state.block.by_mover &&
+                       is_unseen(state, state.ahead.check.where, now);
+  const double from_m = state.way.path.along_m(from);
+  state.ahead.stop_along_m = from_m + state.ahead.check.free_m;
+  state.ahead.care_along_m = from_m + state.ahead.check.care_m;
+  state.ahead.turn_free = !may_turn(state, config) || (turn_is_free(state, obstacles, margins) &&
+                                                       !planning::turn_meets(state.pose.map_from_base, movers,
+                                                                             config.check, config.movers));
 }
 
 /// Back the way it came: the guard looks at what stands there, here at who comes there.
 void check_behind(CycleState& state, Stamp now, const CycleConfig& config) {
-  Navigation& way = state.way;
-  const std::size_t from = std::min(way.pursuit.index, way.plain.points.size() - 1);
-  way.check =
-      planning::check_movers(way.plain, from, config.look_ahead_m, std::abs(state.limits.previous.linear_mps),
-                             true_movers(state, now, config), config.check, config.movers);
-  way.by_mover = way.check.blocked();
-  way.unseen = false;
-  way.turn_free = true;
-  way.squeeze = {};
-  way.stop_along_m = way.path.along_m(from) + way.check.free_m;
-  way.care_along_m = planning::PathCheck::kFree;
+  const std::size_t from = std::min(state.progress.pursuit.index, state.way.plain.points.size() - 1);
+  state.ahead.check = planning::check_movers(state.way.plain, from, config.look_ahead_m,
+                                             std::abs(state.limits.previous.linear_mps),
+                                             true_movers(state, now, config), config.check, config.movers);
+  state.block.by_mover = state.ahead.check.blocked();
+  state.block.unseen = false;
+  state.ahead.turn_free = true;
+  state.block.squeeze = {};
+  state.ahead.stop_along_m = state.way.path.along_m(from) + state.ahead.check.free_m;
+  state.ahead.care_along_m = planning::PathCheck::kFree;
 }
 
 /// Whether what the vehicle would do next is not to be done: it leads into something beside the path. A
@@ -219,15 +214,14 @@ void note_held(CycleState& state, const std::vector<Point2<Map>>& obstacles, Sta
                const CycleConfig& config) {
   constexpr double kNothingLeft = 0.12;
   constexpr double kMomentS = 0.25;
-  Navigation& way = state.way;
   const bool going = drives(state.mode) || state.mode == Mode::Waiting;
-  const VelocityCommand next = going ? follow(state, config).command : VelocityCommand{};
+  const VelocityCommand next = going ? pursue_way(state, config).command : VelocityCommand{};
   const double share = share_to_go(state, next, obstacles, config);
   if (share > kNothingLeft)
-    way.held_since.reset();
-  else if (!way.held_since)
-    way.held_since = now;
-  way.held = way.held_since && to_seconds(now - *way.held_since) >= kMomentS;
+    state.ahead.held_since.reset();
+  else if (!state.ahead.held_since)
+    state.ahead.held_since = now;
+  state.ahead.held = state.ahead.held_since && to_seconds(now - *state.ahead.held_since) >= kMomentS;
 }
 
 }  // namespace
@@ -247,29 +241,28 @@ const std::vector<Point2<Map>>& obstacle_points(CycleState& state) {
 }
 
 void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
-  Navigation& way = state.way;
   for (const auto& command : input.commands)
     if (command.word == OperatorWord::GoOn) allow_door(state);
   for (const auto& command : input.commands)
     if (command.word == OperatorWord::ForgetObstacles ||
         (command.word == OperatorWord::Resume && state.mode == Mode::Waiting)) {
-      way.felt = false;
+      state.block.felt = false;
       state.obstacles.clear();  // the operator has looked; what is seen comes back with the next scan
-      if (way.rejoin_m) take_path(way, {}, config);  // nothing to drive around any more: planned anew
+      if (state.way.rejoin_m) take_path(state, {}, config);  // nothing to drive around any more: planned anew
     }
-  if (way.path.empty() || way.arrived || !output.computed_lidar) return;
+  if (state.way.path.empty() || state.errand.arrived || !output.computed_lidar) return;
   const auto& obstacles = obstacle_points(state);
-  if (way.backing)
+  if (state.way.backing)
     check_behind(state, input.now, config);
   else
     check_ahead(state, obstacles, input.now, config);
   stop_before_doors(state, config);
   note_held(state, obstacles, input.now, config);
-  if (way.backing && way.held) {
-    way.backing_held = true;
+  if (state.way.backing && state.ahead.held) {
+    state.errand.backing_held = true;
     return end_back_out(state);
   }
-  note_blocked(way, input.now, config.clear_for_s);
+  note_blocked(state, input.now, config.clear_for_s);
   ask_for_detour(state, input, config, obstacles, output);
 }
 

@@ -12,6 +12,7 @@
 #include "app/cycle/pose_source.hpp"
 #include "app/cycle/safety_rules.hpp"
 #include "app/cycle/site_in_building.hpp"
+#include "app/cycle/way.hpp"
 #include "app/orders/order.hpp"
 #include "control/diff_drive/odometry.hpp"
 #include "control/drive_link/wire.hpp"
@@ -135,13 +136,6 @@ struct CycleOutput {
   std::vector<std::string> events;  ///< one line each
 };
 
-/// A place at which something seems to move.
-struct Stirring {
-  Point2<Map> at;
-  Stamp since{};
-  Stamp last{};
-};
-
 /// What was asked of the drive since the vehicle last got on, and from where.
 struct Effort {
   Transform2<Map, Base> from;
@@ -149,48 +143,6 @@ struct Effort {
   double driven_s = 0.0;   ///< the drive was asked to move
   double asked_m = 0.0;    ///< of way, turns counted at the outline
   double direction = 1.0;  ///< -1 backwards
-};
-
-/// The way to the current target.
-struct Navigation {
-  std::optional<Target> target;
-  OrderStop stop;
-  std::vector<std::size_t> nodes;  ///< of the route
-  control::TrackedPath path;
-  Path plain;  ///< the same path as planning wants it
-  control::PursuitState pursuit;
-  control::PursuitStatus status = control::PursuitStatus::Following;
-  double along_m = 0.0;
-  double cross_track_m = 0.0;
-  bool arrived = false;
-  bool reported = false;
-  Stamp dwell_until{};
-  Notice no_way;                   ///< why there is no path
-  std::optional<double> rejoin_m;  ///< of a detour
-  // what stands in the way
-  planning::PathCheck check;
-  double stop_along_m = planning::PathCheck::kFree;
-  double care_along_m = planning::PathCheck::kFree;
-  bool turn_free = true;
-  bool held = false;  ///< driving on leads into something beside the path
-  std::optional<Stamp> held_since;
-  bool backing = false;        ///< the path is the way that the vehicle came, driven backward
-  bool backing_held = false;   ///< the way that it came led into something: it curves
-  int back_outs = 0;           ///< on this route
-  bool felt = false;           ///< something that was not seen has held the vehicle
-  planning::Squeeze squeeze;   ///< until it is out of where it stands too near to something
-  bool height_unseen = false;  ///< ahead is a door or lift of which no lidar sees how high it is open
-  std::vector<std::size_t> doors_allowed;  ///< nodes that an operator has looked at
-  bool by_mover = false;                   ///< what blocks is on its way across
-  bool unseen = false;  ///< what blocks is remembered from before it came too near for the lidar
-  std::vector<Stirring> stirring;
-  std::optional<Stamp> blocked_since;
-  std::optional<Stamp> free_since;
-  Stamp asked_detour{};
-  std::uint32_t detour_id = 0;
-  bool detour_pending = false;
-  std::string detour_failed;
-  std::vector<std::pair<std::pair<std::size_t, std::size_t>, Stamp>> blocked_legs;
 };
 
 /// When a lidar was heard, and when it last saw anything in each direction ahead.
@@ -239,7 +191,12 @@ struct CycleState {
   std::optional<std::int64_t> stopped_order;  ///< that ended with it
   VelocityCommand jog;
   Stamp jog_heard{};
-  Navigation way;
+  Errand errand;
+  Way way;
+  Progress progress;
+  Ahead ahead;
+  Block block;
+  DetourSearch detour;
   Ring<Transform2<Map, Base>> trail;  ///< where it has just driven
   Stamp trail_at{};                   ///< of its last pose
   std::optional<Effort> effort;       ///< while it works on an order

@@ -37,9 +37,8 @@ void feel(CycleState& state, const CycleInput& input, const CycleConfig& config)
   for (const auto& place : felt_places(config.check.vehicle, state.limits.previous, lever_m(config)))
     places.push_back(odom_from_base * place);
   state.obstacles.add_felt(places, input.now);
-  Navigation& way = state.way;
-  way.felt = true;
-  way.stop_along_m = way.along_m;  // the next revolution looks at it again
+  state.block.felt = true;
+  state.ahead.stop_along_m = state.progress.along_m;  // the next revolution looks at it again
 }
 
 }  // namespace
@@ -69,7 +68,7 @@ void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig&
                          std::abs(wrap_angle(here.yaw_rad() - effort.from.yaw_rad())) * lever_m(config);
   if (moved_m > kGotOnM) {
     effort = {here, now, 0.0, 0.0, direction};
-    state.way.felt = false;
+    state.block.felt = false;
     return;
   }
   const bool held =

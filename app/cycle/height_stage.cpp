@@ -19,28 +19,27 @@ bool contains(const std::vector<std::size_t>& nodes, std::size_t node) {
 }
 
 /// Along the path to where it passes a place; nothing where it does not, or has done so.
-std::optional<double> along_of(const Navigation& way, const Point2<Map>& place) {
+std::optional<double> along_of(const CycleState& state, const Point2<Map>& place) {
   std::optional<double> along;
   double nearest_m = kOnPathM;
-  for (std::size_t i = 0; i < way.plain.points.size(); ++i) {
-    const double away_m = distance_m(way.plain.points[i].position, place);
-    if (away_m >= nearest_m || way.path.along_m(i) < way.along_m) continue;
+  for (std::size_t i = 0; i < state.way.plain.points.size(); ++i) {
+    const double away_m = distance_m(state.way.plain.points[i].position, place);
+    if (away_m >= nearest_m || state.way.path.along_m(i) < state.progress.along_m) continue;
     nearest_m = away_m;
-    along = way.path.along_m(i);
+    along = state.way.path.along_m(i);
   }
   return along;
 }
 
-/// The first door or lift ahead for which nobody has given the word, by its place in way.nodes.
+/// The first door or lift ahead for which nobody has given the word, by its place in state.errand.nodes.
 std::optional<std::size_t> next_door(const CycleState& state, double& along_m) {
-  const Navigation& way = state.way;
   const auto& nodes = state.site->routes().nodes();
   std::optional<std::size_t> first;
   along_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < way.nodes.size(); ++i) {
-    const auto& node = nodes[way.nodes[i]];
-    if (!is_door(node) || contains(way.doors_allowed, way.nodes[i])) continue;
-    const auto along = along_of(way, node.position);
+  for (std::size_t i = 0; i < state.errand.nodes.size(); ++i) {
+    const auto& node = nodes[state.errand.nodes[i]];
+    if (!is_door(node) || contains(state.block.doors_allowed, state.errand.nodes[i])) continue;
+    const auto along = along_of(state, node.position);
     if (!along || *along >= along_m) continue;
     along_m = *along;
     first = i;
@@ -50,10 +49,9 @@ std::optional<std::size_t> next_door(const CycleState& state, double& along_m) {
 
 /// The word is given for the door at hand: all of its nodes that follow one another on the route.
 void allow(CycleState& state, std::size_t door) {
-  Navigation& way = state.way;
   const auto& nodes = state.site->routes().nodes();
-  for (std::size_t i = door; i < way.nodes.size() && is_door(nodes[way.nodes[i]]); ++i)
-    way.doors_allowed.push_back(way.nodes[i]);
+  for (std::size_t i = door; i < state.errand.nodes.size() && is_door(nodes[state.errand.nodes[i]]); ++i)
+    state.block.doors_allowed.push_back(state.errand.nodes[i]);
 }
 
 }  // namespace
@@ -65,26 +63,25 @@ bool sees_heights(const CycleConfig& config) {
 }
 
 void stop_before_doors(CycleState& state, const CycleConfig& config) {
-  Navigation& way = state.way;
-  way.height_unseen = false;
-  if (sees_heights(config) || way.backing) return;
+  state.block.height_unseen = false;
+  if (sees_heights(config) || state.way.backing) return;
   const auto& nodes = state.site->routes().nodes();
   const Point2<Map> here = state.pose.map_from_base.translation();
-  std::erase_if(way.doors_allowed, [&](std::size_t node) {
+  std::erase_if(state.block.doors_allowed, [&](std::size_t node) {
     return distance_m(nodes[node].position, here) > kLeftZones * config.door_zone_m;
   });
   double along_m = 0.0;
   const auto door = next_door(state, along_m);
   if (!door) return;
   const double stop_m = along_m - config.check.vehicle.front_m - kBeforeDoorM;
-  if (stop_m > way.stop_along_m) return;
-  way.stop_along_m = stop_m;
-  way.height_unseen = stop_m - way.along_m < config.door_zone_m;
+  if (stop_m > state.ahead.stop_along_m) return;
+  state.ahead.stop_along_m = stop_m;
+  state.block.height_unseen = stop_m - state.progress.along_m < config.door_zone_m;
 }
 
 void allow_door(CycleState& state) {
   double along_m = 0.0;
-  if (!state.way.height_unseen || state.way.arrived || state.mode != Mode::Waiting) return;
+  if (!state.block.height_unseen || state.errand.arrived || state.mode != Mode::Waiting) return;
   if (const auto door = next_door(state, along_m)) allow(state, *door);
 }
 

@@ -86,10 +86,9 @@ void take_given_pose(CycleState& state, const GivenPose& given) {
 void follow_drawing(CycleState& state, const CycleConfig& config) {
   if (!state.site->differs(state.localization->bent())) return;
   auto site = std::make_shared<const SiteInBuilding>(state.site->carried(state.localization->bent()));
-  Navigation& way = state.way;
-  if (!way.path.empty() && !way.backing) {
-    way.plain = state.site->carry_to(*site, std::move(way.plain));
-    way.path = control::TrackedPath(way.plain, config.pursuit.speed);
+  if (!state.way.path.empty() && !state.way.backing) {
+    state.way.plain = state.site->carry_to(*site, std::move(state.way.plain));
+    state.way.path = control::TrackedPath(state.way.plain, config.pursuit.speed);
   }
   state.site = std::move(site);
 }

@@ -21,18 +21,19 @@ bool has_fault(const CycleState& state) {
 
 /// Whether the way ahead lets the vehicle go on from a standstill.
 bool is_clear(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
-  const Navigation& way = state.way;
-  const bool has_way = !way.path.empty() && !way.arrived && way.turn_free && !way.held;
-  const bool room = way.stop_along_m - way.along_m > kWorthGoingM;
-  const bool lasting = !way.blocked_since || room;
-  const bool settled = !way.free_since || to_seconds(input.now - *way.free_since) >= config.clear_for_s;
+  const bool has_way =
+      !state.way.path.empty() && !state.errand.arrived && state.ahead.turn_free && !state.ahead.held;
+  const bool room = state.ahead.stop_along_m - state.progress.along_m > kWorthGoingM;
+  const bool lasting = !state.block.since || room;
+  const bool settled =
+      !state.block.free_since || to_seconds(input.now - *state.block.free_since) >= config.clear_for_s;
   return !forbidding_rule(state, input, config) && has_way && room && lasting && settled;
 }
 
 bool is_blocked(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
-  const Navigation& way = state.way;
-  return way.path.empty() || way.arrived || !way.turn_free || way.held ||
-         forbidding_rule(state, input, config) || way.stop_along_m - way.along_m < kStandsBeforeM;
+  return state.way.path.empty() || state.errand.arrived || !state.ahead.turn_free || state.ahead.held ||
+         forbidding_rule(state, input, config) ||
+         state.ahead.stop_along_m - state.progress.along_m < kStandsBeforeM;
 }
 
 std::optional<ModeEvent> event_of(OperatorWord word) {
@@ -67,7 +68,7 @@ void note_stop_word(CycleState& state, OperatorWord word) {
   if (!is_stop(word)) return;
   state.stopped = true;
   state.jog = {};
-  if (word == OperatorWord::Stop && state.way.target) state.stopped_order = state.way.target->order;
+  if (word == OperatorWord::Stop && state.errand.target) state.stopped_order = state.errand.target->order;
 }
 
 /// Applies events one by one and keeps what they did for the log.
@@ -92,9 +93,8 @@ class ModeChanges {
 /// What the way asks for while an order is worked on.
 std::optional<ModeEvent> way_event(const CycleState& state, const CycleInput& input,
                                    const CycleConfig& config) {
-  const Navigation& way = state.way;
-  const bool on_detour = way.rejoin_m && way.along_m < *way.rejoin_m;
-  if (!way.target) return ModeEvent::OrderEnded;
+  const bool on_detour = state.way.rejoin_m && state.progress.along_m < *state.way.rejoin_m;
+  if (!state.errand.target) return ModeEvent::OrderEnded;
   if (state.mode == Mode::Waiting) {
     if (!is_clear(state, input, config)) return std::nullopt;
     return on_detour ? ModeEvent::DetourFound : ModeEvent::Cleared;
@@ -136,7 +136,7 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
   if (is_held(state.mode)) return;
   const bool sure = may_drive(state.pose.health.state) && state.lidar_heard.has_value();
   mode.apply(sure ? ModeEvent::Localized : ModeEvent::Lost);
-  if (state.mode == Mode::Idle && sure && state.way.target && !state.way.path.empty())
+  if (state.mode == Mode::Idle && sure && state.errand.target && !state.way.path.empty())
     mode.apply(ModeEvent::OrderGiven);
   else if (drives(state.mode) || state.mode == Mode::Waiting)
     if (const auto event = way_event(state, input, config)) mode.apply(*event);

@@ -95,39 +95,47 @@ Path path_over(const CycleState& state, const planning::Route& route, const Cycl
   return {{{here, goal.heading_rad.value_or(pose.yaw_rad()), 0.0}}};
 }
 
+void forget_errand(CycleState& state) {
+  state.errand = {};
+  state.way = {};
+  state.progress = {};
+  state.ahead = {};
+  state.block = {};
+  state.detour = {};
+}
+
 void plan(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
-  Navigation& way = state.way;
-  way.arrived = way.reported = false;
-  way.path = {};
-  way.plain = {};
-  const auto goal = state.site->routes().index_of(way.stop.node);
+  state.errand.arrived = state.errand.reported = false;
+  state.way.path = {};
+  state.way.plain = {};
+  const auto goal = state.site->routes().index_of(state.errand.stop.node);
   if (!goal) {
-    way.no_way = notice(Cause::UnknownNode, {{"node", std::to_string(way.stop.node)}});
-    output.order_refused = {way.target->order, way.no_way.text};
+    state.errand.no_way = notice(Cause::UnknownNode, {{"node", std::to_string(state.errand.stop.node)}});
+    output.order_refused = {state.errand.target->order, state.errand.no_way.text};
     return;
   }
   const Point2<Map> here = state.pose.map_from_base.translation();
-  auto route =
-      best_route(*state.site, config.metric, here, *goal, blocked_now(way, input.now, config.forget_block_s));
+  auto route = best_route(*state.site, config.metric, here, *goal,
+                          blocked_now(state.errand, input.now, config.forget_block_s));
   if (!route) {
-    way.blocked_legs.clear();  // every way is blocked: the vehicle goes to see whether it still is
+    state.errand.blocked_legs.clear();  // every way is blocked: the vehicle goes to see whether it still is
     route = best_route(*state.site, config.metric, here, *goal, {});
   }
   if (!route) {
-    way.no_way = notice(Cause::NoWay, {{"node", std::to_string(way.stop.node)}});
-    output.order_refused = {way.target->order, way.no_way.text};
+    state.errand.no_way = notice(Cause::NoWay, {{"node", std::to_string(state.errand.stop.node)}});
+    output.order_refused = {state.errand.target->order, state.errand.no_way.text};
     return;
   }
-  way.nodes = route->nodes;
-  way.detour_failed.clear();
-  way.blocked_since.reset();
-  take_path(way, path_over(state, *route, config), config);
+  state.errand.nodes = route->nodes;
+  state.detour.failed.clear();
+  state.block.since.reset();
+  take_path(state, path_over(state, *route, config), config);
 }
 
 /// A way around with a turn on the spot at its end where the goal has a heading: no curve ends in it exactly.
 Path ending_as_asked(Path path, const CycleState& state) {
   const auto& routes = state.site->routes();
-  const auto goal = routes.index_of(state.way.stop.node);
+  const auto goal = routes.index_of(state.errand.stop.node);
   if (!goal || !routes.nodes()[*goal].heading_rad) return path;
   const auto& points = path.points;
   const bool turns = points.size() > 1 && points.back().position == points[points.size() - 2].position;
@@ -137,23 +145,23 @@ Path ending_as_asked(Path path, const CycleState& state) {
 
 /// What blocks the way; the vehicle's own place where it has no room to turn.
 Point2<Map> place_of_block(const CycleState& state) {
-  const auto& check = state.way.check;
+  const auto& check = state.ahead.check;
   return check.blocked() ? check.where : state.pose.map_from_base.translation();
 }
 
 /// The leg of the route that is nearest to what blocks it.
 std::optional<std::pair<std::size_t, std::size_t>> blocked_leg(const CycleState& state,
                                                                const Point2<Map>& block) {
-  const Navigation& way = state.way;
   std::optional<std::pair<std::size_t, std::size_t>> leg;
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < state.errand.nodes.size(); ++i) {
     const auto& nodes = state.site->routes().nodes();
-    const Segment2<Map> piece{nodes[way.nodes[i]].position, nodes[way.nodes[i + 1]].position};
+    const Segment2<Map> piece{nodes[state.errand.nodes[i]].position,
+                              nodes[state.errand.nodes[i + 1]].position};
     const double away_m = distance_m(piece, block);
     if (away_m >= nearest_m) continue;
     nearest_m = away_m;
-    leg = {way.nodes[i], way.nodes[i + 1]};
+    leg = {state.errand.nodes[i], state.errand.nodes[i + 1]};
   }
   return leg;
 }
@@ -161,46 +169,69 @@ std::optional<std::pair<std::size_t, std::size_t>> blocked_leg(const CycleState&
 /// After long waiting: another route without the leg that is blocked, where there is one.
 void try_another_route(CycleState& state, const CycleInput& input, const CycleConfig& config,
                        CycleOutput& output) {
-  Navigation& way = state.way;
-  way.blocked_since = input.now;  // the next try is as far away
+  state.block.since = input.now;  // the next try is as far away
   const auto leg = blocked_leg(state, place_of_block(state));
   const auto& routes = state.site->routes();
-  const auto goal = routes.index_of(way.stop.node);
+  const auto goal = routes.index_of(state.errand.stop.node);
   if (!leg || !goal) return;
-  auto blocked = blocked_now(way, input.now, config.forget_block_s);
+  auto blocked = blocked_now(state.errand, input.now, config.forget_block_s);
   blocked.insert(*leg);
   if (!best_route(*state.site, config.metric, state.pose.map_from_base.translation(), *goal, blocked)) return;
-  way.blocked_legs.emplace_back(*leg, input.now);
+  state.errand.blocked_legs.emplace_back(*leg, input.now);
   output.events.push_back("the leg from node " + std::to_string(routes.nodes()[leg->first].id) + " to node " +
                           std::to_string(routes.nodes()[leg->second].id) +
                           " is blocked: taking another route");
-  way.back_outs = 0;  // the other route may need room that this one did not
+  state.errand.back_outs = 0;  // the other route may need room that this one did not
   plan(state, input, config, output);
+}
+
+/// The running order's next stop; what was on the way to another one is forgotten. Whether there is any.
+bool take_order(CycleState& state, const std::optional<Order>& order) {
+  if (!order || order->state != OrderState::Running || order->stops.empty()) {
+    if (state.errand.target) forget_errand(state);
+    return false;
+  }
+  const Target target{order->id, order->round, order->next_stop};
+  if (state.errand.target == target) return true;
+  auto legs = std::move(state.errand.blocked_legs);
+  forget_errand(state);
+  state.errand.blocked_legs = std::move(legs);
+  state.errand.target = target;
+  state.errand.stop = order->stops[target.stop];
+  return true;
+}
+
+/// The way around that was asked for, or why there is none. An older question's answer is not waited for any
+/// more.
+void take_answer(CycleState& state, const planning::DetourAnswer& answer, const CycleConfig& config) {
+  if (answer.id != state.detour.id || !state.detour.pending) return;
+  state.detour.pending = false;
+  state.detour.failed = answer.path ? "" : answer.reason;
+  if (!answer.path) return;
+  const std::size_t rejoin = std::min(answer.rejoin, answer.path->points.size() - 1);
+  take_path(state, ending_as_asked(*answer.path, state), config);
+  state.way.rejoin_m = state.way.path.along_m(rejoin);
 }
 
 }  // namespace
 
-void take_path(Navigation& way, Path path, const CycleConfig& config) {
-  way.plain = path;
-  way.path = control::TrackedPath(std::move(path), config.pursuit.speed);
-  way.pursuit = {};
-  way.status = control::PursuitStatus::Following;
-  way.along_m = 0.0;
-  way.stop_along_m = planning::PathCheck::kFree;
-  way.care_along_m = planning::PathCheck::kFree;
-  way.check = {};
-  way.rejoin_m.reset();
-  way.detour_pending = false;
-  way.turn_free = true;
-  way.held = false;
-  way.backing = false;
-  way.held_since.reset();
-  way.no_way = {};
+void take_path(CycleState& state, Path path, const CycleConfig& config) {
+  state.way = {control::TrackedPath(path, config.pursuit.speed), std::move(path), std::nullopt, false};
+  state.progress = {};
+  state.ahead = {};
+  state.detour.pending = false;
+  state.errand.no_way = {};
 }
 
-planning::BlockedLegs blocked_now(const Navigation& way, Stamp now, double forget_s) {
+void arrive(CycleState& state, Stamp now) {
+  if (state.way.backing) return end_back_out(state);
+  state.errand.arrived = true;
+  state.errand.dwell_until = now + duration_from_seconds(state.errand.stop.wait_s);
+}
+
+planning::BlockedLegs blocked_now(const Errand& errand, Stamp now, double forget_s) {
   planning::BlockedLegs blocked;
-  for (const auto& [leg, since] : way.blocked_legs)
+  for (const auto& [leg, since] : errand.blocked_legs)
     if (to_seconds(now - since) < forget_s) blocked.insert(leg);
   return blocked;
 }
@@ -214,52 +245,29 @@ bool is_at_door(const CycleState& state, const Point2<Map>& place, const CycleCo
 }
 
 bool waits_for_door(const CycleState& state, const CycleConfig& config) {
-  const Navigation& way = state.way;
-  const bool on_route = !way.rejoin_m;  // beside it, what stands there is the wall beside the door
-  return on_route && way.check.blocked() && !way.unseen && is_at_door(state, way.check.where, config);
+  const bool on_route = !state.way.rejoin_m;  // beside it, what stands there is the wall beside the door
+  return on_route && state.ahead.check.blocked() && !state.block.unseen &&
+         is_at_door(state, state.ahead.check.where, config);
 }
 
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
-  Navigation& way = state.way;
-  const bool has_target =
-      input.order && input.order->state == OrderState::Running && !input.order->stops.empty();
-  if (!has_target) {
-    if (way.target) way = Navigation();
-    return;
-  }
-  const Target target{input.order->id, input.order->round, input.order->next_stop};
-  const bool is_new = way.target != target;
-  if (is_new) {
-    auto legs = std::move(way.blocked_legs);
-    way = Navigation();
-    way.blocked_legs = std::move(legs);
-    way.target = target;
-    way.stop = input.order->stops[target.stop];
-  }
+  if (!take_order(state, input.order)) return;
   const bool sure = may_drive(state.pose.health.state) && state.lidar_heard;
-  const bool off_path = way.status == control::PursuitStatus::OffPath;
-  const bool needs_path = way.path.empty() && way.no_way.empty();
-  if (sure && !way.arrived && (needs_path || off_path)) plan(state, input, config, output);
-  if (input.detour && input.detour->id == way.detour_id && way.detour_pending) {
-    way.detour_pending = false;
-    way.detour_failed = input.detour->path ? "" : input.detour->reason;
-    if (input.detour->path) {
-      const std::size_t rejoin = std::min(input.detour->rejoin, input.detour->path->points.size() - 1);
-      take_path(way, ending_as_asked(*input.detour->path, state), config);
-      way.rejoin_m = way.path.along_m(rejoin);
-    }
-  }
+  const bool off_path = state.progress.status == control::PursuitStatus::OffPath;
+  const bool needs_path = state.way.path.empty() && state.errand.no_way.empty();
+  if (sure && !state.errand.arrived && (needs_path || off_path)) plan(state, input, config, output);
+  if (input.detour) take_answer(state, *input.detour, config);
   if (sure) back_out(state, input, config, output);
   const double patience_s =
       waits_for_door(state, config) ? config.door_reroute_after_s : config.reroute_after_s;
-  const bool stuck = state.mode == Mode::Waiting && way.blocked_since && !way.arrived &&
-                     to_seconds(input.now - *way.blocked_since) > patience_s;
+  const bool stuck = state.mode == Mode::Waiting && state.block.since && !state.errand.arrived &&
+                     to_seconds(input.now - *state.block.since) > patience_s;
   if (sure && stuck) try_another_route(state, input, config, output);
   const bool told = std::any_of(input.commands.begin(), input.commands.end(),
                                 [](const auto& c) { return c.word == OperatorWord::GoOn; });
-  if (way.arrived && !way.reported && (input.now >= way.dwell_until || told)) {
-    way.reported = true;
-    output.stop_done = way.target;
+  if (state.errand.arrived && !state.errand.reported && (input.now >= state.errand.dwell_until || told)) {
+    state.errand.reported = true;
+    output.stop_done = state.errand.target;
   }
 }
 

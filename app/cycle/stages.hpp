@@ -2,7 +2,7 @@
 
 #include "app/cycle/cycle.hpp"
 
-/// The stages of step(), in their order. Each changes its own part of the state alone.
+/// The stages of step(), in their order; way.hpp says which part of the state is whose.
 namespace madori::app {
 
 /// Drive statuses become odometry, odometry becomes a pose; revolutions correct it.
@@ -18,7 +18,7 @@ void back_out(CycleState& state, const CycleInput& input, const CycleConfig& con
 /// From here the way is planned anew.
 void end_back_out(CycleState& state);
 /// A new path takes the place of the old one.
-void take_path(Navigation& way, Path path, const CycleConfig& config);
+void take_path(CycleState& state, Path path, const CycleConfig& config);
 /// The path ahead against what the scan and the drawing show; asks for a way around.
 void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// Without a lidar that sees heights the vehicle stands before each door and lift until an operator, who has
@@ -29,17 +29,20 @@ void allow_door(CycleState& state);
 [[nodiscard]] bool sees_heights(const CycleConfig& config);
 /// Events of all kinds move the mode.
 void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
-/// What the vehicle would do, were there no limits.
-[[nodiscard]] VelocityCommand wanted_command(CycleState& state, const CycleInput& input,
-                                             const CycleConfig& config);
+/// What following the path from here asks of the wheels, and how far on the path that is.
+struct Pursued {
+  VelocityCommand command;
+  Progress progress;
+};
+[[nodiscard]] Pursued pursue_way(const CycleState& state, const CycleConfig& config);
+/// The end of the path is reached.
+void arrive(CycleState& state, Stamp now);
 /// The command as far as nothing is met on it; a path is not followed to the centimetre.
 [[nodiscard]] VelocityCommand guarded(CycleState& state, const VelocityCommand& wanted,
                                       const CycleConfig& config);
 /// The share of a command, 0 to 1, that the guard leaves.
 [[nodiscard]] double share_to_go(const CycleState& state, const VelocityCommand& wanted,
                                  const std::vector<Point2<Map>>& obstacles, const CycleConfig& config);
-/// What following the path from here asks for, and where that is on the path. Changes nothing.
-[[nodiscard]] control::PursuitOutput follow(const CycleState& state, const CycleConfig& config);
 /// Cause and remedy of a standstill; empty while the vehicle may move.
 [[nodiscard]] Standstill standstill_of(const CycleState& state, const CycleInput& input,
                                        const CycleConfig& config);
@@ -63,6 +66,6 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
 /// is none.
 [[nodiscard]] bool waits_for_door(const CycleState& state, const CycleConfig& config);
 /// The legs that count as blocked now, in the direction in which the vehicle met what blocks them.
-[[nodiscard]] planning::BlockedLegs blocked_now(const Navigation& way, Stamp now, double forget_s);
+[[nodiscard]] planning::BlockedLegs blocked_now(const Errand& errand, Stamp now, double forget_s);
 
 }  // namespace madori::app

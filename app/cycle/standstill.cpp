@@ -69,20 +69,20 @@ Standstill why_at_stop(const OrderStop& stop, Stamp now) {
 }
 
 Standstill why_waiting(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
-  const Navigation& way = state.way;
   const Stamp now = input.now;
   if (const auto* rule = forbidding_rule(state, input, config))
     return {notice(rule->cause), notice(rule->remedy), now};
-  if (way.arrived) return why_at_stop(way.stop, now);
-  if (!way.no_way.empty()) return {way.no_way, notice(Remedy::ClearOrDraw), now};
-  if (way.felt) return because(Cause::HeldBack, Remedy::LookAndResume, now);
-  if (way.height_unseen) return because(Cause::HeightUnseen, Remedy::LookAndGoOn, now);
-  if (!way.turn_free) return because(Cause::NoRoomToTurn, Remedy::ClearAround, now);
+  if (state.errand.arrived) return why_at_stop(state.errand.stop, now);
+  if (!state.errand.no_way.empty()) return {state.errand.no_way, notice(Remedy::ClearOrDraw), now};
+  if (state.block.felt) return because(Cause::HeldBack, Remedy::LookAndResume, now);
+  if (state.block.height_unseen) return because(Cause::HeightUnseen, Remedy::LookAndGoOn, now);
+  if (!state.ahead.turn_free) return because(Cause::NoRoomToTurn, Remedy::ClearAround, now);
   if (waits_for_door(state, config)) return because(Cause::DoorNotOpen, Remedy::OnceOpen, now);
-  if (way.check.blocked() && way.check.by_wall) return because(Cause::WallInTheWay, Remedy::MoveRoute, now);
-  if (way.unseen) return because(Cause::UnseenInTheWay, Remedy::LookAndResume, now);
-  if (way.detour_failed.empty()) return because(Cause::SomethingInTheWay, Remedy::OnceClear, now);
-  return {notice(Cause::SomethingInTheWay), notice(Remedy::ClearWay, {{"reason", way.detour_failed}}), now};
+  if (state.ahead.check.blocked() && state.ahead.check.by_wall)
+    return because(Cause::WallInTheWay, Remedy::MoveRoute, now);
+  if (state.block.unseen) return because(Cause::UnseenInTheWay, Remedy::LookAndResume, now);
+  if (state.detour.failed.empty()) return because(Cause::SomethingInTheWay, Remedy::OnceClear, now);
+  return {notice(Cause::SomethingInTheWay), notice(Remedy::ClearWay, {{"reason", state.detour.failed}}), now};
 }
 
 }  // namespace
@@ -97,8 +97,8 @@ Standstill standstill_of(const CycleState& state, const CycleInput& input, const
     case Mode::Manual:
       return because(Cause::Manual, Remedy::ManualOff, input.now);
     case Mode::Idle:
-      return {state.way.no_way.empty() ? notice(Cause::NoOrder) : state.way.no_way, notice(Remedy::GiveOrder),
-              input.now};
+      return {state.errand.no_way.empty() ? notice(Cause::NoOrder) : state.errand.no_way,
+              notice(Remedy::GiveOrder), input.now};
     case Mode::Localizing:
       return why_unplaced(state, input.now);
     case Mode::Paused:

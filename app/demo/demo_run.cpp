@@ -65,8 +65,8 @@ class Observer {
     result_.events.insert(result_.events.end(), output.events.begin(), output.events.end());
     auto& delivery = result_.deliveries.back();
     if (!result_.driven.empty()) delivery.way_m += distance_m(result_.driven.back(), here);
-    if (state.mode == Mode::Waiting && !state.way.arrived) delivery.waited_s += 0.02;
-    if (state.mode == Mode::Driving && !state.way.arrived)
+    if (state.mode == Mode::Waiting && !state.errand.arrived) delivery.waited_s += 0.02;
+    if (state.mode == Mode::Driving && !state.errand.arrived)
       off_route_m_.push_back(distance_from(state.way.path.points(), here));
     result_.driven.push_back(here);
     result_.believed.push_back(state.pose.map_from_base.translation());

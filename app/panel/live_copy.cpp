@@ -163,12 +163,13 @@ void LiveCopy::show(const CycleInput& input, const CycleState& state, const Cycl
   live_.battery_v.reset();
   if (state.drive.battery_mv > 0 && is_fresh(state.drive_heard, input.now))
     live_.battery_v = state.drive.battery_mv / 1000.0;
-  live_.goal = state.way.target ? node_name(config.routes, state.way.stop.node).value_or("") : std::string();
+  live_.goal =
+      state.errand.target ? node_name(config.routes, state.errand.stop.node).value_or("") : std::string();
   live_.path.clear();
   for (const auto& point : state.way.plain.points)
     live_.path.push_back(state.site->on_drawing(point.position));
   live_.blocked.clear();
-  if (state.way.blocked_since) live_.blocked.push_back(state.site->on_drawing(state.way.check.where));
+  if (state.block.since) live_.blocked.push_back(state.site->on_drawing(state.ahead.check.where));
   take_devices(input.now, config.lidars, state.drive_heard, device_problem);
   take_places(state, input.now);
 }

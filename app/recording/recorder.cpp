@@ -68,9 +68,9 @@ void Recorder::add(const CycleInput& input, const CycleOutput& output, const Cyc
     record.thinned = thinned(input.clouds.back());
   }
   const auto& points = state.way.plain.points;
-  if (points.size() != path_size_ || state.way.detour_id != path_of_) {
+  if (points.size() != path_size_ || state.detour.id != path_of_) {
     path_size_ = points.size();
-    path_of_ = state.way.detour_id;
+    path_of_ = state.detour.id;
     record.path = state.way.plain;
   }
   if (segment_begun_ == Stamp{}) segment_begun_ = input.now;
@@ -79,7 +79,7 @@ void Recorder::add(const CycleInput& input, const CycleOutput& output, const Cyc
     record.state = state_bytes(state);
   }
   const bool drives_now = drives(state.mode);
-  record.stop = drove_ && !drives_now && !state.way.arrived && state.mode != Mode::Idle;
+  record.stop = drove_ && !drives_now && !state.errand.arrived && state.mode != Mode::Idle;
   drove_ = drives_now;
   {
     const std::scoped_lock lock(mutex_);

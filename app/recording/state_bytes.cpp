@@ -95,19 +95,31 @@ void each_of_notice(Bytes& bytes, Notice& n) {
   each(bytes, code, text);
 }
 
+template <class Bytes, class Errand>
+void each_of_errand(Bytes& bytes, Errand& e) {
+  auto& [target, stop, nodes, no_way, arrived, reported, dwell_until, back_outs, backing_held, blocked_legs] =
+      e;
+  each(bytes, target, stop, nodes, arrived, reported, dwell_until, back_outs, backing_held, blocked_legs);
+  each_of_notice(bytes, no_way);
+}
+
 template <class Bytes, class Way>
 void each_of_way(Bytes& bytes, Way& w) {
-  auto& [target, stop, nodes, path, plain, pursuit, status, along_m, cross_track_m, arrived, reported,
-         dwell_until, no_way, rejoin_m, check, stop_along_m, care_along_m, turn_free, held, held_since,
-         backing, backing_held, back_outs, felt, squeeze, height_unseen, doors_allowed, by_mover, unseen,
-         stirring, blocked_since, free_since, asked_detour, detour_id, detour_pending, detour_failed,
-         blocked_legs] = w;
+  auto& [path, plain, rejoin_m, backing] = w;
   static_cast<void>(path);  // made from `plain`
-  each(bytes, target, stop, nodes, plain.points, pursuit, status, along_m, cross_track_m, arrived, reported,
-       dwell_until, rejoin_m, check, stop_along_m, care_along_m, turn_free, held, held_since, backing,
-       backing_held, back_outs, felt, squeeze, height_unseen, doors_allowed, by_mover, unseen, stirring,
-       blocked_since, free_since, asked_detour, detour_id, detour_pending, detour_failed, blocked_legs);
-  each_of_notice(bytes, no_way);
+  each(bytes, plain.points, rejoin_m, backing);
+}
+
+template <class Bytes, class Block>
+void each_of_block(Bytes& bytes, Block& b) {
+  auto& [felt, by_mover, unseen, height_unseen, doors_allowed, squeeze, stirring, since, free_since] = b;
+  each(bytes, felt, by_mover, unseen, height_unseen, doors_allowed, squeeze, stirring, since, free_since);
+}
+
+template <class Bytes, class Search>
+void each_of_search(Bytes& bytes, Search& d) {
+  auto& [asked, id, pending, failed] = d;
+  each(bytes, asked, id, pending, failed);
 }
 
 template <class Bytes, class Sight>
@@ -118,18 +130,21 @@ void each_of_sight(Bytes& bytes, Sight& s) {
 template <class Bytes, class State>
 void each_of(Bytes& bytes, State& s) {
   auto& [mode, standstill, odometry, track, localization, site, pose, obstacles, movers, drive, drive_heard,
-         drive_clock, drive_us, drive_restarted, lidars_heard, lidar_heard, looked, previous, gap,
-         begun, stopped, stopped_order, jog, jog_heard, way, trail, trail_at, effort, limits,
-         unarmed_steps, bench] = s;
+         drive_clock, drive_us, drive_restarted, lidars_heard, lidar_heard, looked, previous, gap, begun,
+         stopped, stopped_order, jog, jog_heard, errand, way, progress, ahead, block, detour, trail, trail_at,
+         effort, limits, unarmed_steps, bench] = s;
   static_cast<void>(bench);       // nothing in it lasts
   static_cast<void>(standstill);  // for people, each step anew
   static_cast<void>(localization), static_cast<void>(site),
       static_cast<void>(pose);                              // a recording's own part
   static_cast<void>(obstacles), static_cast<void>(movers);  // below: they guard their fields
   each(bytes, mode, odometry, track, drive, drive_heard, drive_clock, drive_us, drive_restarted, lidars_heard,
-       lidar_heard, looked, previous, gap, begun, stopped, stopped_order, jog, jog_heard,
+       lidar_heard, looked, previous, gap, begun, stopped, stopped_order, jog, jog_heard, progress, ahead,
        trail, trail_at, effort, limits, unarmed_steps);
+  each_of_errand(bytes, errand);
   each_of_way(bytes, way);
+  each_of_block(bytes, block);
+  each_of_search(bytes, detour);
 }
 
 }  // namespace

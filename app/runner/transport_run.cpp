@@ -82,7 +82,7 @@ void TransportRun::tick(Stamp now) {
            state_.pose,
            input.order,
            result.output.command,
-           state_.way.cross_track_m,
+           state_.progress.cross_track_m,
            state_.drive.battery_mv / 1000.0,
            problem.empty() ? link_->problem() : "orders: " + problem};
 }

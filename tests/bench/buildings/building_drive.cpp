@@ -29,13 +29,14 @@ app::SiteForDriving site_of(const BuildingStart& start, const std::filesystem::p
 }
 
 /// What the check of the way met: a body that was seen, or a wall that is drawn.
-std::string blocked_by(const app::Navigation& way) {
-  std::string text = way.turn_free ? "" : ", no turn";
-  if (way.held) text += ", held";
-  if (way.check.blocked())
-    text += fmt::format(", {} at ({:.2f}, {:.2f}), {:.2f} m before it", way.check.by_wall ? "wall" : "body",
-                        way.check.where.x_m, way.check.where.y_m, way.check.free_m);
-  return text + fmt::format(", margins {:.1f}", way.squeeze.share);
+std::string blocked_by(const app::CycleState& state) {
+  std::string text = state.ahead.turn_free ? "" : ", no turn";
+  if (state.ahead.held) text += ", held";
+  if (state.ahead.check.blocked())
+    text += fmt::format(", {} at ({:.2f}, {:.2f}), {:.2f} m before it",
+                        state.ahead.check.by_wall ? "wall" : "body", state.ahead.check.where.x_m,
+                        state.ahead.check.where.y_m, state.ahead.check.free_m);
+  return text + fmt::format(", margins {:.1f}", state.block.squeeze.share);
 }
 
 }  // namespace
@@ -135,7 +136,7 @@ void BuildingDrive::note_undelivered(int station, std::int64_t order, const std:
   const auto& pose = state.pose.map_from_base;
   figures_.undelivered.push_back(fmt::format(
       "to {}: {}; {}: {}{}; at ({:.2f}, {:.2f}), believes ({:.2f}, {:.2f}) {}: {}", station, why,
-      to_string(state.mode), state.standstill.cause.text, blocked_by(state.way), truth.x_m(), truth.y_m(),
+      to_string(state.mode), state.standstill.cause.text, blocked_by(state), truth.x_m(), truth.y_m(),
       pose.x_m(), pose.y_m(), to_string(state.pose.health.state), state.pose.health.reason));
   run_->orders->close(order, app::OrderState::Cancelled, "bench: not delivered", run_->factory->now());
 }

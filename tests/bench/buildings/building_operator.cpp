@@ -27,14 +27,14 @@ void BuildingOperator::look() {
     return;
   }
   const bool asks = state.mode == Mode::EmergencyStop || state.mode == Mode::Fault;
-  const bool unseen = state.mode == Mode::Waiting && (state.way.unseen || state.way.felt);
+  const bool unseen = state.mode == Mode::Waiting && (state.block.unseen || state.block.felt);
   if (state.mode == Mode::Paused && stood_s() > 1.0) {
     say(OperatorWord::Resume);
   } else if (asks && stood_s() > kConfirmsAfterS) {
     pull_back();
     say(OperatorWord::Confirm);
     help();
-  } else if (unseen && stood_s() > kLooksAfterS && is_free_there(state.way.check.where)) {
+  } else if (unseen && stood_s() > kLooksAfterS && is_free_there(state.ahead.check.where)) {
     say(OperatorWord::Resume);
     help();
   } else if (searches && stood_s() > kTapsAfterS && figures_.taps == 0) {

@@ -17,14 +17,14 @@ bool Placements::is_free(const Point2<Map>& at, double radius_m) const {
 }
 
 std::optional<PathPoint> Placements::way_point(double ahead_m) const {
-  const auto& way = run_.state().way;
-  const double along_m = way.along_m + ahead_m;
-  if (along_m > way.path.length_m()) return std::nullopt;
-  std::size_t i = way.pursuit.index;
-  while (i + 1 < way.path.points().size() && way.path.along_m(i) < along_m) ++i;
-  if (app::is_at_door(run_.run->state(), way.path.points()[i].position, run_.run->config()))
+  const auto& state = run_.state();
+  const double along_m = state.progress.along_m + ahead_m;
+  if (along_m > state.way.path.length_m()) return std::nullopt;
+  std::size_t i = state.progress.pursuit.index;
+  while (i + 1 < state.way.path.points().size() && state.way.path.along_m(i) < along_m) ++i;
+  if (app::is_at_door(run_.run->state(), state.way.path.points()[i].position, run_.run->config()))
     return std::nullopt;
-  return way.path.points()[i];
+  return state.way.path.points()[i];
 }
 
 std::optional<Placement> Placements::standing(MoverKind kind) {

@@ -18,15 +18,16 @@ constexpr double kBeforeGoalM = 4.0;  ///< nothing is put nearer to the end of t
 constexpr double kAwayFromDoorM = 5.0;
 
 /// A point of the way ahead, between kNearestM and kBeforeGoalM before its end.
-const PathPoint* ahead(const app::Navigation& way, Random& random) {
-  const double whole_m = way.path.empty() ? 0.0 : way.path.along_m(way.path.points().size() - 1);
-  const double first_m = way.along_m + kNearestM;
-  const double last_m = std::min(whole_m - kBeforeGoalM, way.along_m + 25.0);
+const PathPoint* ahead(const app::CycleState& state, Random& random) {
+  const double whole_m =
+      state.way.path.empty() ? 0.0 : state.way.path.along_m(state.way.path.points().size() - 1);
+  const double first_m = state.progress.along_m + kNearestM;
+  const double last_m = std::min(whole_m - kBeforeGoalM, state.progress.along_m + 25.0);
   const double chosen = random.uniform();
   if (last_m <= first_m) return nullptr;
   const double at_m = first_m + chosen * (last_m - first_m);
-  for (std::size_t i = 0; i < way.path.points().size(); ++i)
-    if (way.path.along_m(i) >= at_m) return &way.path.points()[i];
+  for (std::size_t i = 0; i < state.way.path.points().size(); ++i)
+    if (state.way.path.along_m(i) >= at_m) return &state.way.path.points()[i];
   return nullptr;
 }
 
@@ -78,8 +79,8 @@ void Surprises::close_aisle(const planning::RouteLeg& leg) {
     add(MoverKind::Pallet, {beside(middle, left_m)}, yaw + kPi / 2.0, 1.0, true);
 }
 
-bool Surprises::put_pallet(const app::Navigation& way, Random& random) {
-  const PathPoint* at = ahead(way, random);
+bool Surprises::put_pallet(const app::CycleState& state, Random& random) {
+  const PathPoint* at = ahead(state, random);
   const double left_m = random.uniform(-0.5, 0.5);
   const double yaw = random.uniform(0.0, kPi);
   if (at == nullptr || near_door(config_, at->position)) return false;
@@ -89,8 +90,8 @@ bool Surprises::put_pallet(const app::Navigation& way, Random& random) {
   return true;
 }
 
-bool Surprises::send_person(const app::Navigation& way, Random& random) {
-  const PathPoint* at = ahead(way, random);
+bool Surprises::send_person(const app::CycleState& state, Random& random) {
+  const PathPoint* at = ahead(state, random);
   const double speed = random.uniform(0.6, 1.6);
   const double side = random.below(2) == 0 ? 1.0 : -1.0;
   if (at == nullptr) return false;

@@ -19,10 +19,10 @@ class Surprises {
   /// Pallets side by side across the middle of a leg.
   void close_aisle(const planning::RouteLeg& leg);
   /// A pallet on the way ahead, up to half a metre beside it. False where the way left is too short.
-  bool put_pallet(const app::Navigation& way, simulation::Random& random);
+  bool put_pallet(const app::CycleState& state, simulation::Random& random);
   /// A person who walks across the way ahead and back until the delivery is made. False as above, or where
   /// walls stand beside the way.
-  bool send_person(const app::Navigation& way, simulation::Random& random);
+  bool send_person(const app::CycleState& state, simulation::Random& random);
   /// The vehicle is lifted and put down near another node; who means to help puts it where it can turn. Where
   /// it stands now.
   Transform2<Map, Base> carry_away(simulation::Random& random, bool to_help = false);

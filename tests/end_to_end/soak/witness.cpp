@@ -18,11 +18,11 @@ constexpr double kGraceS = 3.0;  ///< in which a carried vehicle may still belie
 constexpr double kNearMissM = 0.1;
 
 /// How far the point lies from the path, near the place where the cycle believes to be.
-double distance_from_path(const app::Navigation& way, const Point2<Map>& at) {
-  const auto& points = way.path.points();
+double distance_from_path(const app::CycleState& state, const Point2<Map>& at) {
+  const auto& points = state.way.path.points();
   double best = 1e9;
-  const std::size_t from = way.pursuit.index > 30 ? way.pursuit.index - 30 : 0;
-  for (std::size_t i = from; i + 1 < points.size() && i < way.pursuit.index + 30; ++i)
+  const std::size_t from = state.progress.pursuit.index > 30 ? state.progress.pursuit.index - 30 : 0;
+  for (std::size_t i = from; i + 1 < points.size() && i < state.progress.pursuit.index + 30; ++i)
     best = std::min(best, distance_m(Segment2<Map>{points[i].position, points[i + 1].position}, at));
   return best;
 }
@@ -72,8 +72,8 @@ void Witness::compare_pose(const app::CycleState& state) {
   if (last_kidnapping_ && to_seconds(factory_.now() - *last_kidnapping_) < kGraceS) return;
   figures_.pose_error.add(error_m);
   if (error_m > kSurelyWrongM) figures_.sure_but_wrong_s += kStepS;
-  if (state.mode == app::Mode::Driving && !state.way.path.empty() && !state.way.arrived)
-    figures_.off_route.add(distance_from_path(state.way, truth.translation()));
+  if (state.mode == app::Mode::Driving && !state.way.path.empty() && !state.errand.arrived)
+    figures_.off_route.add(distance_from_path(state, truth.translation()));
 }
 
 void Witness::count_events(const app::CycleOutput& output) {
@@ -105,17 +105,17 @@ void Witness::look_for_contact() {
 
 /// What the cycle holds to be in its way, beside what is truly near.
 void Witness::tell_of_standstill(const app::CycleState& state) const {
-  const auto& way = state.way;
   const auto truth = factory_.truth();
   std::printf("            stands at (%.2f, %.2f, %.0f deg): %s at (%.2f, %.2f), free %.2f m%s%s%s; near:",
               truth.map_from_base.x_m(), truth.map_from_base.y_m(), to_deg(truth.map_from_base.yaw_rad()),
-              !way.check.blocked() ? "nothing"
-              : way.check.by_wall  ? "wall"
-              : way.by_mover       ? "mover"
-                                   : "body",
-              way.check.where.x_m, way.check.where.y_m, way.stop_along_m - way.along_m,
-              way.unseen ? ", unseen" : "", way.turn_free ? "" : ", no room to turn",
-              way.detour_pending ? ", detour pending" : "");
+              !state.ahead.check.blocked() ? "nothing"
+              : state.ahead.check.by_wall  ? "wall"
+              : state.block.by_mover       ? "mover"
+                                           : "body",
+              state.ahead.check.where.x_m, state.ahead.check.where.y_m,
+              state.ahead.stop_along_m - state.progress.along_m, state.block.unseen ? ", unseen" : "",
+              state.ahead.turn_free ? "" : ", no room to turn",
+              state.detour.pending ? ", detour pending" : "");
   const auto map_from_building = truth.map_from_base * truth.building_from_base.inverse();
   for (const auto& body : factory_.bodies()) {
     if (distance_m(body.centre, truth.building_from_base.translation()) > 2.5) continue;
@@ -129,19 +129,19 @@ void Witness::tell_of_standstill(const app::CycleState& state) const {
 /// there.
 void Witness::trace(const app::CycleOutput& output, const app::CycleState& state) const {
   constexpr double kNearM = 1.6;
-  const auto& way = state.way;
   const auto truth = factory_.truth();
   const auto at = truth.map_from_base;
   std::printf(
       "%10.2f  %s (%.3f, %.3f, %.1f deg) %.2f m/s %.2f rad/s, asked %.2f %.2f; free %.2f, share %.1f%s%s\n",
       time_s(), to_string(state.mode), at.x_m(), at.y_m(), to_deg(at.yaw_rad()), truth.linear_mps,
       truth.angular_radps, output.command.linear_mps, output.command.angular_radps,
-      way.stop_along_m - way.along_m, way.squeeze.share, way.by_mover ? ", mover" : "",
-      way.turn_free ? "" : ", no room to turn");
+      state.ahead.stop_along_m - state.progress.along_m, state.block.squeeze.share,
+      state.block.by_mover ? ", mover" : "", state.ahead.turn_free ? "" : ", no room to turn");
   std::printf("            path:");
   const auto base_from_map = at.inverse();
-  for (std::size_t i = way.pursuit.index; i < way.plain.points.size() && i < way.pursuit.index + 20; i += 3) {
-    const auto p = base_from_map * way.plain.points[i].position;
+  for (std::size_t i = state.progress.pursuit.index;
+       i < state.way.plain.points.size() && i < state.progress.pursuit.index + 20; i += 3) {
+    const auto p = base_from_map * state.way.plain.points[i].position;
     std::printf(" (%.2f, %.2f)", p.x_m, p.y_m);
   }
   std::printf("\n            columns:");

@@ -159,8 +159,8 @@ void WorkingDay::befall(const Delivery& delivery, Stamp began) {
     witness_->kidnapped();
   }
   if (!app::drives(state.mode) || ticks_ % 50 != 0) return;
-  if (pallet_due_ && surprises_->put_pallet(state.way, chance_)) pallet_due_ = false, ++figures_.pallets;
-  if (person_due_ && surprises_->send_person(state.way, chance_)) person_due_ = false, ++figures_.persons;
+  if (pallet_due_ && surprises_->put_pallet(state, chance_)) pallet_due_ = false, ++figures_.pallets;
+  if (person_due_ && surprises_->send_person(state, chance_)) person_due_ = false, ++figures_.persons;
 }
 
 /// The operator: confirms what only a person may confirm, and takes away what blocks every way.
@@ -184,21 +184,22 @@ void WorkingDay::look_after(const Delivery& delivery) {
     if (pressed_) surprises_->carry_away(chance_, true);  // "free the vehicle, then confirm"
     run_->say({app::OperatorWord::Confirm, {}, {}});
     help(delivery, because, false);
-  } else if (state.mode == app::Mode::Waiting && state.way.height_unseen && stood_s > kLooksAfterS) {
+  } else if (state.mode == app::Mode::Waiting && state.block.height_unseen && stood_s > kLooksAfterS) {
     run_->say({app::OperatorWord::GoOn, {}, {}});  // a planar lidar's vehicle asks before every door
     stands_since_ = factory_->now();
-  } else if (state.mode == app::Mode::Waiting && (state.way.unseen || state.way.felt) &&
+  } else if (state.mode == app::Mode::Waiting && (state.block.unseen || state.block.felt) &&
              stood_s > kLooksAfterS) {
     // "look, clear the way, then press Resume": who cannot clear it does not press.
-    const auto where = state.way.felt ? factory_->truth().map_from_base.translation() : state.way.check.where;
+    const auto where =
+        state.block.felt ? factory_->truth().map_from_base.translation() : state.ahead.check.where;
     surprises_->take_away_near(where);
-    if (surprises_->stands_at(state.way.check.where)) return;
+    if (surprises_->stands_at(state.ahead.check.where)) return;
     run_->say({app::OperatorWord::Resume, {}, {}});
     help(delivery, because, false);
   } else if (state.mode == app::Mode::Waiting && stood_s > kTakesAwayAfterS) {
     const auto goal = loaded_.config.routes.index_of(delivery.station);
     const bool blocked = !surprises_->another_way(*goal);
-    if (surprises_->take_away_near(state.way.check.where)) help(delivery, because, blocked);
+    if (surprises_->take_away_near(state.ahead.check.where)) help(delivery, because, blocked);
     stands_since_ = factory_->now();
   } else if (state.mode == app::Mode::Localizing && stood_s > kCarriesAfterS) {
     surprises_->carry_away(chance_, true);
@@ -248,11 +249,11 @@ void WorkingDay::note_delivered(const Delivery& delivery, Stamp began) {
 void WorkingDay::note_undelivered(const Delivery& delivery, std::int64_t order, const std::string& why) {
   const auto truth = factory_->truth().map_from_base;
   const auto& state = run_->state();
-  const auto& check = state.way.check;
-  const char* by = !check.blocked()     ? "nothing"
-                   : check.by_wall      ? "wall"
-                   : state.way.by_mover ? "mover"
-                                        : "body";
+  const auto& check = state.ahead.check;
+  const char* by = !check.blocked()       ? "nothing"
+                   : check.by_wall        ? "wall"
+                   : state.block.by_mover ? "mover"
+                                          : "body";
   char text[500];
   std::snprintf(
       text, sizeof text,
@@ -260,7 +261,7 @@ void WorkingDay::note_undelivered(const Delivery& delivery, std::int64_t order, 
       delivery.number, delivery.station, why.c_str(), to_string(state.mode),
       state.standstill.cause.text.c_str(), truth.x_m(), truth.y_m(), to_deg(truth.yaw_rad()),
       state.pose.health.reason.c_str(), by, check.where.x_m, check.where.y_m,
-      state.way.turn_free ? "" : ", no room to turn", state.way.detour_pending ? ", detour pending" : "");
+      state.ahead.turn_free ? "" : ", no room to turn", state.detour.pending ? ", detour pending" : "");
   figures_.undelivered.emplace_back(text);
   std::printf("NOT delivered, day %d, %s\n", plan_.number, text);
   orders_->close(order, app::OrderState::Cancelled, "soak: not delivered", factory_->now());

@@ -140,7 +140,7 @@ TEST(AutonomyCycle, WhatStirsInOnePlaceBesideTheWayDoesNotHoldTheVehicleForEver)
     v->each_step = [&] { v->lidar.posts[0].at.y_m = 0.9 + 0.2 * std::sin(2.0 * kPi * v->time_s()); };
     v->drive_to({{2}});
     v->say(OperatorWord::Resume);
-    EXPECT_TRUE(v->run_until([&] { return v->state().way.by_mover; }, 15.0));
+    EXPECT_TRUE(v->run_until([&] { return v->state().block.by_mover; }, 15.0));
     EXPECT_NE(v->run_until([&] { return v->delivered(); }, 60.0), for_ever)
         << ::testing::PrintToString(v->events);
   }

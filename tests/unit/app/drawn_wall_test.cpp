@@ -27,7 +27,7 @@ TEST(DrawnWall, OneThatReachesALittleIntoTheVehicleDoesNotHoldIt) {
     v->say(OperatorWord::Resume);
     EXPECT_FALSE(v->run_until([&] { return v->rolling.pose().x_m() > 0.05; }, 5.0)) << "not at once";
     EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << inside_m;
-    EXPECT_EQ(v->state().way.squeeze.wall_slack_m, 0.0) << "elsewhere walls count whole";
+    EXPECT_EQ(v->state().block.squeeze.wall_slack_m, 0.0) << "elsewhere walls count whole";
   }
 }
 
