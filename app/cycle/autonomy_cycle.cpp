@@ -62,7 +62,7 @@ void command_drive(CycleState& state, const VelocityCommand& wanted, const Cycle
   const auto limited = control::limit(state.limits,
                                       {.requested = wanted,
                                        .may_move = may_move,
-                                       .speed_cap_mps = config.braking.speed_within(free_m),
+                                       .speed_cap_mps = config.check.braking.speed_within(free_m),
                                        .step_s = step_s},
                                       config.limits);
   state.limits = limited.state;

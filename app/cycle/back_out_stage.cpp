@@ -10,11 +10,11 @@ namespace {
 
 constexpr std::size_t kLongestTrail = 40;
 constexpr int kMostBackOuts = 2;  ///< on one route
+constexpr double kStepM = 0.1;    ///< between the points of a way back, and between lengths that are tried
 
 /// Where the vehicle came from, up to a turn on the spot or the end of what is remembered. Headings are those
 /// of the way, not of the vehicle.
 std::optional<Path> way_back(const CycleState& state, const CycleConfig& config) {
-  constexpr double kStepM = 0.1;
   constexpr double kWorthM = 0.25;
   constexpr double kStraightRad = 0.4;  ///< between the vehicle's axis and the way that it went
   Path path;
@@ -41,7 +41,6 @@ std::optional<Path> way_back(const CycleState& state, const CycleConfig& config)
 
 /// Straight back, without a turn that would swing the front into what stands beside it.
 Path straight_back(const CycleState& state, double length_m, const CycleConfig& config) {
-  constexpr double kStepM = 0.1;
   const Transform2<Map, Base>& here = state.pose.map_from_base;
   Path path;
   const int steps = static_cast<int>(std::lround(length_m / kStepM));
@@ -54,11 +53,10 @@ Path straight_back(const CycleState& state, double length_m, const CycleConfig& 
 /// Nothing seen or drawn behind the vehicle all along; what it stands against before it does not count.
 bool is_free_behind(const CycleState& state, const Path& path, const std::vector<Point2<Map>>& obstacles,
                     const CycleConfig& config) {
-  constexpr double kBehindM = 0.15;
-  constexpr double kBeforeM = 0.15;
+  constexpr double kEndM = 0.15;  ///< kept free behind, and of the front that is not looked at
   planning::CheckOptions check = config.check;
-  check.vehicle.front_m -= kBeforeM + kBehindM;  // the margin is added at both ends
-  check.ends_margin_m = kBehindM;
+  check.vehicle.front_m -= 2.0 * kEndM;  // the margin is added at both ends
+  check.ends_margin_m = kEndM;
   check.sides_margin_m = 0.0;
   check.wall_margin_m = -state.block.squeeze.wall_slack_m;
   return std::all_of(path.points.begin(), path.points.end(), [&](const PathPoint& point) {
@@ -71,12 +69,11 @@ bool is_free_behind(const CycleState& state, const Path& path, const std::vector
 /// or is too short to help.
 std::optional<Path> free_way_back(CycleState& state, const CycleConfig& config) {
   constexpr double kShortestM = 0.3;
-  constexpr double kShorterM = 0.1;
   const auto& obstacles = obstacle_points(state);
   const auto is_free = [&](const Path& path) { return is_free_behind(state, path, obstacles, config); };
   auto came = state.errand.backing_held ? std::nullopt : way_back(state, config);
   if (came && is_free(*came)) return came;
-  for (double length_m = config.back_out_m; length_m > kShortestM - 1e-6; length_m -= kShorterM)
+  for (double length_m = config.back_out_m; length_m > kShortestM - 1e-6; length_m -= kStepM)
     if (Path path = straight_back(state, length_m, config); is_free(path)) return path;
   return std::nullopt;
 }
@@ -96,8 +93,8 @@ bool is_wedged(const CycleState& state, const CycleConfig& config) {
 }  // namespace
 
 void remember_trail(CycleState& state, Stamp now) {
-  constexpr double kStepM = 0.05;
-  constexpr double kStepRad = 0.1;
+  constexpr double kTrailM = 0.05;
+  constexpr double kTrailRad = 0.1;
   constexpr double kJumpM = 0.3;  ///< no motion: another pose was found
   if (state.mode == Mode::Waiting || state.way.backing) return;
   if (!drives(state.mode)) return state.trail.clear();
@@ -105,7 +102,7 @@ void remember_trail(CycleState& state, Stamp now) {
   if (!state.trail.empty()) {
     const double moved_m = distance_m(here.translation(), state.trail.back().translation());
     const double turned_rad = std::abs(wrap_angle(here.yaw_rad() - state.trail.back().yaw_rad()));
-    if (moved_m < kStepM && turned_rad < kStepRad) return;
+    if (moved_m < kTrailM && turned_rad < kTrailRad) return;
     if (moved_m > kJumpM) state.trail.clear();
   }
   state.trail.push_back(here);

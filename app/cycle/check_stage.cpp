@@ -118,9 +118,8 @@ const std::vector<planning::Mover<Map>>& true_movers(CycleState& state, Stamp no
 }
 
 /// Whether what stands at a place is remembered only: no scan has shown it, or its upper part, lately.
-bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now) {
+bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now, const CycleConfig& config) {
   constexpr double kLatelyS = 0.5;
-  constexpr double kSameColumnM = 0.1;
   const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
   const Point2<Odom> place = map_from_odom.inverse() * where;
   bool known = false;
@@ -129,7 +128,7 @@ bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now) {
         {0.0, static_cast<double>(c.min_x_m) - place.x_m, place.x_m - static_cast<double>(c.max_x_m)});
     const double dy = std::max(
         {0.0, static_cast<double>(c.min_y_m) - place.y_m, place.y_m - static_cast<double>(c.max_y_m)});
-    if (!c.confirmed || std::hypot(dx, dy) > kSameColumnM) continue;
+    if (!c.confirmed || std::hypot(dx, dy) > config.field.cell_m) continue;
     if (to_seconds(now - std::max(c.seen, c.under)) <= kLatelyS) return false;
     known = true;
   }
@@ -185,7 +184,7 @@ void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, S
   state.block.by_mover = crossing.free_m < state.ahead.check.free_m;
   if (state.block.by_mover) state.ahead.check = crossing;
   state.block.unseen = state.ahead.check.blocked() && !state.ahead.check.by_wall && !state.block.by_mover &&
-                       is_unseen(state, state.ahead.check.where, now);
+                       is_unseen(state, state.ahead.check.where, now, config);
   const double from_m = state.way.path.along_m(from);
   state.ahead.stop_along_m = from_m + state.ahead.check.free_m;
   state.ahead.care_along_m = from_m + state.ahead.check.care_m;

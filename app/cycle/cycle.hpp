@@ -40,7 +40,6 @@ struct CycleConfig {
   control::PursuitOptions pursuit;
   control::LimitOptions limits;
   planning::CheckOptions check;
-  planning::BrakingModel braking;
   planning::GuardOptions guard;
   double sure_range_m =
       planning::PathCheck::kFree;  ///< within which a standing body is sure to be seen ahead

@@ -9,7 +9,6 @@ namespace madori::app {
 namespace {
 
 constexpr double kFeltBeforeM = 0.05;  ///< from the outline: within every margin
-constexpr double kFeltStepM = 0.1;
 
 /// A turn as the way of the outline's ends.
 double lever_m(const CycleConfig& config) {
@@ -17,12 +16,13 @@ double lever_m(const CycleConfig& config) {
 }
 
 /// Where what holds the vehicle may be, Base frame: all along the bumper, or where it would turn to.
-std::vector<Point2<Base>> felt_places(const planning::VehicleOutline& v, const VelocityCommand& command,
-                                      double lever) {
+std::vector<Point2<Base>> felt_places(const CycleConfig& config, const VelocityCommand& command) {
+  const planning::VehicleOutline& v = config.check.vehicle;
   std::vector<Point2<Base>> places;
-  if (std::abs(command.linear_mps) >= std::abs(command.angular_radps) * lever) {
+  if (std::abs(command.linear_mps) >= std::abs(command.angular_radps) * lever_m(config)) {
     const double x = command.linear_mps > 0.0 ? v.front_m + kFeltBeforeM : -v.rear_m - kFeltBeforeM;
-    for (double y = -v.half_width_m; y <= v.half_width_m + 1e-9; y += kFeltStepM) places.push_back({x, y});
+    for (double y = -v.half_width_m; y <= v.half_width_m + 1e-9; y += config.field.cell_m)
+      places.push_back({x, y});
     return places;
   }
   const double side = std::copysign(v.half_width_m + kFeltBeforeM, command.angular_radps);
@@ -34,7 +34,7 @@ std::vector<Point2<Base>> felt_places(const planning::VehicleOutline& v, const V
 void feel(CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const auto& odom_from_base = state.odometry.reading().odom_from_base;
   std::vector<Point2<Odom>> places;
-  for (const auto& place : felt_places(config.check.vehicle, state.limits.previous, lever_m(config)))
+  for (const auto& place : felt_places(config, state.limits.previous))
     places.push_back(odom_from_base * place);
   state.obstacles.add_felt(places, input.now);
   state.block.felt = true;
@@ -83,7 +83,7 @@ void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig&
 double share_to_go(const CycleState& state, const VelocityCommand& wanted,
                    const std::vector<Point2<Map>>& obstacles, const CycleConfig& config) {
   return planning::guarded_share(state.pose.map_from_base, wanted, obstacles, *state.site->walls(),
-                                 config.check.vehicle, config.braking, config.guard);
+                                 config.check.vehicle, config.check.braking, config.guard);
 }
 
 VelocityCommand guarded(CycleState& state, const VelocityCommand& wanted, const CycleConfig& config) {

@@ -18,10 +18,9 @@ void take_lidars(std::vector<LidarModel> lidars, CycleConfig& config) {
   for (const LidarModel& lidar : lidars) {
     top_m = std::max(top_m, lidar.mounting.z_m);
     config.lidar_silent_s = std::max(config.lidar_silent_s, kPatienceSweeps * lidar.period_s);
-    config.braking.scan_period_s = std::max(config.braking.scan_period_s, lidar.period_s);
+    config.check.braking.scan_period_s = std::max(config.check.braking.scan_period_s, lidar.period_s);
   }
   config.field.top_m = top_m + kHeadroomM;
-  config.check.before_braking_s = config.braking.reaction_s + config.braking.scan_period_s;
   config.sure_range_m = sure_ahead_m(lidars, config.check.vehicle.front_m);
   config.lidars = std::move(lidars);
 }
@@ -43,9 +42,9 @@ void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
   config.limits.half_wheel_separation_m = v.half_wheel_separation_m;
   config.limits.acceleration_mps2 = v.max_acceleration_mps2;
   config.limits.turn_acceleration_radps2 = v.max_turn_acceleration_radps2;
-  config.braking.deceleration_mps2 = v.max_deceleration_mps2;
-  config.braking.turn_deceleration_radps2 = v.max_turn_acceleration_radps2;
-  config.braking.reaction_s = v.reaction_s;
+  config.check.braking.deceleration_mps2 = v.max_deceleration_mps2;
+  config.check.braking.turn_deceleration_radps2 = v.max_turn_acceleration_radps2;
+  config.check.braking.reaction_s = v.reaction_s;
   config.movers.gain_mps2 = v.max_acceleration_mps2;
   config.movers.top_speed_mps = v.max_speed_mps;
 }

@@ -30,7 +30,7 @@ std::string look_at_routes(const fs::path& site, const SiteForDriving& loaded) {
 /// What a scanner surely sees against what the vehicle needs to stand.
 std::string look_at_sight(const CycleConfig& config) {
   const double speed_mps = config.limits.max_speed_mps;
-  const double needs_m = config.braking.horizon_m(speed_mps);
+  const double needs_m = config.check.braking.horizon_m(speed_mps);
   char text[160];
   std::snprintf(text, sizeof text, "a leg of %.0f mm is sure to %.1f m; at %.1f m/s the vehicle needs %.1f m",
                 kLegM * 1000.0, config.sure_range_m, speed_mps, needs_m);
@@ -38,7 +38,7 @@ std::string look_at_sight(const CycleConfig& config) {
   char mend[120];
   std::snprintf(mend, sizeof mend,
                 "set max_speed_mps to %.2f (no faster is driven), or mount a lidar with a finer step",
-                std::floor(100.0 * config.braking.speed_within(config.sure_range_m)) / 100.0);
+                std::floor(100.0 * config.check.braking.speed_within(config.sure_range_m)) / 100.0);
   throw Error("site.yaml", text, mend);
 }
 

@@ -7,11 +7,7 @@
 #include "core/clock.hpp"
 
 namespace madori::app {
-namespace {
-
-constexpr std::uint64_t kDetourChecks = 60'000;  ///< about 0.1 s
-
-}  // namespace
+namespace {}  // namespace
 
 TransportRun::TransportRun(CycleConfig config, std::unique_ptr<PoseSource> source,
                            std::unique_ptr<VehicleLink> link, const TransportOptions& options)
@@ -20,9 +16,7 @@ TransportRun::TransportRun(CycleConfig config, std::unique_ptr<PoseSource> sourc
       link_(std::move(link)),
       orders_(options.site / "madori.db", {options.lock_step, options.store_poll_s}),
       state_(config_, std::move(source)) {
-  if (options_.lock_step)
-    detour_options_.free_space.max_checks = kDetourChecks;
-  else
+  if (!options_.lock_step)
     planner_ = std::make_unique<planning::DetourPlanner>(config_.check, detour_options_);
 }
 

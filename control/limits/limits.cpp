@@ -40,11 +40,4 @@ LimitOutput limit(const LimitState& state, const LimitInput& input, const LimitO
   return {{command, std::min(gained, options.acceleration_mps2)}, command};
 }
 
-VelocityCommand slowed_down(const VelocityCommand& previous, double deceleration_mps2, double step_s) {
-  const double speed = std::abs(previous.linear_mps);
-  if (speed <= 0.0) return {};
-  const double share = std::max(0.0, speed - deceleration_mps2 * step_s) / speed;
-  return {previous.linear_mps * share, previous.angular_radps * share};
-}
-
 }  // namespace madori::control

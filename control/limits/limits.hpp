@@ -29,7 +29,7 @@ struct LimitInput {
   VelocityCommand requested;
   bool may_move = true;  ///< false: emergency stop, protective field, lost, old data
   double speed_cap_mps = std::numeric_limits<double>::infinity();  ///< by the free distance, right now
-  double step_s = 0.02;                                            ///< since the previous command
+  double step_s;                                                   ///< since the previous command
 };
 
 struct LimitOutput {
@@ -43,9 +43,5 @@ struct LimitOutput {
 /// request that is not finite, or a step time that is not positive, stops the vehicle.
 [[nodiscard]] LimitOutput limit(const LimitState& state, const LimitInput& input,
                                 const LimitOptions& options);
-
-/// The previous command, slower by a comfortable deceleration, for stops that are no emergency.
-[[nodiscard]] VelocityCommand slowed_down(const VelocityCommand& previous, double deceleration_mps2,
-                                          double step_s);
 
 }  // namespace madori::control

@@ -128,9 +128,7 @@ Result<Path> free_space_path(const Transform2<Map, Base>& start, const Transform
   space->setBounds(bounds_around(start, goal, options.room_m));
   og::SimpleSetup setup(space);
   std::uint64_t checks = 0;
-  const auto bounded = options.max_checks > 0
-                           ? ob::PlannerTerminationCondition([&] { return checks >= options.max_checks; })
-                           : ob::timedPlannerTerminationCondition(options.time_limit_s);
+  const ob::PlannerTerminationCondition bounded([&] { return checks >= options.max_checks; });
   // Where the distance is not symmetric, RRT-Connect may extend a tree for ever without asking whether it
   // shall end; once nothing is valid it ends.
   setup.setStateValidityChecker([&](const ob::State* state) {

@@ -6,11 +6,10 @@
 #include <optional>
 
 #include "core/angle.hpp"
+#include "planning/waypoints/waypoints.hpp"
 
 namespace madori::planning {
 namespace {
-
-constexpr double kSamePointM = 1e-6;
 
 /// From 0 to 1 with level ends and bounded curvature.
 double smooth_step(double t) {

@@ -55,7 +55,7 @@ double guarded_share(const Transform2<Map, Base>& pose, const VelocityCommand& v
   const double reach_m = vehicle.reach_m();
   const double corner_mps = std::abs(v.linear_mps) + std::abs(v.angular_radps) * reach_m;
   if (!(corner_mps > 0.0)) return 1.0;
-  const double lost_s = braking.reaction_s + braking.scan_period_s;
+  const double lost_s = braking.before_braking_s();
   // Half the time that braking takes: the way of braking is driven at half the speed.
   const double braking_s = 0.5 * std::max(std::abs(v.linear_mps) / braking.deceleration_mps2,
                                           std::abs(v.angular_radps) / braking.turn_deceleration_radps2);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "planning/waypoints/waypoints.hpp"
+
 namespace madori::planning {
 
 Mover<Odom> MovingObjects::Track::mover() const {
@@ -112,7 +114,6 @@ std::optional<Point2<Map>> meets(const Mover<Map>& m, const Transform2<Map, Base
 PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, double speed_mps,
                        const std::vector<Mover<Map>>& movers, const CheckOptions& check,
                        const MoverOptions& options) {
-  constexpr double kSamePointM = 1e-6;
   PathCheck result;
   double along_m = 0.0;
   double checked_m = -check.step_m;

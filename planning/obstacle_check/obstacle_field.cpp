@@ -13,7 +13,6 @@ void ObstacleField::take_scan(const PointCloud<Base>& scan, const SensorView& vi
   low_.begin(odom_from_base.translation(), o.reach_m, o.cell_m, scan.stamp);
   high_.begin(odom_from_base * Point2<Base>{view.x_m, view.y_m}, o.body_reach_m, o.cell_m, scan.stamp);
   const bool is_kept = sights_.begin(view, odom_from_base, scan.stamp);
-  const double self_square = o.self_reach_m * o.self_reach_m;
   const double reach_square = o.reach_m * o.reach_m;
   constexpr double kFurthestM2 = 1e6;
   for (const CloudPoint& p : scan.points) {
@@ -23,7 +22,7 @@ void ObstacleField::take_scan(const PointCloud<Base>& scan, const SensorView& vi
     const double dy = y - view.y_m;
     const double away = dx * dx + dy * dy;
     const double height = ground_.height_of(p);
-    if (!(away < kFurthestM2) || !std::isfinite(height) || away < self_square) continue;
+    if (!(away < kFurthestM2) || !std::isfinite(height)) continue;
     const bool above_floor = height > o.ground_clearance_m;
     if (is_kept) sights_.add(dx, dy, above_floor && height < o.body_top_m);
     if (!above_floor || !(height < o.body_top_m) || !(x * x + y * y < reach_square)) continue;

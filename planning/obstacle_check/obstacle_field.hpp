@@ -16,9 +16,8 @@ struct FieldOptions {
   double cell_m = 0.1;
   double reach_m = 8.0;              ///< around the vehicle; beyond it everything is forgotten
   double ground_clearance_m = 0.07;  ///< lower things are driven over
-  double top_m = 0.9;         ///< height of vehicle and load with some room; higher things are driven under
-  double self_reach_m = 0.0;  ///< returns nearer to the sensor's mount are the vehicle itself
-  int fewest_points = 3;      ///< within neighbouring cells of one scan, else it is a stray point
+  double top_m = 0.9;     ///< height of vehicle and load with some room; higher things are driven under
+  int fewest_points = 3;  ///< within neighbouring cells of one scan, else it is a stray point
   int misses_to_forget = 2;
   double tall_m = 0.5;         ///< what reaches higher is tall
   double foot_memory_s = 1.0;  ///< how long an unseen foot counts after its tall part has gone

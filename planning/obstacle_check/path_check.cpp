@@ -6,11 +6,10 @@
 
 #include "core/angle.hpp"
 #include "core/segment_distance.hpp"
+#include "planning/waypoints/waypoints.hpp"
 
 namespace madori::planning {
 namespace {
-
-constexpr double kSamePointM = 1e-6;
 
 /// What one placement of the vehicle meets.
 struct Contact {

@@ -13,23 +13,46 @@
 
 namespace madori::planning {
 
+/// Braking: within this distance of the vehicle something must be seen, or the vehicle could not stop before
+/// it.
+struct BrakingModel {
+  double deceleration_mps2 = 0.8;
+  double turn_deceleration_radps2 = 1.5;
+  double reaction_s = 0.25;  ///< computing, sending, motor
+  double scan_period_s = 0.1;
+
+  /// From when something could be seen until the wheels begin to brake.
+  [[nodiscard]] double before_braking_s() const { return reaction_s + scan_period_s; }
+  [[nodiscard]] double horizon_m(double speed_mps) const {
+    return speed_mps * before_braking_s() + speed_mps * speed_mps / (2.0 * deceleration_mps2);
+  }
+  /// The greatest speed whose horizon is `free_m`; infinite where nothing is in the way, zero where none is
+  /// left.
+  [[nodiscard]] double speed_within(double free_m) const {
+    if (!(free_m > 0.0)) return 0.0;
+    const double lost = deceleration_mps2 * before_braking_s();
+    return std::sqrt(lost * lost + 2.0 * deceleration_mps2 * free_m) - lost;
+  }
+};
+
 struct CheckOptions {
   VehicleOutline vehicle;
+  BrakingModel braking;
   double ends_margin_m = 0.20;   ///< kept free before and behind the vehicle
   double sides_margin_m = 0.06;  ///< ... beside it
   double turn_margin_m = 0.06;   ///< ... on all sides during a slow turn on the spot
   double care_margin_m = 0.15;   ///< something within this much more only slows the vehicle
   double protective_m = 0.0;     ///< kept free before the vehicle, of walls too: a scanner's protective field
-  double before_braking_s = 0.35;  ///< a sweep and the reaction, see BrakingModel
-  double wall_margin_m = 0.03;     ///< to drawn walls, which lie as exactly as the drawing
-  double step_m = 0.15;            ///< waypoints nearer together than this are checked once
-  double turn_step_rad = 0.15;     ///< between the checked headings of a turn on the spot
+  double wall_margin_m = 0.03;   ///< to drawn walls, which lie as exactly as the drawing
+  double step_m = 0.15;          ///< waypoints nearer together than this are checked once
+  double turn_step_rad = 0.15;   ///< between the checked headings of a turn on the spot
 };
 
 /// Kept free before and behind a vehicle of this speed: beside it as much as in a turn, and what it drives
 /// before braking shows.
 [[nodiscard]] inline double ends_margin_m(const CheckOptions& options, double speed_mps) {
-  return std::min(options.ends_margin_m, options.turn_margin_m + options.before_braking_s * speed_mps);
+  return std::min(options.ends_margin_m,
+                  options.turn_margin_m + options.braking.before_braking_s() * speed_mps);
 }
 
 /// What is left of the ordinary margins to a vehicle that has come to stand too near to something.
@@ -46,26 +69,6 @@ struct Squeeze {
   options.wall_margin_m = options.wall_margin_m * squeeze.share - squeeze.wall_slack_m;
   return options;
 }
-
-/// Braking: within this distance of the vehicle something must be seen, or the vehicle could not stop before
-/// it.
-struct BrakingModel {
-  double deceleration_mps2 = 0.8;
-  double turn_deceleration_radps2 = 1.5;
-  double reaction_s = 0.25;  ///< computing, sending, motor
-  double scan_period_s = 0.1;
-
-  [[nodiscard]] double horizon_m(double speed_mps) const {
-    return speed_mps * (reaction_s + scan_period_s) + speed_mps * speed_mps / (2.0 * deceleration_mps2);
-  }
-  /// The greatest speed whose horizon is `free_m`; infinite where nothing is in the way, zero where none is
-  /// left.
-  [[nodiscard]] double speed_within(double free_m) const {
-    if (!(free_m > 0.0)) return 0.0;
-    const double lost = deceleration_mps2 * (reaction_s + scan_period_s);
-    return std::sqrt(lost * lost + 2.0 * deceleration_mps2 * free_m) - lost;
-  }
-};
 
 /// The way ahead, checked.
 struct PathCheck {

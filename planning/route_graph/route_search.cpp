@@ -21,6 +21,8 @@ using Vertex = boost::graph_traits<Graph>::vertex_descriptor;
 Graph boost_graph(const RouteGraph& routes, const BlockedLegs& blocked) {
   std::vector<std::pair<std::size_t, std::size_t>> edges;
   std::vector<Weight> weights;
+  edges.reserve(routes.legs().size());
+  weights.reserve(routes.legs().size());
   for (const RouteLeg& leg : routes.legs()) {
     if (blocked.contains({leg.from, leg.to})) continue;
     edges.emplace_back(leg.from, leg.to);

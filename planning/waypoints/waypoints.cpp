@@ -9,7 +9,6 @@
 namespace madori::planning {
 namespace {
 
-constexpr double kSamePointM = 1e-6;
 constexpr double kStraightRad = 1e-6;
 constexpr double kDifferentHeadingRad = to_rad(0.1);
 

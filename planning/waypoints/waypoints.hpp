@@ -9,6 +9,9 @@
 
 namespace madori::planning {
 
+/// Waypoints nearer together than this are one place, rounded: there the vehicle turns on the spot.
+inline constexpr double kSamePointM = 1e-6;
+
 /// A corner of the way, with what holds on the leg that leads to it.
 struct WayCorner {
   Point2<Map> position;

@@ -36,13 +36,14 @@ TEST(SiteConfig, WeakAndSlowBrakesLengthenTheWayToStand) {
   vehicle.max_turn_acceleration_radps2 = 0.6;
   const CycleConfig weak = config_of(vehicle);
   // d = v t + v^2 / 2a, with the sweep of 0.1 s
-  EXPECT_NEAR(usual.braking.horizon_m(1.0), 0.35 + 1.0 / 1.6, 1e-9);
-  EXPECT_NEAR(weak.braking.horizon_m(1.0), 0.6 + 1.0 / 0.8, 1e-9);
+  EXPECT_NEAR(usual.check.braking.horizon_m(1.0), 0.35 + 1.0 / 1.6, 1e-9);
+  EXPECT_NEAR(weak.check.braking.horizon_m(1.0), 0.6 + 1.0 / 0.8, 1e-9);
   EXPECT_NEAR(planning::ends_margin_m(usual.check, 0.3), 0.06 + 0.35 * 0.3, 1e-9);
   EXPECT_NEAR(planning::ends_margin_m(weak.check, 0.2), 0.06 + 0.6 * 0.2, 1e-9);
   EXPECT_LT(weak.pursuit.speed.speed_to_stop_within(1.0), usual.pursuit.speed.speed_to_stop_within(1.0));
-  EXPECT_LT(weak.pursuit.speed.deceleration_mps2, weak.braking.deceleration_mps2) << "a comfortable stop";
-  EXPECT_LE(weak.pursuit.turn_acceleration_radps2, weak.braking.turn_deceleration_radps2);
+  EXPECT_LT(weak.pursuit.speed.deceleration_mps2, weak.check.braking.deceleration_mps2)
+      << "a comfortable stop";
+  EXPECT_LE(weak.pursuit.turn_acceleration_radps2, weak.check.braking.turn_deceleration_radps2);
   EXPECT_EQ(weak.limits.turn_acceleration_radps2, 0.6);
 }
 

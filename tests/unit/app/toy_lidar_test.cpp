@@ -211,7 +211,7 @@ TEST(SureSight, NoFasterIsDrivenThanALegIsSureToBeSeen) {
         return v.delivered();
       },
       60.0));
-  EXPECT_LE(config.braking.horizon_m(fastest_mps), config.sure_range_m + 0.05);
+  EXPECT_LE(config.check.braking.horizon_m(fastest_mps), config.sure_range_m + 0.05);
   EXPECT_GT(fastest_mps, 1.5);
 }
 

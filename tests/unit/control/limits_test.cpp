@@ -9,6 +9,7 @@ namespace madori::control {
 namespace {
 
 const LimitOptions kOptions;
+constexpr double kStepS = 0.02;
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -17,12 +18,12 @@ TEST(Limits, AStartIsSmoothAndReachesTheRequest) {
   double fastest_growth = 0.0;
   double previous = 0.0;
   for (int i = 0; i < 200; ++i) {
-    const auto out = limit(state, {.requested = {1.0, 0.0}}, kOptions);
+    const auto out = limit(state, {.requested = {1.0, 0.0}, .step_s = kStepS}, kOptions);
     fastest_growth = std::max(fastest_growth, (out.command.linear_mps - previous) / 0.02);
     previous = out.command.linear_mps;
     state = out.state;
     if (i == 0) {
-      EXPECT_NEAR(previous, kOptions.jerk_mps3 * 0.02 * 0.02, 1e-12);
+      EXPECT_NEAR(previous, kOptions.jerk_mps3 * kStepS * kStepS, 1e-12);
     }
   }
   EXPECT_DOUBLE_EQ(previous, 1.0);
@@ -31,27 +32,32 @@ TEST(Limits, AStartIsSmoothAndReachesTheRequest) {
 
 TEST(Limits, AStopIsNeverDelayed) {
   const LimitState driving{{1.0, 0.5}, 0.0};
-  EXPECT_EQ(limit(driving, {.requested = {0.0, 0.0}}, kOptions).command, VelocityCommand{});
-  EXPECT_EQ(limit(driving, {.requested = {1.0, 0.5}, .may_move = false}, kOptions).command,
+  EXPECT_EQ(limit(driving, {.requested = {0.0, 0.0}, .step_s = kStepS}, kOptions).command, VelocityCommand{});
+  EXPECT_EQ(limit(driving, {.requested = {1.0, 0.5}, .may_move = false, .step_s = kStepS}, kOptions).command,
             VelocityCommand{});
-  EXPECT_EQ(limit(driving, {.requested = {1.0, 0.5}, .speed_cap_mps = 0.0}, kOptions).command,
-            VelocityCommand{});
+  EXPECT_EQ(
+      limit(driving, {.requested = {1.0, 0.5}, .speed_cap_mps = 0.0, .step_s = kStepS}, kOptions).command,
+      VelocityCommand{});
 }
 
 TEST(Limits, WhatIsNotFiniteStops) {
   const LimitState driving{{1.0, 0.0}, 0.0};
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
-    EXPECT_EQ(limit(driving, {.requested = {bad, 0.0}}, kOptions).command, VelocityCommand{});
-    EXPECT_EQ(limit(driving, {.requested = {0.5, bad}}, kOptions).command, VelocityCommand{});
+    EXPECT_EQ(limit(driving, {.requested = {bad, 0.0}, .step_s = kStepS}, kOptions).command,
+              VelocityCommand{});
+    EXPECT_EQ(limit(driving, {.requested = {0.5, bad}, .step_s = kStepS}, kOptions).command,
+              VelocityCommand{});
   }
-  EXPECT_EQ(limit(driving, {.requested = {0.5, 0.0}, .speed_cap_mps = kNan}, kOptions).command,
-            VelocityCommand{});
+  EXPECT_EQ(
+      limit(driving, {.requested = {0.5, 0.0}, .speed_cap_mps = kNan, .step_s = kStepS}, kOptions).command,
+      VelocityCommand{});
   EXPECT_EQ(limit(driving, {.requested = {0.5, 0.0}, .step_s = 0.0}, kOptions).command, VelocityCommand{});
 }
 
 TEST(Limits, ASpeedCapKeepsTheCurve) {
   const LimitState driving{{1.0, 0.6}, 0.0};
-  const auto out = limit(driving, {.requested = {1.0, 0.6}, .speed_cap_mps = 0.5}, kOptions);
+  const auto out =
+      limit(driving, {.requested = {1.0, 0.6}, .speed_cap_mps = 0.5, .step_s = kStepS}, kOptions);
   EXPECT_DOUBLE_EQ(out.command.linear_mps, 0.5);
   EXPECT_DOUBLE_EQ(out.command.angular_radps, 0.3);
 }
@@ -60,24 +66,14 @@ TEST(Limits, TheOuterWheelKeepsItsLimit) {
   const LimitState driving{{1.0, 1.0}, 0.0};
   LimitOptions options;
   options.max_wheel_speed_mps = 1.0;
-  const auto out = limit(driving, {.requested = {1.0, 1.0}}, options).command;
+  const auto out = limit(driving, {.requested = {1.0, 1.0}, .step_s = kStepS}, options).command;
   EXPECT_NEAR(out.linear_mps + out.angular_radps * options.half_wheel_separation_m, 1.0, 1e-12);
 }
 
 TEST(Limits, ReversalBeginsFromStandstill) {
   const LimitState driving{{0.8, 0.0}, 0.0};
-  const auto out = limit(driving, {.requested = {-0.8, 0.0}}, kOptions);
-  EXPECT_NEAR(out.command.linear_mps, -kOptions.jerk_mps3 * 0.02 * 0.02, 1e-12);
-}
-
-TEST(Limits, SlowingDownKeepsTheCurveAndEndsAtZero) {
-  VelocityCommand command{1.0, 0.5};
-  command = slowed_down(command, 0.5, 0.1);
-  EXPECT_DOUBLE_EQ(command.linear_mps, 0.95);
-  EXPECT_DOUBLE_EQ(command.angular_radps, 0.475);
-  for (int i = 0; i < 20; ++i) command = slowed_down(command, 0.5, 0.1);
-  EXPECT_EQ(command, VelocityCommand{});
-  EXPECT_EQ(slowed_down({0.0, 0.7}, 0.5, 0.1), VelocityCommand{});
+  const auto out = limit(driving, {.requested = {-0.8, 0.0}, .step_s = kStepS}, kOptions);
+  EXPECT_NEAR(out.command.linear_mps, -kOptions.jerk_mps3 * kStepS * kStepS, 1e-12);
 }
 
 }  // namespace
