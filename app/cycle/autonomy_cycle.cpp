@@ -91,6 +91,7 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   if (step_s > config.gap_s) begin_gap(state, step_s, output);
   localize(state, input, config, output);  // wheel angles and revolutions -> map_from_base, bodies, movers
   remember_trail(state, input.now);
+  watch_wheels(state, config);                 // told, but not done: a wheel disobeys
   watch_effort(state, input, config, output);  // driven, but not moved: something holds the vehicle
   navigate(state, input, config, output);      // order -> errand -> route -> way
   check_way(state, input, config, output);     // way against bodies and drawing -> ahead, block

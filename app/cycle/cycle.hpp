@@ -18,6 +18,7 @@
 #include "control/drive_link/wire.hpp"
 #include "control/limits/limits.hpp"
 #include "control/pure_pursuit/pure_pursuit.hpp"
+#include "control/wheel_watch/wheel_watch.hpp"
 #include "core/laser_scan.hpp"
 #include "core/lidar_model.hpp"
 #include "core/ring.hpp"
@@ -39,6 +40,7 @@ struct CycleConfig {
   control::OdometryOptions odometry;
   control::PursuitOptions pursuit;
   control::LimitOptions limits;
+  control::WheelWatchOptions wheel_watch;
   planning::CheckOptions check;
   planning::GuardOptions guard;
   double sure_range_m =
@@ -200,7 +202,10 @@ struct CycleState {
   Stamp trail_at{};                   ///< of its last pose
   std::optional<Effort> effort;       ///< while it works on an order
   control::LimitState limits;
-  int unarmed_steps = 0;  ///< enabled in a row while the drive stayed idle
+  control::WheelWatch wheels;
+  Stamp wheels_at{};                                     ///< of the reading they were last judged by
+  std::optional<control::DisobedientWheel> disobedient;  ///< until a person confirms
+  int unarmed_steps = 0;                                 ///< enabled in a row while the drive stayed idle
   Workbench bench;
 };
 

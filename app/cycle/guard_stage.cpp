@@ -43,6 +43,17 @@ void feel(CycleState& state, const CycleInput& input, const CycleConfig& config)
 
 }  // namespace
 
+void watch_wheels(CycleState& state, const CycleConfig& config) {
+  const Stamp now = state.odometry.reading().stamp;
+  const double step_s = to_seconds(now - std::exchange(state.wheels_at, now));
+  if (!(step_s > 0.0)) return;  // no new reading
+  const bool obeys = state.drive.state == control::wire::DriveState::Running && step_s < config.gap_s;
+  const auto found = state.wheels.update(obeys ? std::optional(state.limits.previous) : std::nullopt,
+                                         {state.odometry.linear_mps(), state.odometry.angular_radps()},
+                                         step_s, config.wheel_watch);
+  if (found) state.disobedient = found;
+}
+
 void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig& config,
                   CycleOutput& output) {
   constexpr double kShortestS = 2.0;

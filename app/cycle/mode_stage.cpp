@@ -121,10 +121,11 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
   const bool fault = has_fault(state);
   const bool deaf = is_silent(state.drive_heard, input.now, config.drive_silent_s);
   if (stopped) mode.apply(ModeEvent::EmergencyOn);
-  if (fault) mode.apply(ModeEvent::FaultOn);
+  if (fault || state.disobedient) mode.apply(ModeEvent::FaultOn);
   for (const OperatorCommand& command : input.commands) {
     const auto event = event_of(command.word);
     if (event == ModeEvent::Confirmed && (stopped || fault || deaf)) continue;  // the cause is still there
+    if (event == ModeEvent::Confirmed) state.disobedient.reset();
     note_stop_word(state, command.word);
     if (is_stop(command.word)) mode.apply(ModeEvent::ManualOff);
     if (event) mode.apply(*event);

@@ -54,6 +54,8 @@ enum class Cause : std::uint8_t {
   StoppedOrder,
   HeightUnseen,
   LidarBlind,
+  LeftWheelDisobeys,
+  RightWheelDisobeys,
 };
 
 /// What a person can do about it.
@@ -81,6 +83,7 @@ enum class Remedy : std::uint8_t {
   LookAndResume,
   LookAndGoOn,
   UncoverLidar,
+  LookAtWheel,
 };
 
 inline constexpr std::array kCauses{
@@ -116,6 +119,8 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"stopped-order", "stopped at a panel; order {order} was cancelled"},
     CatalogueEntry{"height-unseen", "no lidar sees whether the door or lift ahead is open high enough"},
     CatalogueEntry{"lidar-blind", "the lidar sees nothing any more in a direction ahead"},
+    CatalogueEntry{"left-wheel-disobeys", "the left wheel ran at {turned} m/s and was told {asked} m/s"},
+    CatalogueEntry{"right-wheel-disobeys", "the right wheel ran at {turned} m/s and was told {asked} m/s"},
 };
 
 inline constexpr std::array kRemedies{
@@ -142,6 +147,7 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"look-and-resume", "look, clear the way, then press Resume"},
     CatalogueEntry{"look-and-go-on", "look whether it is open, then press Go on"},
     CatalogueEntry{"uncover-lidar", "clean the lidar, take away what covers it, check its network cable"},
+    CatalogueEntry{"look-at-wheel", "free the wheel, or have its motor or encoder mended, then confirm"},
 };
 
 /// An event of the cycle, not the cause of a standstill.

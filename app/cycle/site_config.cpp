@@ -45,6 +45,9 @@ void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
   config.check.braking.deceleration_mps2 = v.max_deceleration_mps2;
   config.check.braking.turn_deceleration_radps2 = v.max_turn_acceleration_radps2;
   config.check.braking.reaction_s = v.reaction_s;
+  config.wheel_watch.half_separation_m = v.half_wheel_separation_m;
+  config.wheel_watch.acceleration_mps2 = std::min(v.max_acceleration_mps2, v.max_deceleration_mps2);
+  config.wheel_watch.lag_s = v.reaction_s;
   config.movers.gain_mps2 = v.max_acceleration_mps2;
   config.movers.top_speed_mps = v.max_speed_mps;
 }

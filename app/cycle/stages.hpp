@@ -9,6 +9,8 @@ namespace madori::app {
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// The order's next stop becomes a route and a path; an answered detour replaces it.
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// Notices a wheel that does not do what it was told.
+void watch_wheels(CycleState& state, const CycleConfig& config);
 /// Notices that the vehicle does not get on although it drives; what holds it is remembered as a body.
 void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// Keeps where the vehicle has just driven.

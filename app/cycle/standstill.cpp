@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 
 #include "app/cycle/drive_faults.hpp"
 #include "app/cycle/stages.hpp"
@@ -24,6 +25,15 @@ Standstill why_fault(const CycleState& state, const CycleInput& input) {
   if (state.drive.faults != control::wire::kNoFault || state.drive.state == DriveState::Fault)
     return {notice(Cause::DriveFault, {{"faults", fault_words(state.drive.faults)}}),
             notice(Remedy::MendDrive), input.now};
+  if (state.disobedient) {
+    const auto& [left, asked_mps, turned_mps] = *state.disobedient;
+    char asked[16], turned[16];
+    std::snprintf(asked, sizeof asked, "%.2f", asked_mps);
+    std::snprintf(turned, sizeof turned, "%.2f", turned_mps);
+    return {notice(left ? Cause::LeftWheelDisobeys : Cause::RightWheelDisobeys,
+                   {{"asked", asked}, {"turned", turned}}),
+            notice(Remedy::LookAtWheel), input.now};
+  }
   return because(Cause::FaultOver, Remedy::Confirm, input.now);
 }
 

@@ -121,9 +121,10 @@ class ToyVehicle {
   bool emergency_stop = false, bumper = false, drive_silent = false, lidar_silent = false;
   std::uint16_t drive_faults = 0;
   std::uint16_t battery_mv = 25'000;
-  double clock_s = 0.0;          ///< what was added to the computer's clock
-  double cloud_age_s = 0.0;      ///< revolutions are stamped so long ago
-  double drive_started_s = 0.0;  ///< when its power came: its clock counts from there
+  double right_wheel_share = 1.0;  ///< of what it is told: a weak motor, a dead one
+  double clock_s = 0.0;            ///< what was added to the computer's clock
+  double cloud_age_s = 0.0;        ///< revolutions are stamped so long ago
+  double drive_started_s = 0.0;    ///< when its power came: its clock counts from there
   std::vector<app::OperatorCommand> commands;
   std::optional<app::Order> order;
   app::CycleOutput output;
@@ -144,7 +145,7 @@ class ToyVehicle {
   void turn_wheels() {
     const auto& wheels = config.odometry.wheels;
     const VelocityCommand wanted = control::vehicle_velocity(
-        wheels, {controller_.left_uradps() * 1e-6, controller_.right_uradps() * 1e-6});
+        wheels, {controller_.left_uradps() * 1e-6, right_wheel_share * controller_.right_uradps() * 1e-6});
     rolling.move(wanted, kStep_s);
     const auto turned = control::wheel_speeds(wheels, rolling.speed());
     left_rad_ += turned.left_radps * kStep_s;

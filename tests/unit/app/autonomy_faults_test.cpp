@@ -182,5 +182,24 @@ TEST(AutonomyCycle, ThePlayedOperatorLeavesAnEmergencyStopAlone) {
   EXPECT_EQ(person.confirmed(), 0);
 }
 
+TEST(AutonomyCycle, AWheelThatDoesNotTurnIsNamedAndAPersonLetsItGoOn) {
+  auto v = test::corridor_vehicle();
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+  const double y_m = v->rolling.pose().y_m();
+  v->right_wheel_share = 0.0;
+  ASSERT_TRUE(v->run_until([&] { return v->state().mode == Mode::Fault; }, 0.3));
+  EXPECT_EQ(v->state().standstill.cause.code, "right-wheel-disobeys");
+  v->run_until([&] { return false; }, 2.0);
+  EXPECT_NEAR(v->rolling.speed().linear_mps, 0.0, 1e-3);
+  EXPECT_NEAR(v->rolling.pose().y_m(), y_m, 0.2);
+  EXPECT_EQ(v->state().standstill.cause.code, "right-wheel-disobeys") << "it is still said once it stands";
+  v->right_wheel_share = 1.0;
+  v->say(OperatorWord::Confirm);
+  v->say(OperatorWord::Resume);
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
 }  // namespace
 }  // namespace madori::app

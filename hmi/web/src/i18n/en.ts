@@ -350,6 +350,8 @@ export const en = {
   "cause.held-back": "Something that the lidar does not see holds the vehicle: it drives and does not get on",
   "cause.height-unseen": "No lidar sees whether the door or lift ahead is open high enough",
   "cause.lidar-blind": "The lidar sees nothing any more in a direction ahead",
+  "cause.left-wheel-disobeys": "The left wheel ran at {turned} m/s and was told {asked} m/s",
+  "cause.right-wheel-disobeys": "The right wheel ran at {turned} m/s and was told {asked} m/s",
   "cause.time-gap": "The program stood still, or the computer's clock jumped",
 
   "remedy.give-order": "Give an order",
@@ -366,6 +368,7 @@ export const en = {
   "remedy.clear-field": "Clear the field",
   "remedy.look-and-go-on": "Look whether it is open, then press Go on",
   "remedy.uncover-lidar": "Clean the lidar, take away what covers it, check its network cable",
+  "remedy.look-at-wheel": "Free the wheel, or have its motor or encoder mended, then confirm",
   "remedy.go-on": "Goes on by itself, or press Go on",
   "remedy.by-itself": "Goes on by itself",
   "remedy.clear-or-draw": "Clear the way, or draw a route",

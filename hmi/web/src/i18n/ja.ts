@@ -351,6 +351,8 @@ export const ja: Record<TextKey, string> = {
   "cause.held-back": "ライダーに見えない何かに引っかかり、走行しても進めません",
   "cause.height-unseen": "前方の扉または昇降機が十分な高さまで開いているか、ライダーでは見えません",
   "cause.lidar-blind": "前方のある方向がライダーから見えなくなりました",
+  "cause.left-wheel-disobeys": "左の車輪が指示どおりに回りませんでした（指示 {asked} m/s、実際 {turned} m/s）",
+  "cause.right-wheel-disobeys": "右の車輪が指示どおりに回りませんでした（指示 {asked} m/s、実際 {turned} m/s）",
   "cause.time-gap": "プログラムが停止していたか、コンピュータの時計が飛びました",
 
   "remedy.give-order": "指示を出してください",
@@ -367,6 +369,7 @@ export const ja: Record<TextKey, string> = {
   "remedy.clear-field": "領域を空けてください",
   "remedy.look-and-go-on": "開いていることを確かめて「先へ進む」を押してください",
   "remedy.uncover-lidar": "ライダーを拭き、覆っている物を取り除き、通信ケーブルを確認してください",
+  "remedy.look-at-wheel": "車輪の引っかかりを取り除くか、モーターまたはエンコーダーを修理してから、確認を押してください",
   "remedy.go-on": "自動で続きます（「再開」でも続きます）",
   "remedy.by-itself": "自動で続きます",
   "remedy.clear-or-draw": "道を空けるか、経路を描いてください",

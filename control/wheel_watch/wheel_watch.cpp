@@ -1,0 +1,45 @@
+#include "control/wheel_watch/wheel_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace madori::control {
+
+void WheelWatch::Wheel::ask(double mps, double step_mps) {
+  least_mps = std::min(mps, least_mps + step_mps);
+  most_mps = std::max(mps, most_mps - step_mps);
+}
+
+double WheelWatch::Wheel::beyond_mps(double turned_mps, double share) const {
+  const double slack_mps = share * std::max(std::abs(least_mps), std::abs(most_mps));
+  const double above = turned_mps - (most_mps + slack_mps), below = turned_mps - (least_mps - slack_mps);
+  if (above > 0.0) return most_mps < 0.0 && turned_mps < slack_mps ? -above : above;
+  if (below < 0.0) return least_mps > 0.0 && turned_mps > -slack_mps ? below : -below;
+  return 0.0;
+}
+
+std::optional<DisobedientWheel> WheelWatch::update(const std::optional<VelocityCommand>& asked,
+                                                   const VelocityCommand& turned, double step_s,
+                                                   const WheelWatchOptions& options) {
+  const auto rim_mps = [&](const VelocityCommand& v, std::size_t wheel) {
+    return v.linear_mps + (wheel == 0 ? -1.0 : 1.0) * options.half_separation_m * v.angular_radps;
+  };
+  std::array<double, 2> beyond_mps{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (!asked) wheels_[k] = {rim_mps(turned, k), rim_mps(turned, k)};
+    if (asked) wheels_[k].ask(rim_mps(*asked, k), options.acceleration_mps2 * step_s);
+    beyond_mps[k] = wheels_[k].beyond_mps(rim_mps(turned, k), options.share);
+  }
+  const bool held = beyond_mps[0] < 0.0 && beyond_mps[1] < 0.0;
+  std::optional<DisobedientWheel> found;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const bool outside = !held && std::abs(beyond_mps[k]) > options.acceleration_mps2 * options.lag_s;
+    wheels_[k].outside_s = outside ? wheels_[k].outside_s + step_s : 0.0;
+    if (wheels_[k].outside_s < options.patience_s) continue;
+    if (asked && !found) found = DisobedientWheel{k == 0, rim_mps(*asked, k), rim_mps(turned, k)};
+    wheels_[k] = {rim_mps(turned, k), rim_mps(turned, k)};
+  }
+  return found;
+}
+
+}  // namespace madori::control
