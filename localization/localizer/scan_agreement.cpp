@@ -22,14 +22,15 @@ void ScanAgreement::begin(Stamp stamp) {
   wall_fit_ = WallFit();
   last_agreed_ = stamp;
   doubt_path_m_ = 0.0;
+  driven_before_ = false;
 }
 
-/// Does the scan lie, where it was matched, on what was remembered before the doubt began? Then the vehicle
-/// has not been carried off, drawn walls or not.
+/// Does the scan lie, where it was matched, on what was remembered until then?
 bool ScanAgreement::is_known_from_before(const SurfaceScan& scan, const MatchResult& match,
-                                         const MapState& map, const LocalizerOptions& options) const {
+                                         const MapState& map, double until_path_m,
+                                         const LocalizerOptions& options) const {
   const Point2<Map> here = match.map_from_base.translation();
-  const LocalMap& before = map.memory.whole_map(here, doubt_path_m_);
+  const LocalMap& before = map.memory.whole_map(here, until_path_m);
   if (before.empty()) return false;
   const MatchResult again = before.refine(scan, match.map_from_base, {});
   return again.inlier_share > std::max(options.lost_inliers, options.known_share * usual_inliers_) &&
@@ -49,10 +50,15 @@ void ScanAgreement::note(const SurfaceScan& scan, const MatchResult& match,
   evidence.on_walls = on_walls;
   evidence.on_memory = match.inlier_share;
   bool agrees = match.inlier_share > std::max(options.lost_inliers, 0.5 * usual_inliers_);
-  if (exact && (evidence.blind_scans > 0 || jumps(match, prediction, step))) {
-    agrees =
-        agrees && (on_walls > 0.5 * wall_fit_.usual() || is_known_from_before(scan, match, map, options));
-  }
+  const auto seen_until = [&](double path_m) {
+    return is_known_from_before(scan, match, map, path_m, options);
+  };
+  // On what was remembered before the doubt began: the vehicle was not carried off, drawn walls or not.
+  if (exact && (evidence.blind_scans > 0 || jumps(match, prediction, step)))
+    agrees = agrees && (on_walls > 0.5 * wall_fit_.usual() || seen_until(doubt_path_m_));
+  const auto& frames = map.memory.keyframes();
+  driven_before_ =
+      agrees && wall_fit_.is_poor() && seen_until(frames[map.memory.window_begin()].path_m);
   if (!agrees) {
     ++evidence.blind_scans;
     evidence.blind_m += step.path_m;
@@ -68,7 +74,7 @@ void ScanAgreement::note(const SurfaceScan& scan, const MatchResult& match,
 HealthEvidence ScanAgreement::evidence_at(Stamp stamp, const HealthEvidence& evidence) const {
   HealthEvidence now = evidence;
   if (now.blind_scans > 0) now.blind_s = to_seconds(stamp - last_agreed_);
-  now.off_walls = wall_fit_.is_poor();
+  now.off_walls = wall_fit_.is_poor() && !driven_before_;
   return now;
 }
 

@@ -27,11 +27,13 @@ class ScanAgreement {
 
  private:
   [[nodiscard]] bool is_known_from_before(const SurfaceScan& scan, const MatchResult& match,
-                                          const MapState& map, const LocalizerOptions& options) const;
+                                          const MapState& map, double until_path_m,
+                                          const LocalizerOptions& options) const;
 
   double usual_inliers_ = 0.6;  ///< share of a scan that fits the memory
   WallFit wall_fit_;
   bool beside_walls_ = false;
+  bool driven_before_ = false;  ///< what is seen beside the walls now was seen there on an earlier way, too
   Stamp last_agreed_{};
   double doubt_path_m_ = 0.0;  ///< driven when the last scan agreed; newer keyframes agree with themselves
 };

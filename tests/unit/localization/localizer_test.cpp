@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
+#include <string>
 
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"
@@ -254,6 +256,29 @@ TEST(Localizer, WheelsThatSlipInAnUndrawnRoomAreNoKidnapping) {
       EXPECT_LT(distance_m(e.map_from_base.translation(), moments[i].truth.translation()), 0.25);
     }
   }
+}
+
+TEST(Localizer, AnUndrawnRoomIsDoubtedOnTheFirstWayThroughItOnly) {
+  std::mt19937 engine(22);
+  std::size_t drawn = 0;
+  const mapping::Walls walls = with_an_undrawn_workshop(drawn);
+  const mapping::Walls drawing(walls.begin(), walls.begin() + static_cast<long>(drawn));
+  const std::vector<Point2<Map>> lap{{2.0, 1.2},  {10.5, 1.2}, {10.5, 3.6}, {20.0, 3.6}, {20.0, 8.5},
+                                     {20.0, 3.6}, {14.0, 3.6}, {10.5, 3.6}, {10.5, 7.4}, {2.0, 7.4},
+                                     {1.5, 1.2}};
+  std::vector<Point2<Map>> laps = lap;
+  laps.insert(laps.end(), lap.begin(), lap.end());
+  const auto moments = test::drive(walls, laps, bad_wheels(), engine);
+  Localizer localizer(drawing, InitialPose{moments.front().truth});
+  std::array<std::size_t, 2> doubted{};
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const PoseEstimate e = feed(localizer, moments[i]);
+    const bool doubts = e.health.reason.find("much less than usual") != std::string::npos;
+    doubted[2 * i < moments.size() ? 0 : 1] += doubts ? 1 : 0;
+    EXPECT_LT(distance_m(e.map_from_base.translation(), moments[i].truth.translation()), 0.25);
+  }
+  EXPECT_GT(doubted[0], 0u);
+  EXPECT_EQ(doubted[1], 0u);
 }
 
 TEST(Localizer, TheMemoryGrowsWithTheBuildingAndNotWithTheWay) {
