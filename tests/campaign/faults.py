@@ -445,13 +445,14 @@ DRIVE_FAULTS = [
     Fault("10 % of the commands lost", lambda s: s.commands(lambda raw: s.chance.random() > 0.1, 3.0), "goes on"),
     Fault("noise on the drive's line", lambda s: s.drive_does(
         lambda d, to: d + s.chance.randbytes(3) if s.chance.random() < 0.2 else d, 3.0)),
-    Fault("left encoder stuck for 3 s", lambda s: s.statuses(both(frozen(14), frozen(18)), 3.0)),
+    Fault("left encoder stuck for 3 s", lambda s: s.statuses(both(frozen(14), frozen(18)), 3.0), "stands", 1.0, ["left wheel"],
+          RESUME),
     Fault("left encoder jumps", lambda s: s.statuses(jumping(s, 14, 5000), 3.0)),
     Fault("the controller's clock stands still", lambda s: s.statuses(frozen(10, 4), 3.0), then=RESUME),
     Fault("the controller's clock jumps 60 s ahead", lambda s: s.statuses(
         lambda raw: put(raw, 10, number(raw, 10, 4) + 60_000_000, 4), 3.0), then=RESUME),
-    Fault("right motor at half its speed", lambda s: s.commands(speeds(1.0, 0.5), 3.0)),
-    Fault("right motor does nothing", lambda s: s.commands(speeds(1.0, 0.0), 2.0)),
+    Fault("right motor at half its speed", lambda s: s.commands(speeds(1.0, 0.5), 3.0), "stands", 1.0, ["right wheel"], RESUME),
+    Fault("right motor does nothing", lambda s: s.commands(speeds(1.0, 0.0), 2.0), "stands", 1.0, ["right wheel"], RESUME),
     Fault("both motors a fifth too fast", lambda s: s.commands(speeds(1.2, 1.2), 3.0)),
     Fault("emergency stop pressed for 2 s", lambda s: s.drive_is(state_is(ESTOP, 1), 2.0), "stands", 1.0, ["emergency stop"],
           RESUME, short=True),
