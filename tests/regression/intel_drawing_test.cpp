@@ -18,11 +18,13 @@ const std::filesystem::path kIntel = std::filesystem::path(MADORI_SHARED_DATA) /
 
 mapping::Walls drawn_walls(const char* file) {
   const mapping::GrayImage image = mapping::load_image(kIntel / file);
+  const mapping::DetectedWalls found = mapping::read_drawing(image, {});
   mapping::Walls walls;
-  for (const mapping::PixelSegment& s : mapping::read_drawing(image, {}).walls) {
+  for (const mapping::PixelSegment& s : found.walls) {
     walls.push_back({static_cast<int>(walls.size()),
                      {{s.u1 * kScale, (image.height_px - s.v1) * kScale},
-                      {s.u2 * kScale, (image.height_px - s.v2) * kScale}}});
+                      {s.u2 * kScale, (image.height_px - s.v2) * kScale}},
+                     found.probabilities[walls.size()]});
   }
   return walls;
 }
