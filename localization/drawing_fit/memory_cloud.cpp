@@ -19,12 +19,12 @@ int facing_of(double normal_x, double normal_y) {
   return std::clamp(static_cast<int>(turn * kFacings), 0, kFacings - 1);
 }
 
-std::uint64_t key_of(const CloudSurface& p, double dx = 0.0, double dy = 0.0) {
+std::uint64_t key_of(double x_m, double y_m, int facing) {
   constexpr std::int64_t kOffset = 1 << 24;
-  const auto ix = static_cast<std::int64_t>(std::floor((p.x_m + dx) / kVoxelM)) + kOffset;
-  const auto iy = static_cast<std::int64_t>(std::floor((p.y_m + dy) / kVoxelM)) + kOffset;
+  const auto ix = static_cast<std::int64_t>(std::floor(x_m / kVoxelM)) + kOffset;
+  const auto iy = static_cast<std::int64_t>(std::floor(y_m / kVoxelM)) + kOffset;
   return (static_cast<std::uint64_t>(ix) << 32U) | (static_cast<std::uint64_t>(iy) << 4U) |
-         static_cast<std::uint64_t>(facing_of(p.normal_x, p.normal_y));
+         static_cast<std::uint64_t>(facing);
 }
 
 struct Seen {
@@ -50,7 +50,9 @@ void add_keyframe(const Memory& memory, std::size_t k, Voxels& voxels) {
     const double dx = p.x_m - scan.sensor.x_m;
     const double dy = p.y_m - scan.sensor.y_m;
     const double range_sq = dx * dx + dy * dy;
-    const auto [at, fresh] = voxels.try_emplace(key_of(surface), Seen{surface, range_sq, seer, 1});
+    const int facing = facing_of(surface.normal_x, surface.normal_y);
+    const auto [at, fresh] =
+        voxels.try_emplace(key_of(surface.x_m, surface.y_m, facing), Seen{surface, range_sq, seer, 1});
     if (fresh) {
       continue;
     }
@@ -67,10 +69,12 @@ void add_keyframe(const Memory& memory, std::size_t k, Voxels& voxels) {
 /// Share of the metre to each side along the surface where the same surface runs on.
 double straightness(const CloudSurface& p, const Voxels& voxels) {
   constexpr int kSteps = 5;
+  const int facing = facing_of(p.normal_x, p.normal_y);
   int found = 0;
   for (int i = -kSteps; i <= kSteps; ++i) {
     const double t = i * kVoxelM;
-    found += i != 0 && voxels.contains(key_of(p, -p.normal_y * t, p.normal_x * t)) ? 1 : 0;
+    found +=
+        i != 0 && voxels.contains(key_of(p.x_m - p.normal_y * t, p.y_m + p.normal_x * t, facing)) ? 1 : 0;
   }
   return found / (2.0 * kSteps);
 }

@@ -11,6 +11,19 @@ namespace {
 constexpr double kCellM = 0.1;
 constexpr double kHalfWidthRad = to_rad(30.0);
 constexpr double kBinRad = kPi / WallIndex::kDirections;
+/// Cosine and sine where the second direction begins, and the others.
+struct Boundary {
+  double x, y;
+};
+constexpr double kHalf = 0.70710678118654752;
+constexpr std::array<Boundary, WallIndex::kDirections - 1> kBoundaries{
+    {{0.92387953251128674, 0.38268343236508977},
+     {kHalf, kHalf},
+     {0.38268343236508977, 0.92387953251128674},
+     {0.0, 1.0},
+     {-0.38268343236508977, 0.92387953251128674},
+     {-kHalf, kHalf},
+     {-0.92387953251128674, 0.38268343236508977}}};
 
 /// Of two undirected lines.
 double angle_between(double a_rad, double b_rad) {
@@ -21,6 +34,12 @@ double angle_between(double a_rad, double b_rad) {
 
 WallIndex::WallIndex(const mapping::Walls& walls)
     : walls_(walls), frame_(mapping::GridFrame::around(walls, kRadiusM, kCellM)) {
+  for (const mapping::Wall& wall : walls_) {
+    const Segment2<Map>& s = wall.segment;
+    const double length = s.length_m();
+    lines_.push_back(
+        {s.a, (s.b.x_m - s.a.x_m) / length, (s.b.y_m - s.a.y_m) / length, length, wall.probability});
+  }
   for (int k = 0; k < kDirections; ++k) {
     Table& table = tables_[static_cast<std::size_t>(k)];
     table.wall.assign(frame_.cells(), kNone);
@@ -44,11 +63,13 @@ WallIndex::WallIndex(const mapping::Walls& walls)
 }
 
 int WallIndex::direction_of(double normal_x, double normal_y) {
-  double angle = std::atan2(normal_y, normal_x);
-  if (angle < 0.0) {
-    angle += kPi;
+  if (normal_y < 0.0 || (normal_y == 0.0 && std::signbit(normal_y) && normal_x < 0.0)) {
+    normal_x = -normal_x;
+    normal_y = -normal_y;
   }
-  return std::clamp(static_cast<int>(angle / kBinRad), 0, kDirections - 1);
+  int direction = 0;
+  for (const Boundary& b : kBoundaries) direction += b.x * normal_y >= b.y * normal_x ? 1 : 0;
+  return direction;
 }
 
 WallIndex::Hit WallIndex::nearest(double x_m, double y_m, int direction) const {
@@ -60,20 +81,17 @@ WallIndex::Hit WallIndex::nearest(double x_m, double y_m, int direction) const {
   if (id == kNone) {
     return {};
   }
-  const Segment2<Map>& s = walls_[id].segment;
-  const double length = s.length_m();
-  const double ux = (s.b.x_m - s.a.x_m) / length;
-  const double uy = (s.b.y_m - s.a.y_m) / length;
-  const double px = x_m - s.a.x_m;
-  const double py = y_m - s.a.y_m;
+  const Line& line = lines_[id];
+  const double px = x_m - line.from.x_m;
+  const double py = y_m - line.from.y_m;
   Hit hit;
   hit.wall = static_cast<int>(id);
-  hit.normal_x = -uy;
-  hit.normal_y = ux;
-  hit.distance_m = -uy * px + ux * py;
-  hit.along_m = ux * px + uy * py;
-  hit.beyond_m = std::max({0.0, -hit.along_m, hit.along_m - length});
-  hit.probability = walls_[id].probability;
+  hit.normal_x = -line.along_y;
+  hit.normal_y = line.along_x;
+  hit.distance_m = -line.along_y * px + line.along_x * py;
+  hit.along_m = line.along_x * px + line.along_y * py;
+  hit.beyond_m = std::max({0.0, -hit.along_m, hit.along_m - line.length_m});
+  hit.probability = line.probability;
   return hit;
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "localization/global/global_answer.hpp"
 
@@ -28,7 +31,10 @@ struct Box {
 
 struct Candidate {
   double score = 0.0;
-  Transform2<Map, Map> correction;
+  double x_m = 0.0, y_m = 0.0;
+  int turn = 0;  ///< in steps
+
+  [[nodiscard]] Transform2<Map, Map> correction() const { return {x_m, y_m, turn * kStepRad}; }
 };
 
 MemoryCloud strongest(const MemoryCloud& cloud, std::size_t count) {
@@ -43,7 +49,8 @@ MemoryCloud strongest(const MemoryCloud& cloud, std::size_t count) {
   return sample;
 }
 
-double score(const WallIndex& index, const MemoryCloud& sample, double dx, double dy) {
+/// Of a surface by its distance to a wall, centimetres; 255 is none.
+const std::array<float, 256>& blurred_scores() {
   static const auto blur = [] {
     std::array<float, 256> t{};
     for (std::size_t i = 0; i < 255; ++i) {
@@ -52,26 +59,34 @@ double score(const WallIndex& index, const MemoryCloud& sample, double dx, doubl
     }
     return t;
   }();
-  double sum = 0.0;
-  for (const CloudSurface& p : sample) {
-    sum += blur[index.centimetres(p.x_m + dx, p.y_m + dy, p.direction)];
-  }
-  return sum;
+  return blur;
 }
 
-/// Keeps the best, no two of the same place.
-void keep_distinct(std::vector<Candidate>& found, const Transform2<Map, Base>& at, std::size_t wanted) {
+/// How well the sample lies on walls after the shifts (shifts_m[i], dy).
+void score_row(const WallIndex& index, const MemoryCloud& sample, const std::vector<double>& shifts_m,
+               double dy, std::vector<double>& scores) {
+  const auto& blur = blurred_scores();
+  scores.assign(shifts_m.size(), 0.0);
+  for (const CloudSurface& p : sample)
+    index.for_each_shift(p.x_m, p.y_m + dy, p.direction, shifts_m,
+                         [&](std::size_t i, std::uint8_t centimetres) { scores[i] += blur[centimetres]; });
+}
+
+/// The best, no two of the same place.
+std::vector<Transform2<Map, Map>> distinct(std::vector<Candidate> found, const Transform2<Map, Base>& at,
+                                           std::size_t wanted) {
   std::sort(found.begin(), found.end(),
             [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-  std::vector<Candidate> kept;
+  std::vector<Transform2<Map, Map>> kept;
   for (const Candidate& c : found) {
     if (kept.size() == wanted) break;
-    if (std::none_of(kept.begin(), kept.end(), [&](const Candidate& k) {
-          return same_place(k.correction * at, c.correction * at, kOtherM, kOtherRad);
+    const Transform2<Map, Map> correction = c.correction();
+    if (std::none_of(kept.begin(), kept.end(), [&](const Transform2<Map, Map>& k) {
+          return same_place(k * at, correction * at, kOtherM, kOtherRad);
         }))
-      kept.push_back(c);
+      kept.push_back(correction);
   }
-  found = std::move(kept);
+  return kept;
 }
 
 }  // namespace
@@ -97,23 +112,24 @@ std::vector<Transform2<Map, Map>> survey(const WallIndex& index, const MemoryClo
   const double area = (drawing.x2 - drawing.x1) * (drawing.y2 - drawing.y1);
   const double step = std::max(0.4, std::sqrt(area * kTurns * static_cast<double>(sample.size()) / kWork));
   std::vector<Candidate> best;
+  std::vector<double> shifts_m, scores;
   for (int r = 0; r < kTurns; ++r) {
     const Transform2<Map, Map> turn(0.0, 0.0, r * kStepRad);
     const MemoryCloud turned = moved(sample, turn);
     const Point2<Map> here = turn * at.translation();
-    for (double y = drawing.y1 - here.y_m; y <= drawing.y2 - here.y_m; y += step)
-      for (double x = drawing.x1 - here.x_m; x <= drawing.x2 - here.x_m; x += step)
-        best.push_back({score(index, turned, x, y), Transform2<Map, Map>(x, y, r * kStepRad)});
+    shifts_m.clear();
+    for (double x = drawing.x1 - here.x_m; x <= drawing.x2 - here.x_m; x += step) shifts_m.push_back(x);
+    for (double y = drawing.y1 - here.y_m; y <= drawing.y2 - here.y_m; y += step) {
+      score_row(index, turned, shifts_m, y, scores);
+      for (std::size_t i = 0; i < shifts_m.size(); ++i) best.push_back({scores[i], shifts_m[i], y, r});
+    }
     if (best.size() < kBuffer && r + 1 < kTurns) continue;
     const auto kept = static_cast<std::ptrdiff_t>(std::min(kBuffer, best.size()));
     std::nth_element(best.begin(), best.begin() + kept - 1, best.end(),
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
     best.resize(static_cast<std::size_t>(kept));
   }
-  keep_distinct(best, at, wanted);
-  std::vector<Transform2<Map, Map>> corrections;
-  for (const Candidate& c : best) corrections.push_back(c.correction);
-  return corrections;
+  return distinct(std::move(best), at, wanted);
 }
 
 }  // namespace madori::localization
