@@ -70,24 +70,20 @@ void ScoreGrid::smear(const std::vector<Mark>& marks) {
 void ScoreGrid::pool(int level) {
   const int half = 1 << (level - 1);
   const Level& fine = levels_[static_cast<std::size_t>(level - 1)];
-  Level& across = across_;
-  across = fine;
-  for (int y = 0; y < height_; ++y) {
-    const std::uint8_t* from = fine.data() + static_cast<std::size_t>(y) * width_;
-    std::uint8_t* to = across.data() + static_cast<std::size_t>(y) * width_;
-    for (int x = 0; x + half < width_; ++x) {
-      to[x] = std::max(from[x], from[x + half]);
-    }
-  }
   Level& out = levels_[static_cast<std::size_t>(level)];
-  out = across;
-  for (int y = 0; y + half < height_; ++y) {
-    const std::uint8_t* low = across.data() + static_cast<std::size_t>(y) * width_;
-    const std::uint8_t* high = across.data() + static_cast<std::size_t>(y + half) * width_;
+  out.resize(fine.size());
+  row_.resize(static_cast<std::size_t>(width_));
+  const int pairs = std::max(0, width_ - half);
+  for (int y = 0; y < height_; ++y) {
+    const std::uint8_t* low = fine.data() + static_cast<std::size_t>(y) * width_;
+    const std::uint8_t* high = y + half < height_ ? low + static_cast<std::ptrdiff_t>(half) * width_ : low;
+    std::uint8_t* up = row_.data();
     std::uint8_t* to = out.data() + static_cast<std::size_t>(y) * width_;
-    for (int x = 0; x < width_; ++x) {
-      to[x] = std::max(low[x], high[x]);
-    }
+#pragma omp simd
+    for (int x = 0; x < width_; ++x) up[x] = std::max(low[x], high[x]);
+#pragma omp simd
+    for (int x = 0; x < pairs; ++x) to[x] = std::max(up[x], up[x + half]);
+    std::copy(up + pairs, up + width_, to + pairs);
   }
 }
 

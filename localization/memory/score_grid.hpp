@@ -60,7 +60,7 @@ class ScoreGrid {
   int height_ = 0;
   Point2<Map> origin_;
   std::array<Level, kLevels> levels_;
-  Level across_;  ///< room for pool()
+  Level row_;  ///< room for pool()
   /// Room that one search after the other works in.
   struct Rotation {
     double offset_rad = 0.0;
