@@ -445,8 +445,9 @@ DRIVE_FAULTS = [
     Fault("10 % of the commands lost", lambda s: s.commands(lambda raw: s.chance.random() > 0.1, 3.0), "goes on"),
     Fault("noise on the drive's line", lambda s: s.drive_does(
         lambda d, to: d + s.chance.randbytes(3) if s.chance.random() < 0.2 else d, 3.0)),
-    Fault("left encoder stuck for 3 s", lambda s: s.statuses(both(frozen(14), frozen(18)), 3.0), "stands", 1.0, ["left wheel"],
-          RESUME),
+    # Whoever notices first: the watch on the wheels, or the localizer, whose next scan contradicts them.
+    Fault("left encoder stuck for 3 s", lambda s: s.statuses(both(frozen(14), frozen(18)), 3.0), "stands", 1.0,
+          ["left wheel", "where the vehicle is"], RESUME),
     Fault("left encoder jumps", lambda s: s.statuses(jumping(s, 14, 5000), 3.0)),
     Fault("the controller's clock stands still", lambda s: s.statuses(frozen(10, 4), 3.0), then=RESUME),
     Fault("the controller's clock jumps 60 s ahead", lambda s: s.statuses(
