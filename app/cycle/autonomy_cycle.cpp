@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "app/cycle/stages.hpp"
@@ -35,9 +34,7 @@ void begin_gap(CycleState& state, double seconds, CycleOutput& output) {
   state.gap = state.previous;
   state.limits = {};
   state.jog = {};
-  char text[24];
-  std::snprintf(text, sizeof text, "%.2f", seconds);
-  output.events.push_back(fill_in(kTimeGapEvent.english, {{"seconds", text}}));
+  output.events.push_back(fill_in(kTimeGapEvent.english, {{"seconds", two_decimals(seconds)}}));
 }
 
 /// What the vehicle would do were there no limits: by hand what the person holds down, else along its path.

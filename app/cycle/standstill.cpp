@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cstdio>
 
 #include "app/cycle/drive_faults.hpp"
 #include "app/cycle/stages.hpp"
+#include "core/fill_in.hpp"
 
 namespace madori::app {
 namespace {
@@ -27,11 +27,8 @@ Standstill why_fault(const CycleState& state, const CycleInput& input) {
             notice(Remedy::MendDrive), input.now};
   if (state.disobedient) {
     const auto& [left, asked_mps, turned_mps] = *state.disobedient;
-    char asked[16], turned[16];
-    std::snprintf(asked, sizeof asked, "%.2f", asked_mps);
-    std::snprintf(turned, sizeof turned, "%.2f", turned_mps);
     return {notice(left ? Cause::LeftWheelDisobeys : Cause::RightWheelDisobeys,
-                   {{"asked", asked}, {"turned", turned}}),
+                   {{"asked", two_decimals(asked_mps)}, {"turned", two_decimals(turned_mps)}}),
             notice(Remedy::LookAtWheel), input.now};
   }
   return because(Cause::FaultOver, Remedy::Confirm, input.now);

@@ -12,12 +12,22 @@ struct WheelSpeeds {
   friend bool operator==(const WheelSpeeds&, const WheelSpeeds&) = default;
 };
 
+/// Of the wheels' rims over the floor, positive drives forward.
+struct RimSpeeds {
+  double left_mps = 0.0;
+  double right_mps = 0.0;
+};
+
 /// Eq. (4) of the layout-map paper solved for the wheels; with d half the wheel separation, v_R - v_L = 2 d
 /// omega.
+[[nodiscard]] inline RimSpeeds rim_speeds(double half_separation_m, const VelocityCommand& command) {
+  const double difference_mps = half_separation_m * command.angular_radps;
+  return {command.linear_mps - difference_mps, command.linear_mps + difference_mps};
+}
+
 [[nodiscard]] inline WheelSpeeds wheel_speeds(const WheelGeometry& wheels, const VelocityCommand& command) {
-  const double difference_mps = wheels.half_separation_m * command.angular_radps;
-  return {(command.linear_mps - difference_mps) / wheels.left_radius_m,
-          (command.linear_mps + difference_mps) / wheels.right_radius_m};
+  const RimSpeeds rims = rim_speeds(wheels.half_separation_m, command);
+  return {rims.left_mps / wheels.left_radius_m, rims.right_mps / wheels.right_radius_m};
 }
 
 /// Eq. (4): what the vehicle does while its wheels turn so.

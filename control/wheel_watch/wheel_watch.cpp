@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/diff_drive/kinematics.hpp"
+
 namespace madori::control {
 
 void WheelWatch::Wheel::ask(double mps, double step_mps) {
@@ -21,14 +23,16 @@ double WheelWatch::Wheel::beyond_mps(double turned_mps, double share) const {
 std::optional<DisobedientWheel> WheelWatch::update(const std::optional<VelocityCommand>& asked,
                                                    const VelocityCommand& turned, double step_s,
                                                    const WheelWatchOptions& options) {
-  const auto rim_mps = [&](const VelocityCommand& v, std::size_t wheel) {
-    return v.linear_mps + (wheel == 0 ? -1.0 : 1.0) * options.half_separation_m * v.angular_radps;
+  const auto of_wheels = [&](const VelocityCommand& v) {
+    const RimSpeeds rims = rim_speeds(options.half_separation_m, v);
+    return std::array{rims.left_mps, rims.right_mps};
   };
+  const auto turned_mps = of_wheels(turned), asked_mps = of_wheels(asked.value_or(turned));
   std::array<double, 2> beyond_mps{};
   for (std::size_t k = 0; k < 2; ++k) {
-    if (!asked) wheels_[k] = {rim_mps(turned, k), rim_mps(turned, k)};
-    if (asked) wheels_[k].ask(rim_mps(*asked, k), options.acceleration_mps2 * step_s);
-    beyond_mps[k] = wheels_[k].beyond_mps(rim_mps(turned, k), options.share);
+    if (!asked) wheels_[k] = {turned_mps[k], turned_mps[k]};
+    if (asked) wheels_[k].ask(asked_mps[k], options.acceleration_mps2 * step_s);
+    beyond_mps[k] = wheels_[k].beyond_mps(turned_mps[k], options.share);
   }
   const bool held = beyond_mps[0] < 0.0 && beyond_mps[1] < 0.0;
   std::optional<DisobedientWheel> found;
@@ -36,8 +40,8 @@ std::optional<DisobedientWheel> WheelWatch::update(const std::optional<VelocityC
     const bool outside = !held && std::abs(beyond_mps[k]) > options.acceleration_mps2 * options.lag_s;
     wheels_[k].outside_s = outside ? wheels_[k].outside_s + step_s : 0.0;
     if (wheels_[k].outside_s < options.patience_s) continue;
-    if (asked && !found) found = DisobedientWheel{k == 0, rim_mps(*asked, k), rim_mps(turned, k)};
-    wheels_[k] = {rim_mps(turned, k), rim_mps(turned, k)};
+    if (asked && !found) found = DisobedientWheel{k == 0, asked_mps[k], turned_mps[k]};
+    wheels_[k] = {turned_mps[k], turned_mps[k]};
   }
   return found;
 }

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "localization/drawing_fit/wall_hits.hpp"
@@ -17,21 +16,6 @@ Transform2<Map, Map> about(const Point2<Map>& centre, double dx, double dy, doub
   return {centre.x_m + dx - moved.x_m, centre.y_m + dy - moved.y_m, turn};
 }
 
-/// Score of a surface by its distance in centimetres: wide enough that a step of the grid does not miss the
-/// peak; 255 is no wall at all.
-const std::array<float, 256>& blurred_scores() {
-  static const auto scores = [] {
-    constexpr float kBlurCm = 22.0F;
-    std::array<float, 256> t{};
-    for (std::size_t i = 0; i < 255; ++i) {
-      const float z = static_cast<float>(i) / kBlurCm;
-      t[i] = std::exp(-0.5F * z * z);
-    }
-    return t;
-  }();
-  return scores;
-}
-
 /// Every `stride`-th surface after `turned`; places, directions and weights only.
 MemoryCloud turned_sample(const MemoryCloud& cloud, const Transform2<Map, Map>& turned, std::size_t stride) {
   MemoryCloud sample;
@@ -43,7 +27,8 @@ MemoryCloud turned_sample(const MemoryCloud& cloud, const Transform2<Map, Map>& 
 }
 
 double score_shifted(const WallIndex& index, const MemoryCloud& sample, double dx, double dy) {
-  const auto& blur = blurred_scores();
+  constexpr float kBlurCm = 22.0F;  // wide enough that a step of the grid does not miss the peak
+  static const auto blur = scores_by_centimetre(kBlurCm);
   double score = 0.0;
   for (const CloudSurface& p : sample) {
     score += p.weight * blur[index.centimetres(p.x_m + dx, p.y_m + dy, p.direction)];

@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "localization/drawing_fit/memory_cloud.hpp"
 #include "localization/drawing_fit/wall_index.hpp"
@@ -13,6 +15,16 @@ namespace madori::localization {
 /// surface of the cloud is this share.
 inline constexpr double kShareOfObservation = kVoxelM / 2.0;
 inline constexpr double kBeyondM = 0.3;  ///< a surface may overshoot a drawn wall's end by this
+
+/// Score of a surface by its distance to a wall, WallIndex::centimetres; 255, no wall at all, is none.
+[[nodiscard]] inline std::array<float, 256> scores_by_centimetre(float blur_cm) {
+  std::array<float, 256> scores{};
+  for (std::size_t i = 0; i < 255; ++i) {
+    const float z = static_cast<float>(i) / blur_cm;
+    scores[i] = std::exp(-0.5F * z * z);
+  }
+  return scores;
+}
 
 /// Of the surface's normal after the correction, as WallIndex::direction_of.
 [[nodiscard]] inline int turned_direction(const CloudSurface& p, const Transform2<Map, Map>& by) {

@@ -57,8 +57,7 @@ void ScanAgreement::note(const SurfaceScan& scan, const MatchResult& match,
   if (exact && (evidence.blind_scans > 0 || jumps(match, prediction, step)))
     agrees = agrees && (on_walls > 0.5 * wall_fit_.usual() || seen_until(doubt_path_m_));
   const auto& frames = map.memory.keyframes();
-  driven_before_ =
-      agrees && wall_fit_.is_poor() && seen_until(frames[map.memory.window_begin()].path_m);
+  driven_before_ = agrees && wall_fit_.is_poor() && seen_until(frames[map.memory.window_begin()].path_m);
   if (!agrees) {
     ++evidence.blind_scans;
     evidence.blind_m += step.path_m;

@@ -1,12 +1,12 @@
 #include "localization/placement/survey.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "localization/drawing_fit/wall_hits.hpp"
 #include "localization/global/global_answer.hpp"
 
 namespace madori::localization {
@@ -49,23 +49,10 @@ MemoryCloud strongest(const MemoryCloud& cloud, std::size_t count) {
   return sample;
 }
 
-/// Of a surface by its distance to a wall, centimetres; 255 is none.
-const std::array<float, 256>& blurred_scores() {
-  static const auto blur = [] {
-    std::array<float, 256> t{};
-    for (std::size_t i = 0; i < 255; ++i) {
-      const float z = static_cast<float>(i) / 40.0F;
-      t[i] = std::exp(-0.5F * z * z);
-    }
-    return t;
-  }();
-  return blur;
-}
-
 /// How well the sample lies on walls after the shifts (shifts_m[i], dy).
 void score_row(const WallIndex& index, const MemoryCloud& sample, const std::vector<double>& shifts_m,
                double dy, std::vector<double>& scores) {
-  const auto& blur = blurred_scores();
+  static const auto blur = scores_by_centimetre(40.0F);
   scores.assign(shifts_m.size(), 0.0);
   for (const CloudSurface& p : sample)
     index.for_each_shift(p.x_m, p.y_m + dy, p.direction, shifts_m,

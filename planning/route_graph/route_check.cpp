@@ -1,10 +1,9 @@
 #include "planning/route_graph/route_check.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <limits>
 
+#include "core/fill_in.hpp"
 #include "core/segment_distance.hpp"
 #include "planning/route_graph/finding_texts.hpp"
 #include "planning/route_graph/route_search.hpp"
@@ -25,12 +24,6 @@ std::map<std::string, std::string> of_leg(const RouteGraph& graph, const RouteLe
   return more;
 }
 
-std::string metres(double value_m) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.2f", value_m);
-  return buffer.data();
-}
-
 /// Each leg once, also where it is two-way.
 bool is_second_direction(const RouteGraph& graph, const RouteLeg& leg) {
   return leg.to < leg.from && graph.has_leg(leg.to, leg.from);
@@ -49,7 +42,8 @@ void check_walls(const RouteGraph& graph, const std::vector<Segment2<Map>>& wall
     else if (nearest_m < options.half_width_m)
       findings.push_back(finding(
           Fault::NarrowAtWall, Severity::Warning, options.tree_file, leg.line,
-          of_leg(graph, leg, {{"distance", metres(nearest_m)}, {"half", metres(options.half_width_m)}})));
+          of_leg(graph, leg,
+                 {{"distance", two_decimals(nearest_m)}, {"half", two_decimals(options.half_width_m)}})));
   }
 }
 
@@ -74,7 +68,7 @@ void check_spots(const RouteGraph& graph, const RouteCheckOptions& options,
     if (leg.length_m < kSameSpotM && !is_second_direction(graph, leg))
       findings.push_back(finding(Fault::ShortLeg, Severity::Warning, options.path_file,
                                  graph.nodes()[leg.to].line,
-                                 of_leg(graph, leg, {{"length", metres(leg.length_m)}})));
+                                 of_leg(graph, leg, {{"length", two_decimals(leg.length_m)}})));
 }
 
 }  // namespace

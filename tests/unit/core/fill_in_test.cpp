@@ -12,5 +12,11 @@ TEST(FillIn, EveryPlaceholderIsReplacedAndValuesAreNotSearchedAgain) {
   EXPECT_EQ(fill_in("{a}{a}", {{"a", ""}}), "");
 }
 
+TEST(FillIn, NumbersHaveTwoDecimals) {
+  EXPECT_EQ(two_decimals(0.0), "0.00");
+  EXPECT_EQ(two_decimals(-1.005), "-1.00");
+  EXPECT_EQ(two_decimals(12.346), "12.35");
+}
+
 }  // namespace
 }  // namespace madori

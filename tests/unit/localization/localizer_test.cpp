@@ -263,9 +263,9 @@ TEST(Localizer, AnUndrawnRoomIsDoubtedOnTheFirstWayThroughItOnly) {
   std::size_t drawn = 0;
   const mapping::Walls walls = with_an_undrawn_workshop(drawn);
   const mapping::Walls drawing(walls.begin(), walls.begin() + static_cast<long>(drawn));
-  const std::vector<Point2<Map>> lap{{2.0, 1.2},  {10.5, 1.2}, {10.5, 3.6}, {20.0, 3.6}, {20.0, 8.5},
-                                     {20.0, 3.6}, {14.0, 3.6}, {10.5, 3.6}, {10.5, 7.4}, {2.0, 7.4},
-                                     {1.5, 1.2}};
+  const std::vector<Point2<Map>> lap{{2.0, 1.2},  {10.5, 1.2}, {10.5, 3.6}, {20.0, 3.6},
+                                     {20.0, 8.5}, {20.0, 3.6}, {14.0, 3.6}, {10.5, 3.6},
+                                     {10.5, 7.4}, {2.0, 7.4},  {1.5, 1.2}};
   std::vector<Point2<Map>> laps = lap;
   laps.insert(laps.end(), lap.begin(), lap.end());
   const auto moments = test::drive(walls, laps, bad_wheels(), engine);
