@@ -57,6 +57,10 @@ void MapState::place(const LocalizerOptions& options) {
   const Transform2<Map, Base>& at = memory.poses().back();
   evidence.here = placed ? drawing->belief.probability_here(at) : 0.0;
   evidence.around = placed ? drawing->belief.probability_around(at) : 0.0;
+  if (const auto bent = drawing->walls.bent(); placed && bent) {
+    evidence.here *= bent->share_within(at, kNearM);
+    evidence.around *= bent->share_within(at, kAroundM);
+  }
   if (unconfirmed_size == memory.size())
     evidence.here = evidence.around = std::min(evidence.here, options.unconfirmed);
   evidence.rival = drawing->belief.probability_elsewhere(at);
@@ -123,7 +127,7 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
   memory.optimise(unary);
   // Only now: what has drifted is pulled back by what was known, before the drawing is bent to it.
   if (drawing->belief.probability_here(memory.poses().back()) > options.health.localized)
-    drawing->walls.bend(memory_cloud(memory));
+    drawing->walls.bend(memory_cloud(memory), memory.poses().back().translation());
 }
 
 /// How far beside its place the newest stretch is sought. What fits the drawing poorly though every scan

@@ -31,9 +31,7 @@ constexpr std::size_t kSurfaces = 1500;  // of a large memory, so many tell as m
 constexpr double kSameM = 0.5;           // nearer than this, and turned by less, two hypotheses are one
 constexpr double kSameRad = to_rad(8.0);
 constexpr double kAnyPlace = 0.1;  // who may be anywhere around a place is not at that place
-constexpr double kNearM = 0.5;     // what an answer may be off by and still be right
 constexpr double kNearRad = to_rad(10.0);
-constexpr double kAroundM = 1.0;
 constexpr double kAroundRad = to_rad(20.0);
 
 double log_mean_exp(const std::array<double, kDrawingSigmasM.size()>& nats) {

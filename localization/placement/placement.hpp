@@ -11,6 +11,9 @@
 
 namespace madori::localization {
 
+inline constexpr double kNearM = 0.5;    ///< what an answer may be off by and still be right
+inline constexpr double kAroundM = 1.0;  ///< ... and be right, but not exactly
+
 /// What is known of the start without looking: the pose of the memory's first keyframe.
 struct StartPrior {
   Transform2<Map, Base> map_from_base;

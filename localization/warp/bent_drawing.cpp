@@ -1,5 +1,6 @@
 #include "localization/warp/bent_drawing.hpp"
 
+#include "localization/warp/other_ways.hpp"
 #include "localization/warp/place_by_walls.hpp"
 
 namespace madori::localization {
@@ -20,6 +21,17 @@ Transform2<Map, Base> BentDrawing::in_building(const Transform2<Map, Base>& on_d
 Transform2<Map, Base> BentDrawing::on_drawing(const Transform2<Map, Base>& in_building) const {
   return fit.warp.map(
       Transform2<Building, Base>(in_building.x_m(), in_building.y_m(), in_building.yaw_rad()));
+}
+
+double BentDrawing::share_within(const Transform2<Map, Base>& in_building, double m) const {
+  const Point2<Building> place{in_building.x_m(), in_building.y_m()};
+  const Point2<Map> here = fit.warp.map(place);
+  double near = 1.0, all = 1.0;
+  for (const OtherWay& other : fit.others) {
+    all += other.odds;
+    if (distance_m(other.warp.map(place), here) <= m) near += other.odds;
+  }
+  return near / all;
 }
 
 Point2<Map> BentDrawing::by_walls(const Point2<Map>& on_drawing) const {
@@ -52,11 +64,11 @@ void BendingDrawing::take(const WarpFit& fit) {
   bent_ = std::make_shared<const BentDrawing>(BentDrawing{walls_, fit, std::move(stands)});
 }
 
-void BendingDrawing::bend(const MemoryCloud& cloud) {
+void BendingDrawing::bend(const MemoryCloud& cloud, const Point2<Map>& at) {
   const double walls = DrawingFit::walls_seen(cloud);
   if (walls < next_walls_) return;
   next_walls_ = std::max(walls + kMoreWalls, kGrowth * walls);
-  take(fit_warp(drawn_.index(), cloud, start_));
+  take(fit_warp(drawn_.index(), cloud, start_, other_ways(drawn_.index(), cloud, start_, {at.x_m, at.y_m})));
 }
 
 void BendingDrawing::straighten() {

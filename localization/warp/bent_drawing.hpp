@@ -18,6 +18,9 @@ struct BentDrawing {
   /// A pose carried over; both typed Map, the building's metres being laid rigidly on the drawing.
   [[nodiscard]] Transform2<Map, Base> in_building(const Transform2<Map, Base>& on_drawing) const;
   [[nodiscard]] Transform2<Map, Base> on_drawing(const Transform2<Map, Base>& in_building) const;
+  /// How likely it is that a vehicle there is within so much, on the drawing, of where on_drawing() has it:
+  /// its surroundings were not taken for what is drawn beside them. By the ends of all fits that were tried.
+  [[nodiscard]] double share_within(const Transform2<Map, Base>& in_building, double m) const;
 };
 
 /// Learns by and by how the drawing lies in the building, and holds both: the walls as drawn, which say where
@@ -39,9 +42,9 @@ class BendingDrawing {
   [[nodiscard]] Transform2<Map, Base> in_building(const Transform2<Map, Base>& on_drawing) const;
   [[nodiscard]] Transform2<Map, Base> on_drawing(const Transform2<Map, Base>& in_building) const;
 
-  /// Bends to a memory that lies right, where it has grown enough since the last time. Takes tenths of a
-  /// second.
-  void bend(const MemoryCloud& cloud);
+  /// Bends to a memory that lies right, the vehicle being at `at` (the building's metres), where it has grown
+  /// enough since the last time. Takes tenths of a second.
+  void bend(const MemoryCloud& cloud, const Point2<Map>& at);
   /// As drawn again: it was bent to a memory that lay elsewhere.
   void straighten();
   /// Of how exactly each of the two describes the memory.

@@ -29,12 +29,19 @@ struct WallDeviation {
   [[nodiscard]] double seen_m() const { return sides[0].seen_m + sides[1].seen_m; }
 };
 
+/// Another explanation of the same memory.
+struct OtherWay {
+  DrawingWarp warp;
+  double odds = 0.0;  ///< against the one that was taken, 0..1
+};
+
 struct WarpFit {
   DrawingWarp warp;
   std::vector<WallDeviation> walls;  ///< one a drawn wall, in their order
   double residual_m = 0.0;           ///< error of the drawing after the warp: walls and their pieces together
   double evidence_nats = 0.0;        ///< for a warp against the drawing as it is; below zero it is identity
   double walls_seen = 0.0;           ///< walls of two metres that the fit rests on
+  std::vector<OtherWay> others;      ///< what further starts led to
 };
 
 struct WarpFitOptions {
@@ -48,8 +55,10 @@ struct WarpFitOptions {
 /// as the prior of the displacement (Lindgren, Rue, Lindstroem 2011, eq. (2): a sparse precision); surfaces
 /// are drawn walls or clutter (a mixture). Amplitudes are learned by empirical Bayes; the warp is identity
 /// unless the marginal likelihood says otherwise. `before` is where the association starts: call it as the
-/// memory grows.
+/// memory grows. Least squares end at the nearest optimum: `further` starts, in which some of the walls are
+/// taken for their neighbours, end elsewhere, and the likeliest end is taken.
 [[nodiscard]] WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const DrawingWarp& before,
+                               const std::vector<DrawingWarp>& further = {},
                                const WarpFitOptions& options = {});
 
 /// The same for a memory that was not followed while it grew: its keyframes a few at a time, as driven.
