@@ -50,6 +50,11 @@ sensors::LidarSettings lidar_settings(const mapping::SensorRecord& sensor) {
           sensor.settings};
 }
 
+std::string lidar_title(const std::string& type) {
+  const auto* row = sensors::find_lidar(type);
+  return row == nullptr ? "" : row->title;
+}
+
 LidarModel lidar_model(const mapping::SensorRecord& sensor) {
   return sensors::lidar_of(sensor.type, "sensor " + sensor.name).model(lidar_settings(sensor));
 }

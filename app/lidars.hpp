@@ -11,6 +11,8 @@ namespace madori::app {
 
 /// A sensor of site.yaml as its driver wants it.
 [[nodiscard]] sensors::LidarSettings lidar_settings(const mapping::SensorRecord& sensor);
+/// The product's name for people; empty where no lidar is called so.
+[[nodiscard]] std::string lidar_title(const std::string& type);
 /// What that sensor sees, by its kind and its mounting. Throws Error on an unknown kind or setting.
 [[nodiscard]] LidarModel lidar_model(const mapping::SensorRecord& sensor);
 /// The lidars of a site in its order. Throws an Error that names `folder`/site.yaml: none at all, an unknown

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace madori::simulation {
 namespace {
@@ -48,7 +49,19 @@ Extent extent_of(std::span<const Hit> rays, const BeamSpot& spot) {
 }
 
 SpotHits all(const Hit& hit) {
-  return {hit, hit, hit};
+  return {hit, hit, hit, false};
+}
+
+/// Most beams: all rays on one surface that is nearly square on them; nullopt for the others.
+std::optional<Hit> on_one_surface(std::span<const Hit> rays) {
+  Side side;
+  float near_m = Hit::kNothing, far_m = 0.0F;
+  for (const Hit& ray : rays) {
+    near_m = std::min(near_m, ray.range_m), far_m = std::max(far_m, ray.range_m);
+    side.add(ray);
+  }
+  if (far_m == Hit::kNothing || far_m - near_m > kFlatM) return std::nullopt;
+  return side.echo();
 }
 
 }  // namespace
@@ -66,6 +79,7 @@ BeamSpot::BeamSpot(double beam_m, double spread_rad, std::size_t rays)
 
 SpotHits meet(std::span<const Hit> rays, const BeamSpot& spot, float share) {
   if (rays.size() == 1) return all(rays[0]);
+  if (const auto surface = on_one_surface(rays)) return all(*surface);
   const Extent extent = extent_of(rays, spot);
   const auto count = static_cast<float>(rays.size());
   const bool edge = extent.far_m - extent.near_m > extent.slant_m;
@@ -89,7 +103,7 @@ SpotHits meet(std::span<const Hit> rays, const BeamSpot& spot, float share) {
   if (std::max(of_near, of_far) < kLeastShare) return all(nothing);
   const Hit& first = of_near >= kLeastShare ? a : b;
   const Hit& last = of_far >= kLeastShare ? b : a;
-  return {first, last, of_near >= of_far ? a : b};
+  return {first, last, of_near >= of_far ? a : b, true};
 }
 
 }  // namespace madori::simulation

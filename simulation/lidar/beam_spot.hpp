@@ -38,9 +38,10 @@ inline constexpr float kLeastShare = 0.25F;
 
 /// What a whole beam meets.
 struct SpotHits {
-  Hit first;      ///< the nearest that is noticed
-  Hit last;       ///< the farthest
-  Hit strongest;  ///< the one that takes most of the beam
+  Hit first;            ///< the nearest that is noticed
+  Hit last;             ///< the farthest
+  Hit strongest;        ///< the one that takes most of the beam
+  bool parted = false;  ///< whether these are not one and the same
 };
 
 /// The echoes of the rays of a spot. A surface that the spot lies

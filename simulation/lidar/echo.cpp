@@ -44,7 +44,11 @@ Echoes echoes_of(const SpotHits& hits, const EchoOptions& options, const RangeBi
   const Listener listener{options, bias, angle_rad,
                           options.noise_m * normal_from_bits(static_cast<std::uint32_t>(bits)),
                           (bits >> 48U) < kLostBehindGlass};
-  Echoes echoes{listener.nearest(hits.first), listener.nearest(hits.strongest), listener.behind(hits.last)};
+  Echoes echoes;
+  echoes.first = echoes.strongest = listener.nearest(hits.first);
+  if (hits.parted) echoes.strongest = listener.nearest(hits.strongest);
+  echoes.last =
+      hits.parted || hits.last.glass_m < hits.last.range_m ? listener.behind(hits.last) : echoes.first;
   if (echoes.last.range_m == Hit::kNothing) echoes.last = echoes.strongest;
   if (options.rain > 0.0 && random.uniform() < options.rain) {
     const float reach_m = std::min(hits.first.range_m, options.range_max_m);

@@ -19,7 +19,7 @@ class RangeBias {
  private:
   float offset_m_ = 0.0F;
   float by_range_m_ = 0.0F, by_angle_m_ = 0.0F;
-  float range_phase_ = 0.0F, range_rate_ = 0.0F, angle_phase_ = 0.0F;
+  float range_phase_ = 0.0F, waves_a_metre_ = 0.0F, angle_phase_ = 0.0F;  ///< in whole waves
   std::array<float, kMaterials> by_material_m_{};
 };
 

@@ -108,35 +108,35 @@ void BeamBatch::reset(std::size_t count, const BeamSpot& spot) {
 }
 
 void BeamBatch::set(std::size_t i, const SensorPose& from, double dx, double dy, double dz) {
-  if (spot_.rays().size() == 1) return set_ray(i, from, {}, {dx, dy, dz});
-  const double flat = std::sqrt(dx * dx + dy * dy);
-  const Vector d{dx, dy, dz}, left{-dy / flat, dx / flat, 0.0};
-  const Vector up{-dz * left[1], dz * left[0], dx * left[1] - dy * left[0]};
+  const auto turned = [&r = from.rotation](double x, double y, double z) -> Vector {
+    return {r[0] * x + r[1] * y + r[2] * z, r[3] * x + r[4] * y + r[5] * z, r[6] * x + r[7] * y + r[8] * z};
+  };
+  const Vector direction = turned(dx, dy, dz);
+  if (spot_.rays().size() == 1) return set_ray(i, from.origin_m, direction);
+  const double per_flat = 1.0 / std::sqrt(dx * dx + dy * dy), lx = -dy * per_flat, ly = dx * per_flat;
+  const Vector left = turned(lx, ly, 0.0), up = turned(-dz * ly, dz * lx, dx * ly - dy * lx);
+  const double radius_m = spot_.beam_m() / 2.0, spread = spot_.spread_rad() / 2.0;
   for (std::size_t ray = 0; ray < spot_.rays().size(); ++ray) {
     const auto& offset = spot_.rays()[ray];
-    Vector origin, direction;
+    Vector origin = from.origin_m, aim = direction;
     for (std::size_t k = 0; k < 3; ++k) {
       const double beside = offset.left * left[k] + offset.up * up[k];
-      origin[k] = beside * spot_.beam_m() / 2.0;
-      direction[k] = d[k] + beside * spot_.spread_rad() / 2.0;
+      origin[k] += beside * radius_m;
+      aim[k] += beside * spread;
     }
-    set_ray(ray * beams_ + i, from, origin, direction);
+    set_ray(ray * beams_ + i, origin, aim);
   }
 }
 
-void BeamBatch::set_ray(std::size_t ray, const SensorPose& from, const Vector& origin,
-                        const Vector& direction) {
+void BeamBatch::set_ray(std::size_t ray, const Vector& origin, const Vector& direction) {
   RayPacket& p = packets_[ray / RayPacket::kLanes];
   const std::size_t lane = ray % RayPacket::kLanes;
-  const auto turned = [&r = from.rotation](const Vector& v, std::size_t row) {
-    return r[3 * row] * v[0] + r[3 * row + 1] * v[1] + r[3 * row + 2] * v[2];
-  };
-  p.x_m[lane] = static_cast<float>(from.origin_m[0] + turned(origin, 0));
-  p.y_m[lane] = static_cast<float>(from.origin_m[1] + turned(origin, 1));
-  p.z_m[lane] = static_cast<float>(from.origin_m[2] + turned(origin, 2));
-  p.dx[lane] = static_cast<float>(turned(direction, 0));
-  p.dy[lane] = static_cast<float>(turned(direction, 1));
-  p.dz[lane] = static_cast<float>(turned(direction, 2));
+  p.x_m[lane] = static_cast<float>(origin[0]);
+  p.y_m[lane] = static_cast<float>(origin[1]);
+  p.z_m[lane] = static_cast<float>(origin[2]);
+  p.dx[lane] = static_cast<float>(direction[0]);
+  p.dy[lane] = static_cast<float>(direction[1]);
+  p.dz[lane] = static_cast<float>(direction[2]);
 }
 
 std::span<const Hit> BeamBatch::spot(std::size_t i) const {

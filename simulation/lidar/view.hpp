@@ -68,7 +68,7 @@ class BeamBatch {
 
  private:
   using Vector = std::array<double, 3>;
-  void set_ray(std::size_t ray, const SensorPose& from, const Vector& origin, const Vector& direction);
+  void set_ray(std::size_t ray, const Vector& origin, const Vector& direction);  ///< Building frame
   void cast_body(const Body& body, float range_max_m);
 
   std::size_t beams_ = 0;
