@@ -1,12 +1,15 @@
 #!/usr/bin/python3
 """Deliveries with other lidars: the soak of driving-figures.md, driven with each of the setups below, one row a setup.
 
-    lidar_setups.py MADORI SOAK DATA FOLDER [--setups lms,two_s300] [--orders 100] [--days 4] [--kidnappings 10] [--seed 1]
-    lidar_setups.py MADORI SOAK DATA FOLDER --report       the table of what was driven so far, from FOLDER/*.json
+    lidar_setups.py MADORI SOAK DATA FOLDER [--setups lms,two_s300] [--orders 100] [--days 5] [--kidnappings 10] [--seed 1]
+                    [--jobs 1]
+    lidar_setups.py MADORI SOAK DATA FOLDER --report       the table of what was driven so far
 
-Sites, scenarios, figures (SETUP.json) and what the soak says (SETUP.log) are kept in FOLDER.
+Sites, scenarios and of each day the figures (SETUP.DAY.json) and what the soak says (SETUP.DAY.log) are kept in FOLDER.
+Days are shared out to so many jobs. SIGTERM to a soak ends it after the delivery under way and keeps its figures.
 """
 import argparse
+import concurrent.futures
 import json
 import pathlib
 import subprocess
@@ -36,7 +39,7 @@ SETUPS = {
 }
 
 
-def drive(a, name):
+def prepare(a, name):
     _, lidars, sections = SETUPS[name]
     site = a.folder / name
     if not (site / "site.yaml").exists():
@@ -47,11 +50,15 @@ def drive(a, name):
     for section in sections:
         scenario = sample_site.set_section(scenario, section)
     (site / "soak.yaml").write_text(scenario)
-    figures = a.folder / f"{name}.json"
+
+
+def drive(a, name, day):
+    figures = a.folder / f"{name}.{day}.json"
     figures.unlink(missing_ok=True)
-    with open(a.folder / f"{name}.log", "w", encoding="utf-8") as log:
-        subprocess.run([a.soak, site, site / "soak.yaml", "--routes", a.data / "scenarios/soak/routes", "--orders", str(a.orders),
-                        "--days", str(a.days), "--kidnappings", str(a.kidnappings), "--seed", str(a.seed), "--json", figures],
+    with open(a.folder / f"{name}.{day}.log", "w", encoding="utf-8") as log:
+        subprocess.run([a.soak, a.folder / name, a.folder / name / "soak.yaml", "--routes", a.data / "scenarios/soak/routes",
+                        "--orders", str(a.orders), "--days", str(a.days), "--first-day", str(day), "--end-day", str(day + 1),
+                        "--kidnappings", str(a.kidnappings), "--seed", str(a.seed), "--json", figures],
                        stdout=log, stderr=subprocess.STDOUT, check=False)
 
 
@@ -75,9 +82,9 @@ def table(folder, names):
     print("| lidar | delivered | contacts | help | stops | within 1 deg | from the route | pose | kidnappings found | speed |")
     print("|" + " --- |" * 10)
     for name in names:
-        file = folder / f"{name}.json"
-        if file.exists():
-            print(row(SETUPS[name][0], [json.loads(line) for line in file.read_text().splitlines()]))
+        days = [json.loads(line) for file in sorted(folder.glob(f"{name}.*.json")) for line in file.read_text().splitlines()]
+        if days:
+            print(row(SETUPS[name][0], days))
 
 
 def main():
@@ -88,9 +95,10 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--setups", default=",".join(SETUPS), help=f"of {', '.join(SETUPS)}")
     parser.add_argument("--orders", type=int, default=100)
-    parser.add_argument("--days", type=int, default=4)
+    parser.add_argument("--days", type=int, default=5)
     parser.add_argument("--kidnappings", type=int, default=10)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1, help="days that are driven at the same time")
     parser.add_argument("--report", action="store_true")
     a = parser.parse_args()
     names = a.setups.split(",")
@@ -98,8 +106,12 @@ def main():
     if unknown:
         parser.error(f"no setup is called {', '.join(unknown)}; there are {', '.join(SETUPS)}")
     a.folder.mkdir(parents=True, exist_ok=True)
-    for name in names if not a.report else []:
-        drive(a, name)
+    if not a.report:
+        for name in names:
+            prepare(a, name)
+        with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
+            for job in [pool.submit(drive, a, name, day) for day in range(a.days) for name in names]:
+                job.result()
     table(a.folder, names)
 
 
