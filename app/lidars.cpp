@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "core/angle.hpp"
@@ -65,6 +66,14 @@ double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m) {
     if (planning::SensorView::of(lidar).looks_at(0.0))
       best_m = std::max(best_m, lidar.mounting.x_m + lidar.sure_range_m(kLegM) - front_m);
   return best_m;
+}
+
+double lowest_ahead_m(const std::vector<LidarModel>& lidars) {
+  double lowest_m = std::numeric_limits<double>::infinity();
+  for (const LidarModel& lidar : lidars)
+    if (planning::SensorView::of(lidar).looks_at(0.0))
+      lowest_m = std::min(lowest_m, std::max(0.0, lidar.lowest_m(lidar.range_max_m)));
+  return lowest_m;
 }
 
 std::vector<LidarModel> lidars_of(const mapping::Site& site, const std::filesystem::path& folder) {

@@ -26,4 +26,10 @@ inline constexpr double kLegM = 0.07;
 /// ahead.
 [[nodiscard]] double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m);
 
+/// The height of a person who lies on the floor (test body of IEC 61496-3: 200 mm).
+inline constexpr double kLyingM = 0.2;
+/// The lowest height above the floor that a lidar sees straight ahead, somewhere before the vehicle; infinity
+/// where none looks ahead.
+[[nodiscard]] double lowest_ahead_m(const std::vector<LidarModel>& lidars);
+
 }  // namespace madori::app
