@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "core/angle.hpp"
@@ -50,6 +51,11 @@ sensors::LidarSettings lidar_settings(const mapping::SensorRecord& sensor) {
           sensor.settings};
 }
 
+std::string lidar_title(const std::string& type) {
+  const auto* row = sensors::find_lidar(type);
+  return row == nullptr ? "" : row->title;
+}
+
 LidarModel lidar_model(const mapping::SensorRecord& sensor) {
   return sensors::lidar_of(sensor.type, "sensor " + sensor.name).model(lidar_settings(sensor));
 }
@@ -60,6 +66,14 @@ double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m) {
     if (planning::SensorView::of(lidar).looks_at(0.0))
       best_m = std::max(best_m, lidar.mounting.x_m + lidar.sure_range_m(kLegM) - front_m);
   return best_m;
+}
+
+double lowest_ahead_m(const std::vector<LidarModel>& lidars) {
+  double lowest_m = std::numeric_limits<double>::infinity();
+  for (const LidarModel& lidar : lidars)
+    if (planning::SensorView::of(lidar).looks_at(0.0))
+      lowest_m = std::min(lowest_m, std::max(0.0, lidar.lowest_m(lidar.range_max_m)));
+  return lowest_m;
 }
 
 std::vector<LidarModel> lidars_of(const mapping::Site& site, const std::filesystem::path& folder) {

@@ -11,6 +11,8 @@ namespace madori::app {
 
 /// A sensor of site.yaml as its driver wants it.
 [[nodiscard]] sensors::LidarSettings lidar_settings(const mapping::SensorRecord& sensor);
+/// The product's name for people; empty where no lidar is called so.
+[[nodiscard]] std::string lidar_title(const std::string& type);
 /// What that sensor sees, by its kind and its mounting. Throws Error on an unknown kind or setting.
 [[nodiscard]] LidarModel lidar_model(const mapping::SensorRecord& sensor);
 /// The lidars of a site in its order. Throws an Error that names `folder`/site.yaml: none at all, an unknown
@@ -23,5 +25,11 @@ inline constexpr double kLegM = 0.07;
 /// How far before the vehicle's front a leg is sure to be seen: by the lidar that does it best straight
 /// ahead.
 [[nodiscard]] double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m);
+
+/// The height of a person who lies on the floor (test body of IEC 61496-3: 200 mm).
+inline constexpr double kLyingM = 0.2;
+/// The lowest height above the floor that a lidar sees straight ahead, somewhere before the vehicle; infinity
+/// where none looks ahead.
+[[nodiscard]] double lowest_ahead_m(const std::vector<LidarModel>& lidars);
 
 }  // namespace madori::app

@@ -15,7 +15,8 @@ namespace s300 = sensors::s300;
 
 constexpr Duration kS300Period = std::chrono::milliseconds(40);
 constexpr Duration kHour = std::chrono::hours(1);
-constexpr std::uint64_t kLmsStream = 0x1115, kS300Stream = 0x300;
+constexpr std::uint64_t kLmsStream = 0x1115, kS300Stream = 0x300, kBiasStream = 0xB1A5'0000;
+constexpr std::size_t kRaysABeam = 5;
 
 const char* type_of(Device device) {
   return device == Device::Drive ? "" : to_string(device);
@@ -70,19 +71,24 @@ void SensorSuite::add(Device device, const mapping::SensorRecord& record, std::s
   if (device == Device::Vlp16)
     return void(vlp16_.emplace_back(record, scenario_.vlp16, seed + unit * kNextUnit, hour_offset));
   const bool lms = device == Device::Lms1xx;
-  const double noise_m = lms ? scenario_.lms1xx.noise_m : scenario_.s300.noise_m;
-  const EchoOptions echo{static_cast<float>(noise_m), lms ? scenario_.lms1xx.dropout : scenario_.s300.dropout,
-                         0.05F,
-                         static_cast<float>(lms ? scenario_.lms1xx.range_max_m : scenario_.s300.range_max_m)};
-  PlaneScannerOptions options{kS300Period, 2, setting(record, "every", 1), echo, kS300Stream};
+  const LidarErrors& errors = lms ? static_cast<const LidarErrors&>(scenario_.lms1xx) : scenario_.s300;
+  const double range_max_m = lms ? scenario_.lms1xx.range_max_m : scenario_.s300.range_max_m;
+  PlaneScannerOptions options;
+  options.period = kS300Period;
+  options.every = setting(record, "every", 1);
+  options.echo = {static_cast<float>(errors.noise_m), errors.dropout, errors.rain, 0.05F,
+                  static_cast<float>(range_max_m)};
+  options.spot = BeamSpot(errors.beam_m, errors.beam_spread_rad, kRaysABeam);
+  options.lean = {errors.pitch_deg, errors.roll_deg};
+  options.stream = (lms ? kLmsStream : kS300Stream) + unit * kNextUnit;
+  Random of_device(seed, options.stream + kBiasStream, 0);
+  options.bias = RangeBias(errors.bias_m, of_device);
   if (lms) {
     const int rate_hz = setting(record, "rate_hz", 50);
     options.period = Duration(std::chrono::seconds(1)) / rate_hz;
     options.beams_a_degree = 100 / rate_hz;
-    options.stream = kLmsStream;
   }
-  options.stream += unit * kNextUnit;
-  (lms ? lms_ : s300_).push_back({record, unit, PlaneScanner(record, options, seed)});
+  (lms ? lms_ : s300_).push_back({record, unit, PlaneScanner(record, options, seed), {}});
 }
 
 std::optional<mapping::SensorRecord> SensorSuite::mounting(Device device) const {
@@ -147,18 +153,38 @@ std::uint16_t SensorSuite::field_bits(const mapping::SensorRecord& at, float ran
   return bits;
 }
 
-std::vector<std::uint8_t> SensorSuite::s300_telegram(const Scanner& s300, const std::vector<Echo>& echoes,
+/// A field is entered where two scans in a row say so (the device's multiple sampling as delivered): a single
+/// wrong point stops nobody. The scans between those that are sent were sampled by the device itself.
+std::vector<std::uint16_t> SensorSuite::sampled_fields(Scanner& s300, const std::vector<Echo>& echoes) const {
+  constexpr std::size_t kTurnsBy = 2;  // beams, between two scans of a vehicle that turns
+  std::vector<std::uint16_t> now(echoes.size());
+  for (std::size_t i = 0; i < echoes.size(); ++i)
+    if (echoes[i].range_m != Hit::kNothing)
+      now[i] = field_bits(s300.record, echoes[i].range_m, s300.scanner.angle_rad(i));
+  if (setting(s300.record, "every", 1) > 1) return now;
+  std::vector<std::uint16_t> sampled(now.size());
+  for (std::size_t i = 0; i < now.size() && !s300.in_fields.empty(); ++i) {
+    std::uint16_t before = 0;
+    for (std::size_t k = i - std::min(i, kTurnsBy); k <= std::min(i + kTurnsBy, now.size() - 1); ++k)
+      before = static_cast<std::uint16_t>(before | s300.in_fields[k]);
+    sampled[i] = now[i] & before;
+  }
+  s300.in_fields = std::move(now);
+  return sampled;
+}
+
+std::vector<std::uint8_t> SensorSuite::s300_telegram(Scanner& s300, const std::vector<Echo>& echoes,
                                                      bool standby) {
   s300::Telegram telegram;
   telegram.scan_number = static_cast<std::uint32_t>(s300.scanner.turns());
   telegram.telegram_number = static_cast<std::uint16_t>(s300.scanner.scans());
+  const auto fields = sampled_fields(s300, echoes);
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     const float range_m = echoes[i].range_m;
     std::uint16_t value = s300::kDistanceMask;  // 81.91 m: nothing seen
     if (range_m != Hit::kNothing)
-      value = static_cast<std::uint16_t>(
-          static_cast<std::uint16_t>(std::lround(range_m * 100.0F)) |
-          field_bits(s300.record, range_m, to_rad(-135.0 + 0.5 * static_cast<double>(i))));
+      value =
+          static_cast<std::uint16_t>(static_cast<std::uint16_t>(std::lround(range_m * 100.0F)) | fields[i]);
     telegram.values.push_back(standby ? s300::kStandbyValue : value);
   }
   return s300::encode(telegram);

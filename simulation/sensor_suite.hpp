@@ -31,13 +31,17 @@ class SensorSuite {
     mapping::SensorRecord record;
     std::size_t unit;  ///< among those of its kind
     PlaneScanner scanner;
+    std::vector<std::uint16_t> in_fields;  ///< which field each beam of the scan before ended in
   };
   void add(Device device, const mapping::SensorRecord& record, std::size_t unit, std::uint64_t seed,
            Duration hour_offset);
   [[nodiscard]] std::vector<std::uint8_t> lms_telegram(const Scanner& lms, const std::vector<Echo>& echoes,
                                                        Duration start, Duration now);
-  [[nodiscard]] std::vector<std::uint8_t> s300_telegram(const Scanner& s300, const std::vector<Echo>& echoes,
+  [[nodiscard]] std::vector<std::uint8_t> s300_telegram(Scanner& s300, const std::vector<Echo>& echoes,
                                                         bool standby);
+  /// The fields that each beam of this scan reports.
+  [[nodiscard]] std::vector<std::uint16_t> sampled_fields(Scanner& s300,
+                                                          const std::vector<Echo>& echoes) const;
   [[nodiscard]] std::uint16_t field_bits(const mapping::SensorRecord& at, float range_m,
                                          double angle_rad) const;
 

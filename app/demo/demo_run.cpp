@@ -128,7 +128,8 @@ DemoResult run_demo(const DemoOptions& options) {
   DemoResult result;
   Observer observer(result, run.config(), factory);
   fs::remove_all(options.site / "runs/demo");
-  Recorder recorder(options.site / "runs/demo", {.room = {.max_bytes = kMostRecording_bytes}});
+  Recorder recorder(options.site / "runs/demo",
+                    {.lidars = run.config().lidars, .room = {.max_bytes = kMostRecording_bytes}});
   PlayedOperator person;
   run.set_tap([&](const auto& in, const auto& out, const auto& state) {
     recorder.add(in, out, state);

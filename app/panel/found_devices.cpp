@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/lidars.hpp"
 #include "app/panel/reference_lidar.hpp"
 
 namespace madori::app {
@@ -55,12 +56,14 @@ std::vector<hmi::FoundDevice> found_devices(const SocketOptions& options,
     mapping::SensorRecord proposal = sensor;
     proposal.address.clear();
     proposal.settings.clear();
-    found.push_back({sensor.type, place_of(sensor), heard, heard_or_silent(heard), proposal});
+    found.push_back(
+        {sensor.type, lidar_title(sensor.type), place_of(sensor), heard, heard_or_silent(heard), proposal});
   }
-  found.push_back({"drive", options.drive_device, drive, heard_or_silent(drive), std::nullopt});
+  found.push_back({"drive", "", options.drive_device, drive, heard_or_silent(drive), std::nullopt});
   for (const auto& port : serial_ports())
     if (std::ranges::none_of(found, [&](const auto& device) { return device.address == port; }))
       found.push_back({"drive",
+                       "",
                        port,
                        false,
                        {"unused-port", {{"port", port}}, "not used: start with --drive " + port},

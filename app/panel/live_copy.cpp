@@ -30,8 +30,8 @@ void forget_old(std::deque<Stamp>& stamps, Stamp now) {
 hmi::DeviceStatus device(const std::string& name, const std::string& type, const std::optional<Stamp>& heard,
                          Stamp now, std::size_t rate) {
   const double age_s = heard ? to_seconds(now - *heard) : 1e6;
-  hmi::DeviceStatus status{name, type, age_s < kSilent_s, std::min(age_s, 1e6), static_cast<double>(rate),
-                           {}};
+  hmi::DeviceStatus status{
+      name, type, lidar_title(type), age_s < kSilent_s, std::min(age_s, 1e6), static_cast<double>(rate), {}};
   if (!heard) status.detail = {"nothing-received", {}, "nothing received yet"};
   return status;
 }
@@ -138,7 +138,7 @@ void LiveCopy::take_devices(Stamp now, const std::vector<LidarModel>& lidars,
   }
   live_.devices.push_back(device("drive", "drive", drive, now, reports_.size()));
   if (!problem.empty())
-    live_.devices.push_back({"devices", "link", false, 0.0, std::nullopt, uncoded(problem)});
+    live_.devices.push_back({"devices", "link", "", false, 0.0, std::nullopt, uncoded(problem)});
 }
 
 void LiveCopy::show(const CycleInput& input, const CycleState& state, const CycleConfig& config,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <exception>
 #include <utility>
 
@@ -40,7 +41,20 @@ CycleInput without_clouds(const CycleInput& in) {
   return input;
 }
 
+/// Packets are kept of one lidar, the spinning one.
+std::size_t packet_lidar(const std::vector<LidarModel>& lidars) {
+  const auto spinning = std::ranges::find(lidars, LidarKind::Spinning, &LidarModel::kind);
+  return spinning == lidars.end() ? 0 : static_cast<std::size_t>(spinning - lidars.begin());
+}
+
 }  // namespace
+
+std::string lidar_frame(const LidarModel& lidar) {
+  std::string frame = lidar.name;
+  for (char& c : frame)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return frame.empty() ? "lidar" : frame;
+}
 
 std::string scan_topic(std::size_t lidar) {
   return lidar == 0 ? kScanTopic : std::string(kScanTopic) + "/" + std::to_string(lidar);
@@ -105,9 +119,19 @@ fs::path Recorder::bag_name(int number) const {
   return folder_ / fmt::format("{:03}.bag", number);
 }
 
-void Recorder::begin_segment() {
+/// Each bag tells where the lidars are mounted: it is opened alone.
+void Recorder::begin_segment(Stamp at) {
   fs::create_directories(folder_);
   bag_ = std::make_unique<sensors::BagWriter>(bag_name(number_));
+  std::vector<std::string> frames;
+  std::vector<sensors::MountedFrame> mounted;
+  for (const LidarModel& lidar : options_.lidars) {
+    const auto& m = lidar.mounting;
+    frames.push_back(lidar_frame(lidar));
+    mounted.push_back({"base_link", frames.back(), m.x_m, m.y_m, m.z_m, m.yaw_rad});
+  }
+  bag_->set_lidar_frames(frames);
+  if (!mounted.empty()) bag_->write_mounted_frames(kMountedTopic, mounted, at);
 }
 
 void Recorder::remember(const std::vector<sensors::RawPacket>& packets) {
@@ -134,11 +158,15 @@ void Recorder::keep(const fs::path& bag) const {
 
 void Recorder::write_step(const Record& record) {
   const Stamp now = record.input.now;
-  if (!record.input.packets.empty()) bag_->write(kPacketTopic, record.input.packets, now);
+  if (!record.input.packets.empty())
+    bag_->write(kPacketTopic, record.input.packets, packet_lidar(options_.lidars), now);
   if (record.thinned) bag_->write(kThinTopic, *record.thinned);
   for (const auto& cloud : record.input.clouds) bag_->write(kCloudTopic, cloud);
   for (const auto& scan : record.input.scans) bag_->write(scan_topic(scan.lidar), scan, now);
-  if (!record.input.drive.empty()) bag_->write("/odom", record.odometry);
+  if (!record.input.drive.empty()) {
+    bag_->write("/odom", record.odometry);
+    bag_->write_vehicle_frames(kFramesTopic, record.pose, record.odometry);
+  }
   if (record.pose.stamp != Stamp{}) bag_->write("/pose", record.pose);  // before that there is none
   if (record.path) bag_->write("/path", *record.path, now);
   bag_->write(kInputTopic, record.text, now);
@@ -150,17 +178,18 @@ void Recorder::write_step(const Record& record) {
 
 /// Whether the step is in a bag. After a failure the next bag begins where the cycle's state is at hand.
 bool Recorder::write(const Record& record) {
-  if (!bag_ && number_ == 0) begin_segment();
+  if (!bag_ && number_ == 0) begin_segment(record.input.now);
   const bool kept = bag_ != nullptr;
   remember(record.input.packets);
   if (kept) write_step(record);
   if (record.state.empty()) return kept;
   if (kept) end_segment();
-  begin_segment();
   const Stamp after = record.input.now + Duration(1);  // before everything of the next step
+  begin_segment(after);
   bag_->write(kStateTopic, record.state, after);
   if (!newest_.empty())
-    bag_->write(kEarlierTopic, std::vector<sensors::RawPacket>(newest_.begin(), newest_.end()), after);
+    bag_->write(kEarlierTopic, std::vector<sensors::RawPacket>(newest_.begin(), newest_.end()),
+                packet_lidar(options_.lidars), after);
   return kept;
 }
 

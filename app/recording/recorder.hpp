@@ -29,19 +29,24 @@ inline constexpr const char* kEarlierTopic =
 inline constexpr const char* kThinTopic = "/velodyne_points_thin";
 inline constexpr const char* kCloudTopic = "/velodyne_points";
 inline constexpr const char* kScanTopic = "/scan";  ///< sensor_msgs/LaserScan; /scan/1 ... of further lidars
-inline constexpr const char* kTwistTopic = "/cmd_vel";  ///< geometry_msgs/Twist, what the drive was told
+inline constexpr const char* kTwistTopic = "/cmd_vel";      ///< geometry_msgs/Twist, what the drive was told
+inline constexpr const char* kFramesTopic = "/tf";          ///< tf2_msgs/TFMessage: map, odom, base_link
+inline constexpr const char* kMountedTopic = "/tf_static";  ///< base_link and its lidars, in each bag
 inline constexpr const char* kInputTopic = "/madori/input";
 inline constexpr const char* kCommandTopic = "/madori/command";
 inline constexpr const char* kStateTopic = "/madori/state";  ///< at the beginning of a bag
 inline constexpr const char* kEventTopic = "/madori/event";
 
+/// A lidar's frame: its name in site.yaml, blanks and the like as '_'.
+[[nodiscard]] std::string lidar_frame(const LidarModel& lidar);
 /// Of the lidar at that place among the vehicle's.
 [[nodiscard]] std::string scan_topic(std::size_t lidar);
 
 struct RecorderOptions {
-  double segment_s = 30.0;        ///< a new bag so often
-  RoomLimits room;                ///< the oldest bags go first
-  std::size_t max_waiting = 500;  ///< steps (10 s); a slower disk loses steps, which is counted
+  std::vector<LidarModel> lidars{};  ///< the vehicle's, in the order in which scans and clouds name them
+  double segment_s = 30.0;           ///< a new bag so often
+  RoomLimits room;                   ///< the oldest bags go first
+  std::size_t max_waiting = 500;     ///< steps (10 s); a slower disk loses steps, which is counted
 };
 
 /// A bag can be replayed alone: it begins with what the cycle remembered, and each step holds its pose.
@@ -81,7 +86,7 @@ class Recorder {
   void write_step(const Record& record);
   void give_up_segment();
   void remember(const std::vector<sensors::RawPacket>& packets);
-  void begin_segment();
+  void begin_segment(Stamp at);
   void end_segment();
   void keep(const std::filesystem::path& bag) const;
   [[nodiscard]] std::filesystem::path bag_name(int number) const;

@@ -56,7 +56,9 @@ class Onlookers {
     end();
     if (options_.record) {
       folder_ = options_.site / "runs" / run_name();
-      recorder_ = std::make_unique<Recorder>(folder_);
+      RecorderOptions recording;
+      recording.lidars = run.config().lidars;
+      recorder_ = std::make_unique<Recorder>(folder_, recording);
       keep_beginning(memory);
     }
     if (panel != nullptr) panel->begin_run();

@@ -42,6 +42,24 @@ std::string look_at_sight(const CycleConfig& config) {
   throw Error("site.yaml", text, mend);
 }
 
+/// Who lies on the floor must be seen, or the vehicle be so slow that its bumper may find him (ISO 3691-4:
+/// 0.3 m/s without personnel detection).
+std::string look_at_low_bodies(const CycleConfig& config) {
+  constexpr double kBumperMps = 0.3;
+  const double lowest_m = lowest_ahead_m(config.lidars), speed_mps = config.limits.max_speed_mps;
+  char text[200];
+  if (lowest_m <= kLyingM) {
+    std::snprintf(text, sizeof text, "a body of %.1f m that lies ahead is seen", kLyingM);
+    return text;
+  }
+  std::snprintf(text, sizeof text,
+                "a body of %.1f m that lies ahead is not seen: the lowest lidar looks over it, at %.2f m",
+                kLyingM, lowest_m);
+  if (speed_mps <= kBumperMps) return std::string(text) + "; at this speed the bumper may find it";
+  throw Error("site.yaml", text,
+              "mount a lidar at 0.2 m or lower, or set max_speed_mps to 0.3 and rely on the bumper");
+}
+
 std::string look_at_disk(const fs::path& site) {
   const auto free = fs::space(site).available;
   if (free < kRoomForRecordings)
@@ -76,6 +94,7 @@ SelfTest look_at_site(const fs::path& site) {
   }));
   if (test.site) found.push_back(look("routes", [&] { return look_at_routes(site, *test.site); }));
   if (test.site) found.push_back(look("sight", [&] { return look_at_sight(test.site->config); }));
+  if (test.site) found.push_back(look("floor", [&] { return look_at_low_bodies(test.site->config); }));
   found.push_back(look("orders", [&] { return look_at_orders(site); }));
   found.push_back(look("disk", [&] { return look_at_disk(site); }));
   return test;

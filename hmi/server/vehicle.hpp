@@ -23,7 +23,8 @@ struct Notice {
 /// What a sensor or the drive is doing.
 struct DeviceStatus {
   std::string name;
-  std::string type;  ///< a kind of lidar, or drive
+  std::string type;   ///< a kind of lidar, or drive
+  std::string title;  ///< of a lidar: its product's name for people; empty: the page has a word for the type
   bool healthy = false;
   double age_s = 0.0;             ///< of the newest data
   std::optional<double> rate_hz;  ///< revolutions or reports a second
@@ -33,6 +34,7 @@ struct DeviceStatus {
 /// Something connected that the site could use.
 struct FoundDevice {
   std::string type;     ///< a kind of lidar, or drive
+  std::string title;    ///< as of a DeviceStatus
   std::string address;  ///< UDP port or serial port
   bool heard = false;
   Notice detail;

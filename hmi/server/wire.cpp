@@ -60,6 +60,7 @@ json devices_to_wire(const std::vector<DeviceStatus>& devices) {
   for (const auto& d : devices)
     list.push_back({{"name", d.name},
                     {"type", d.type},
+                    {"title", d.title},
                     {"healthy", d.healthy},
                     {"age_s", rounded(d.age_s)},
                     {"rate_hz", or_null(d.rate_hz)},
@@ -160,6 +161,7 @@ json to_wire(const mapping::SensorRecord& s) {
 
 json to_wire(const FoundDevice& device) {
   return {{"type", device.type},
+          {"title", device.title},
           {"address", device.address},
           {"heard", device.heard},
           {"detail", to_wire(device.detail)},

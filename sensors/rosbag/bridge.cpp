@@ -11,6 +11,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/String.h>
 #include <sys/stat.h>
+#include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -236,10 +237,11 @@ void Output::write(const std::string& topic, const Cloud& cloud) {
   state_->bag.write(topic, message.header.stamp, message);
 }
 
-void Output::write(const std::string& topic, std::int64_t stamp_ns, const std::vector<Packet>& packets) {
+void Output::write(const std::string& topic, std::int64_t stamp_ns, const std::string& frame,
+                   const std::vector<Packet>& packets) {
   VelodyneScan message;
   message.header.stamp = to_time(stamp_ns);
-  message.header.frame_id = "lidar";
+  message.header.frame_id = frame;
   for (const Packet& packet : packets) {
     VelodynePacket entry;
     if (packet.bytes.size() != entry.data.size())
@@ -287,6 +289,33 @@ void Output::write_text(const std::string& topic, std::int64_t stamp_ns, const s
   std_msgs::String message;
   message.data = text;
   state_->bag.write(topic, to_time(stamp_ns), message);
+}
+
+void Output::write_frames(const std::string& topic, std::int64_t stamp_ns, const std::vector<FrameIn>& frames,
+                          bool latched) {
+  tf2_msgs::TFMessage message;
+  for (const FrameIn& frame : frames) {
+    geometry_msgs::TransformStamped entry;
+    entry.header.stamp = to_time(frame.pose.stamp_ns);
+    entry.header.frame_id = frame.parent;
+    entry.child_frame_id = frame.child;
+    const geometry_msgs::Pose pose = to_message(frame.pose);
+    entry.transform.translation.x = pose.position.x;
+    entry.transform.translation.y = pose.position.y;
+    entry.transform.translation.z = pose.position.z;
+    entry.transform.rotation = pose.orientation;
+    message.transforms.push_back(entry);
+  }
+  boost::shared_ptr<ros::M_string> header;
+  if (latched) {
+    header = boost::make_shared<ros::M_string>();
+    (*header)["topic"] = topic;
+    (*header)["type"] = ros::message_traits::datatype(message);
+    (*header)["md5sum"] = ros::message_traits::md5sum(message);
+    (*header)["message_definition"] = ros::message_traits::definition(message);
+    (*header)["latching"] = "1";
+  }
+  state_->bag.write(topic, to_time(stamp_ns), message, header);
 }
 
 void Output::close() {

@@ -39,6 +39,12 @@ struct Cloud {
   std::vector<std::uint8_t> data;
 };
 
+/// Where a frame lies in its parent: geometry_msgs/TransformStamped.
+struct FrameIn {
+  std::string parent, child;
+  Pose pose;
+};
+
 struct Packet {
   std::int64_t received_ns = 0;
   std::vector<std::uint8_t> bytes;  ///< 1206 of a VLP-16
@@ -90,8 +96,11 @@ class Output {
   void write(const std::string& topic, std::int64_t stamp_ns, const Scan& scan);
   void write_twist(const std::string& topic, std::int64_t stamp_ns, double linear_mps, double angular_radps);
   void write(const std::string& topic, const Cloud& cloud);
-  void write(const std::string& topic, std::int64_t stamp_ns,
+  void write(const std::string& topic, std::int64_t stamp_ns, const std::string& frame,
              const std::vector<Packet>& packets);  ///< velodyne_msgs/VelodyneScan
+  /// tf2_msgs/TFMessage; `latched`: whoever plays the bag hands it to all who ask later, too.
+  void write_frames(const std::string& topic, std::int64_t stamp_ns, const std::vector<FrameIn>& frames,
+                    bool latched);
   void write_odometry(const std::string& topic, const Pose& pose);
   void write_estimate(const std::string& topic, const Pose& pose);
   void write_path(const std::string& topic, std::int64_t stamp_ns, const std::vector<Pose>& poses);

@@ -61,7 +61,7 @@ void BagWriter::write(const std::string& topic, const VelocityCommand& command, 
 void BagWriter::write(const std::string& topic, const LaserScan& scan, Stamp recorded) {
   rosbag_bridge::Scan out;
   out.stamp_ns = scan.stamp.time_since_epoch().count();
-  out.frame = "laser";
+  out.frame = frame_of(scan.lidar);
   out.angle_min = static_cast<float>(scan.angle_min_rad);
   out.angle_increment = static_cast<float>(scan.angle_step_rad);
   out.time_increment = static_cast<float>(to_seconds(scan.beam_period));
@@ -72,15 +72,18 @@ void BagWriter::write(const std::string& topic, const LaserScan& scan, Stamp rec
 }
 
 void BagWriter::write(const std::string& topic, const PointCloud<Lidar>& cloud) {
-  guarded([&] { output_->write(topic, fields_from_cloud(cloud)); });
+  rosbag_bridge::Cloud fields = fields_from_cloud(cloud);
+  fields.frame = frame_of(cloud.lidar);
+  guarded([&] { output_->write(topic, fields); });
 }
 
-void BagWriter::write(const std::string& topic, const std::vector<RawPacket>& packets, Stamp stamp) {
+void BagWriter::write(const std::string& topic, const std::vector<RawPacket>& packets, std::size_t lidar,
+                      Stamp stamp) {
   std::vector<rosbag_bridge::Packet> out;
   out.reserve(packets.size());
   for (const RawPacket& packet : packets)
     out.push_back({packet.received.time_since_epoch().count(), packet.bytes});
-  guarded([&] { output_->write(topic, stamp.time_since_epoch().count(), out); });
+  guarded([&] { output_->write(topic, stamp.time_since_epoch().count(), frame_of(lidar), out); });
 }
 
 void BagWriter::write(const std::string& topic, const OdometryReading& reading) {
@@ -107,6 +110,35 @@ void BagWriter::write(const std::string& topic, const Path& path, Stamp stamp) {
 
 void BagWriter::write(const std::string& topic, const std::string& text, Stamp stamp) {
   guarded([&] { output_->write_text(topic, stamp.time_since_epoch().count(), text); });
+}
+
+void BagWriter::write_vehicle_frames(const std::string& topic, const PoseEstimate& pose,
+                                     const OdometryReading& odometry) {
+  const auto& odom_from_base = odometry.odom_from_base;
+  const auto in_odom =
+      planar_pose(odometry.stamp, odom_from_base.x_m(), odom_from_base.y_m(), odom_from_base.yaw_rad());
+  std::vector<rosbag_bridge::FrameIn> frames{{"odom", "base_link", in_odom}};
+  if (pose.stamp != Stamp{}) {
+    const Transform2<Map, Odom> map_from_odom = pose.map_from_base * odom_from_base.inverse();
+    const auto in_map =
+        planar_pose(odometry.stamp, map_from_odom.x_m(), map_from_odom.y_m(), map_from_odom.yaw_rad());
+    frames.push_back({"map", "odom", in_map});
+  }
+  guarded([&] { output_->write_frames(topic, odometry.stamp.time_since_epoch().count(), frames, false); });
+}
+
+void BagWriter::write_mounted_frames(const std::string& topic, const std::vector<MountedFrame>& mounted,
+                                     Stamp stamp) {
+  std::vector<rosbag_bridge::FrameIn> frames;
+  for (const MountedFrame& m : mounted) {
+    frames.push_back({m.parent, m.child, planar_pose(stamp, m.x_m, m.y_m, m.yaw_rad)});
+    frames.back().pose.z = m.z_m;
+  }
+  guarded([&] { output_->write_frames(topic, stamp.time_since_epoch().count(), frames, true); });
+}
+
+std::string BagWriter::frame_of(std::size_t lidar) const {
+  return lidar < lidar_frames_.size() ? lidar_frames_[lidar] : "lidar";
 }
 
 void BagWriter::close() {

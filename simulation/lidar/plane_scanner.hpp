@@ -15,6 +15,9 @@ struct PlaneScannerOptions {
   int beams_a_degree = 2;  ///< 541 beams of 2
   int every = 1;           ///< only each so-many-th turn is measured
   EchoOptions echo;
+  BeamSpot spot;
+  RangeBias bias;
+  Lean lean;                 ///< how it truly hangs
   std::uint64_t stream = 0;  ///< of the random numbers
 };
 
@@ -34,6 +37,7 @@ class PlaneScanner {
   [[nodiscard]] std::size_t beams() const {
     return static_cast<std::size_t>(270 * options_.beams_a_degree) + 1;
   }
+  [[nodiscard]] double angle_rad(std::size_t beam) const;
   /// The next scan's echoes, beam by beam. Precondition: the view's track reaches next_complete().
   [[nodiscard]] const std::vector<Echo>& measure(const View& view);
 

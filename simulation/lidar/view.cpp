@@ -67,7 +67,7 @@ Transform2<Building, Base> PoseTrack::at(Duration time) const {
 }
 
 SensorPose sensor_pose(const World& world, const Transform2<Building, Base>& pose,
-                       const mapping::SensorRecord& mounting) {
+                       const mapping::SensorRecord& mounting, const Lean& lean) {
   const FloorAt floor = world.floor_at(pose.translation());
   // Base axes on the slope: x along the heading, z the floor's normal, y the rest.
   const double rise = floor.slope_x * pose.cos_yaw() + floor.slope_y * pose.sin_yaw();
@@ -78,26 +78,71 @@ SensorPose sensor_pose(const World& world, const Transform2<Building, Base>& pos
   const std::array<double, 3> y{z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2],
                                 z[0] * x[1] - z[1] * x[0]};
   const double c = std::cos(to_rad(mounting.yaw_deg)), s = std::sin(to_rad(mounting.yaw_deg));
+  const double cp = std::cos(to_rad(lean.pitch_deg)), sp = std::sin(to_rad(lean.pitch_deg));
+  const double cr = std::cos(to_rad(lean.roll_deg)), sr = std::sin(to_rad(lean.roll_deg));
   SensorPose result;
   const std::array<double, 3> base{pose.x_m(), pose.y_m(), floor.z_m};
   for (std::size_t i = 0; i < 3; ++i) {
     result.origin_m[i] = base[i] + x[i] * mounting.x_m + y[i] * mounting.y_m + z[i] * mounting.z_m;
-    result.rotation[3 * i] = x[i] * c + y[i] * s;
-    result.rotation[3 * i + 1] = y[i] * c - x[i] * s;
-    result.rotation[3 * i + 2] = z[i];
+    // Yaw, then pitch about the new y, then roll about the new x.
+    const double ahead = x[i] * c + y[i] * s, left = y[i] * c - x[i] * s;
+    const double up_pitched = z[i] * cp + ahead * sp;
+    result.rotation[3 * i] = ahead * cp - z[i] * sp;
+    result.rotation[3 * i + 1] = left * cr + up_pitched * sr;
+    result.rotation[3 * i + 2] = up_pitched * cr - left * sr;
   }
   return result;
 }
 
-void BeamBatch::reset(std::size_t count) {
-  count_ = count;
-  const std::size_t packets = (count + RayPacket::kLanes - 1) / RayPacket::kLanes;
+void BeamBatch::reset(std::size_t count, const BeamSpot& spot) {
+  spot_ = spot;
+  beams_ = count;
+  count_ = count * spot.rays().size();
+  const std::size_t packets = (count_ + RayPacket::kLanes - 1) / RayPacket::kLanes;
   packets_.resize(packets);
   hits_.assign(packets * RayPacket::kLanes, Hit{});
-  if (count % RayPacket::kLanes == 0 || packets == 0) return;
+  if (count_ % RayPacket::kLanes == 0 || packets == 0) return;
   RayPacket& last = packets_.back();
-  for (std::size_t lane = count % RayPacket::kLanes; lane < RayPacket::kLanes; ++lane)
+  for (std::size_t lane = count_ % RayPacket::kLanes; lane < RayPacket::kLanes; ++lane)
     last.dx[lane] = last.dy[lane] = 0.0F, last.dz[lane] = 1.0F;
+}
+
+void BeamBatch::set(std::size_t i, const SensorPose& from, double dx, double dy, double dz) {
+  const auto turned = [&r = from.rotation](double x, double y, double z) -> Vector {
+    return {r[0] * x + r[1] * y + r[2] * z, r[3] * x + r[4] * y + r[5] * z, r[6] * x + r[7] * y + r[8] * z};
+  };
+  const Vector direction = turned(dx, dy, dz);
+  if (spot_.rays().size() == 1) return set_ray(i, from.origin_m, direction);
+  const double per_flat = 1.0 / std::sqrt(dx * dx + dy * dy), lx = -dy * per_flat, ly = dx * per_flat;
+  const Vector left = turned(lx, ly, 0.0), up = turned(-dz * ly, dz * lx, dx * ly - dy * lx);
+  const double radius_m = spot_.beam_m() / 2.0, spread = spot_.spread_rad() / 2.0;
+  for (std::size_t ray = 0; ray < spot_.rays().size(); ++ray) {
+    const auto& offset = spot_.rays()[ray];
+    Vector origin = from.origin_m, aim = direction;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double beside = offset.left * left[k] + offset.up * up[k];
+      origin[k] += beside * radius_m;
+      aim[k] += beside * spread;
+    }
+    set_ray(ray * beams_ + i, origin, aim);
+  }
+}
+
+void BeamBatch::set_ray(std::size_t ray, const Vector& origin, const Vector& direction) {
+  RayPacket& p = packets_[ray / RayPacket::kLanes];
+  const std::size_t lane = ray % RayPacket::kLanes;
+  p.x_m[lane] = static_cast<float>(origin[0]);
+  p.y_m[lane] = static_cast<float>(origin[1]);
+  p.z_m[lane] = static_cast<float>(origin[2]);
+  p.dx[lane] = static_cast<float>(direction[0]);
+  p.dy[lane] = static_cast<float>(direction[1]);
+  p.dz[lane] = static_cast<float>(direction[2]);
+}
+
+std::span<const Hit> BeamBatch::spot(std::size_t i) const {
+  of_spot_.resize(spot_.rays().size());
+  for (std::size_t ray = 0; ray < of_spot_.size(); ++ray) of_spot_[ray] = hits_[ray * beams_ + i];
+  return of_spot_;
 }
 
 void BeamBatch::cast(const RayCaster& rays, const std::vector<Body>& bodies, float range_max_m) {

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "core/stamp.hpp"
 #include "mapping/site/site.hpp"
+#include "simulation/lidar/beam_spot.hpp"
 #include "simulation/world/body.hpp"
 #include "simulation/world/world.hpp"
 
@@ -34,9 +36,14 @@ class PoseTrack {
   std::deque<Entry> poses_;
 };
 
+/// How a sensor leans against its vehicle, degrees: nose down, and left side up.
+struct Lean {
+  double pitch_deg = 0.0, roll_deg = 0.0;
+};
+
 /// Where a sensor is when the vehicle stands at `pose`: on a ramp it is tilted with the vehicle.
 [[nodiscard]] SensorPose sensor_pose(const World& world, const Transform2<Building, Base>& pose,
-                                     const mapping::SensorRecord& mounting);
+                                     const mapping::SensorRecord& mounting, const Lean& lean = {});
 
 /// What a sensor can look at.
 struct View {
@@ -45,32 +52,31 @@ struct View {
   const std::vector<Body>& bodies;
 };
 
-/// Hits of many rays: the never moving world by Embree, eight at a time, then the bodies that stand in the
-/// directions of the batch.
+/// Hits of many beams: the never moving world by Embree, eight rays at a time, then the bodies that stand in
+/// the directions of the batch.
 class BeamBatch {
  public:
-  /// Empties the batch; `count` rays will follow.
-  void reset(std::size_t count);
-  void set(std::size_t i, const SensorPose& from, double dx, double dy, double dz) {
-    RayPacket& p = packets_[i / RayPacket::kLanes];
-    const std::size_t lane = i % RayPacket::kLanes;
-    const auto& r = from.rotation;
-    p.x_m[lane] = static_cast<float>(from.origin_m[0]);
-    p.y_m[lane] = static_cast<float>(from.origin_m[1]);
-    p.z_m[lane] = static_cast<float>(from.origin_m[2]);
-    p.dx[lane] = static_cast<float>(r[0] * dx + r[1] * dy + r[2] * dz);
-    p.dy[lane] = static_cast<float>(r[3] * dx + r[4] * dy + r[5] * dz);
-    p.dz[lane] = static_cast<float>(r[6] * dx + r[7] * dy + r[8] * dz);
-  }
+  /// Empties the batch; `count` beams will follow, each of the rays of `spot`.
+  void reset(std::size_t count, const BeamSpot& spot = {});
+  /// A beam's direction in the sensor's frame, of unit length and not upright.
+  void set(std::size_t i, const SensorPose& from, double dx, double dy, double dz);
   void cast(const RayCaster& rays, const std::vector<Body>& bodies, float range_max_m);
+  /// Of a beam's middle ray, or of the first of a spot that has none in the middle.
   [[nodiscard]] const Hit& hit(std::size_t i) const { return hits_[i]; }
+  /// Of all rays of a beam. Valid until the next call.
+  [[nodiscard]] std::span<const Hit> spot(std::size_t i) const;
 
  private:
+  using Vector = std::array<double, 3>;
+  void set_ray(std::size_t ray, const Vector& origin, const Vector& direction);  ///< Building frame
   void cast_body(const Body& body, float range_max_m);
 
-  std::size_t count_ = 0;
+  std::size_t beams_ = 0;
+  std::size_t count_ = 0;  ///< rays: the first of all beams, then the second of all beams ...
+  BeamSpot spot_;
   std::vector<RayPacket> packets_;
   std::vector<Hit> hits_;
+  mutable std::vector<Hit> of_spot_;
 };
 
 }  // namespace madori::simulation

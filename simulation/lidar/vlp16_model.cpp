@@ -10,7 +10,8 @@ namespace {
 
 namespace vlp16 = sensors::vlp16;
 
-constexpr std::uint64_t kStream = 0x16;
+constexpr std::uint64_t kStream = 0x16, kBiasStream = 0x16'B1A5;
+constexpr std::size_t kRaysABeam = 2;  ///< 300,000 beams a second: no more
 constexpr std::int64_t kFiringNs = 55'296;
 constexpr std::int64_t kLastChannelNs = 34'560;  ///< 15 channels of 2.304 us
 constexpr std::int64_t kHourUs = 3'600'000'000;
@@ -34,7 +35,14 @@ std::size_t place(std::size_t firing, std::size_t channel, std::size_t kept) {
 
 Vlp16Model::Vlp16Model(const mapping::SensorRecord& mounting, const Vlp16Spec& spec, std::uint64_t seed,
                        Duration hour_offset)
-    : mounting_(mounting), spec_(spec), seed_(seed), hour_offset_(hour_offset) {}
+    : mounting_(mounting),
+      spec_(spec),
+      seed_(seed),
+      hour_offset_(hour_offset),
+      spot_(spec.beam_m, spec.beam_spread_rad, kRaysABeam) {
+  Random random(seed, kBiasStream, 0);
+  for (RangeBias& laser : bias_) laser = RangeBias(spec.bias_m, random);
+}
 
 Duration Vlp16Model::next_complete() const {
   const auto last = static_cast<std::int64_t>((packet_ + 1) * firings() - 1);
@@ -54,7 +62,7 @@ void Vlp16Model::choose_firings() {
 }
 
 void Vlp16Model::aim(const View& view) {
-  beams_.reset(kept_.size() * vlp16::kChannels);
+  beams_.reset(kept_.size() * vlp16::kChannels, spot_);
   const double channel_rad = 2.304e-6 * spec_.rate_hz * 2.0 * kPi;
   struct Laser {
     double cos_elevation, sin_elevation, cos_step, sin_step;
@@ -67,7 +75,8 @@ void Vlp16Model::aim(const View& view) {
   for (std::size_t f = 0; f < kept_.size(); ++f) {
     const std::uint64_t firing = packet_ * firings() + kept_[f];
     const Duration time(static_cast<std::int64_t>(firing) * kFiringNs);
-    const SensorPose from = sensor_pose(view.world, view.track.at(time), mounting_);
+    const SensorPose from =
+        sensor_pose(view.world, view.track.at(time), mounting_, {spec_.pitch_deg, spec_.roll_deg});
     const double azimuth = azimuth_rad(firing), ca = std::cos(azimuth), sa = std::sin(azimuth);
     for (std::size_t c = 0; c < vlp16::kChannels; ++c) {
       const Laser& l = lasers[c];
@@ -79,13 +88,17 @@ void Vlp16Model::aim(const View& view) {
 
 void Vlp16Model::fill(vlp16::DataPacket& packet) const {
   Random random(seed_, kStream, packet_);
-  const EchoOptions options{static_cast<float>(spec_.noise_m), spec_.dropout, 0.4F,
+  const EchoOptions options{static_cast<float>(spec_.noise_m), spec_.dropout, spec_.rain, 0.4F,
                             static_cast<float>(spec_.range_max_m)};
+  const bool wide = spot_.rays().size() > 1;
   for (std::size_t k = 0; k < kept_.size(); ++k) {
     const std::size_t f = kept_[k];
     const std::size_t block = spec_.dual_return ? f / 2 * 2 : f / 2;
+    const auto azimuth = static_cast<float>(azimuth_rad(packet_ * firings() + f));
     for (std::size_t c = 0; c < vlp16::kChannels; ++c) {
-      const Echoes echoes = echoes_of(beams_.hit(place(k, c, kept_.size())), options, random.next());
+      const float share = wide ? static_cast<float>(random.uniform()) : 0.0F;
+      const SpotHits hits = meet(beams_.spot(place(k, c, kept_.size())), spot_, share);
+      const Echoes echoes = echoes_of(hits, options, bias_[c], azimuth, random);
       const std::size_t index = f % 2 * vlp16::kChannels + c;
       packet.blocks[block].returns[index] = encode_echo(spec_.dual_return ? echoes.last : echoes.strongest);
       if (spec_.dual_return) packet.blocks[block + 1].returns[index] = encode_echo(echoes.strongest);

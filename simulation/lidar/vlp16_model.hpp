@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "sensors/vlp16/packet.hpp"
@@ -35,6 +36,8 @@ class Vlp16Model {
   Duration hour_offset_;
   std::uint64_t packet_ = 0;
   std::vector<std::size_t> kept_;  ///< within the packet
+  BeamSpot spot_;
+  std::array<RangeBias, sensors::vlp16::kChannels> bias_;  ///< each laser has its own
   BeamBatch beams_;
 };
 

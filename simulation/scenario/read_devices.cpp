@@ -63,10 +63,24 @@ VehicleSpec read_vehicle_spec(StrictYaml yaml) {
   return v;
 }
 
+namespace {
+
+void read_errors(StrictYaml& yaml, LidarErrors& e) {
+  e.noise_m = yaml.number_or("noise_m", e.noise_m, 0.0, 1.0);
+  e.dropout = yaml.number_or("dropout", e.dropout, 0.0, 1.0);
+  e.bias_m = yaml.number_or("bias_m", e.bias_m, 0.0, 1.0);
+  e.rain = yaml.number_or("rain", e.rain, 0.0, 1.0);
+  e.beam_m = yaml.number_or("beam_m", e.beam_m, 0.0, 0.1);
+  e.beam_spread_rad = 1e-3 * yaml.number_or("beam_spread_mrad", 1e3 * e.beam_spread_rad, 0.0, 100.0);
+  e.pitch_deg = yaml.number_or("pitch_deg", e.pitch_deg, -30.0, 30.0);
+  e.roll_deg = yaml.number_or("roll_deg", e.roll_deg, -30.0, 30.0);
+}
+
+}  // namespace
+
 Vlp16Spec read_vlp16(StrictYaml yaml) {
   Vlp16Spec v;
-  v.noise_m = yaml.number_or("noise_m", v.noise_m, 0.0, 1.0);
-  v.dropout = yaml.number_or("dropout", v.dropout, 0.0, 1.0);
+  read_errors(yaml, v);
   v.range_max_m = yaml.number_or("range_max_m", v.range_max_m, 1.0, 131.0);
   v.rate_hz = yaml.number_or("rate_hz", v.rate_hz, 5.0, 20.0);
   v.dual_return = yaml.boolean_or("dual_return", v.dual_return);
@@ -77,8 +91,7 @@ Vlp16Spec read_vlp16(StrictYaml yaml) {
 
 Lms1xxSpec read_lms1xx(StrictYaml yaml) {
   Lms1xxSpec l;
-  l.noise_m = yaml.number_or("noise_m", l.noise_m, 0.0, 1.0);
-  l.dropout = yaml.number_or("dropout", l.dropout, 0.0, 1.0);
+  read_errors(yaml, l);
   l.range_max_m = yaml.number_or("range_max_m", l.range_max_m, 1.0, 65.0);
   l.binary = yaml.boolean_or("binary", l.binary);
   yaml.refuse_unknown_keys();
@@ -87,8 +100,7 @@ Lms1xxSpec read_lms1xx(StrictYaml yaml) {
 
 S300Spec read_s300(StrictYaml yaml) {
   S300Spec s;
-  s.noise_m = yaml.number_or("noise_m", s.noise_m, 0.0, 1.0);
-  s.dropout = yaml.number_or("dropout", s.dropout, 0.0, 1.0);
+  read_errors(yaml, s);
   s.range_max_m = yaml.number_or("range_max_m", s.range_max_m, 1.0, 29.9);
   s.protective_m = yaml.number_or("protective_m", s.protective_m, 0.0, 5.0);
   s.warning_m = yaml.number_or("warning_m", s.warning_m, 0.0, 10.0);

@@ -122,25 +122,53 @@ struct VehicleSpec {
   int battery_mv = 25'600;
 };
 
-struct Vlp16Spec {
-  double noise_m = 0.03;  ///< one sigma (data sheet: +-3 cm)
-  double dropout = 0.002;
+/// How a lidar errs. All zero: a perfect one.
+struct LidarErrors {
+  double noise_m = 0.0;  ///< one sigma
+  double dropout = 0.0;  ///< share of the beams that come back empty
+  double bias_m = 0.0;   ///< systematic error of a range, at most; of this one device (RangeBias)
+  double rain = 0.0;     ///< share of the beams that end at nothing on their way: dust, insects, stray light
+  double beam_m = 0.0;   ///< diameter where the beam leaves the device
+  double beam_spread_rad = 0.0;  ///< how it grows with the range
+  double pitch_deg = 0.0;        ///< nose down: how it truly leans, which site.yaml does not know
+  double roll_deg = 0.0;         ///< left side up
+};
+
+struct Vlp16Spec : LidarErrors {
+  Vlp16Spec()
+      : LidarErrors{.noise_m = 0.03,  // data sheet: +-3 cm
+                    .dropout = 0.002,
+                    .bias_m = 0.03,
+                    .rain = 0.0002,
+                    .beam_m = 0.0095,
+                    .beam_spread_rad = 0.003} {}
   double range_max_m = 100.0;
   double rate_hz = 10.0;
   bool dual_return = false;
   int keep_every_firing = 1;  ///< 4: three of four firings come back empty, for fast soak runs
 };
 
-struct Lms1xxSpec {
-  double noise_m = 0.012;
-  double dropout = 0.001;
+/// Data sheet: statistical 12 mm, systematic 30 mm, beam 8 mm and 15 mrad.
+struct Lms1xxSpec : LidarErrors {
+  Lms1xxSpec()
+      : LidarErrors{.noise_m = 0.012,
+                    .dropout = 0.001,
+                    .bias_m = 0.03,
+                    .rain = 0.0005,
+                    .beam_m = 0.008,
+                    .beam_spread_rad = 0.015} {}
   double range_max_m = 20.0;
   bool binary = true;  ///< CoLa B; false: CoLa A
 };
 
-struct S300Spec {
-  double noise_m = 0.02;
-  double dropout = 0.001;
+struct S300Spec : LidarErrors {
+  S300Spec()
+      : LidarErrors{.noise_m = 0.02,
+                    .dropout = 0.001,
+                    .bias_m = 0.03,
+                    .rain = 0.0005,
+                    .beam_m = 0.008,
+                    .beam_spread_rad = 0.015} {}
   double range_max_m = 29.9;
   double protective_m = 0.7;  ///< ahead of the vehicle's front
   double warning_m = 1.8;

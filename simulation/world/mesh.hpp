@@ -10,10 +10,11 @@
 namespace madori::simulation {
 
 enum class Material : std::uint8_t { Wall, Floor, Metal, Wood, Glass, Cloth };
+inline constexpr std::size_t kMaterials = 6;
 
 /// What a VLP-16 says of a surface: 0 ... 100 diffuse.
 [[nodiscard]] constexpr std::uint8_t reflectivity(Material material) {
-  constexpr std::array<std::uint8_t, 6> kValues{45, 20, 70, 35, 8, 30};
+  constexpr std::array<std::uint8_t, kMaterials> kValues{45, 20, 70, 35, 8, 30};
   return kValues[static_cast<std::size_t>(material)];
 }
 

@@ -1,9 +1,12 @@
 """Makes a site of the sample factory: its drawing imported, its routes, a VLP-16 on the vehicle, and a scenario.
 
     sample_site.py MADORI DATA SITE [--drawing dxf|scan] [--scenario sample_factory] [--quiet-factory]
+                   [--mount "type: lms1xx, x_m: 0.65, z_m: 0.25" ...] [--scenario-line "vlp16: {pitch_deg: 1}" ...]
 
 With dxf the drawing is exact; with scan it is imported from a skewed scan and scaled by one dimension line.
-SITE/scenario.yaml is data/scenarios/NAME.yaml, put where the imported drawing has its origin.
+SITE/scenario.yaml is data/scenarios/NAME.yaml, put where the imported drawing has its origin. Each --mount is a lidar
+(the keys of site.yaml that it leaves out are 0) in the place of the VLP-16; a --scenario-line replaces the section of
+its name, or adds it.
 """
 
 import argparse
@@ -31,6 +34,26 @@ def write_scenario(data, name, target, map_from_plan, quiet):
     if quiet:  # nobody walks about
         lines = [line for line in lines if not re.match(r"movers:|  - \{kind: (person|forklift)", line)]
     target.write_text("\n".join(lines + ([map_from_plan] if map_from_plan else [])) + "\n")
+
+
+def set_section(text, section):
+    """A top-level section of one line instead of the one of that name, or at the end."""
+    key = section.split(":", 1)[0]
+    kept, inside = [], False
+    for line in text.splitlines():
+        inside = line.startswith(f"{key}:") or (inside and line[:1] in (" ", "-"))
+        if not inside:
+            kept.append(line)
+    return "\n".join(kept + [section]) + "\n"
+
+
+def mount(site, lidars):
+    """The lidars of site.yaml, each "type: ..., x_m: ..., ..."."""
+    file = site / "site.yaml"
+    listed = ", ".join(f"{{name: lidar {i + 1}, {{}}{lidar}}}".replace("{}", "".join(
+        f"{key}: 0, " for key in ("x_m", "y_m", "z_m", "yaw_deg") if key not in lidar))
+        for i, lidar in enumerate(lidars))
+    file.write_text(set_section(file.read_text(), f"sensors: [{listed}]"))
 
 
 def make_site(madori, data, site, drawing="dxf", scenario="sample_factory", quiet=False):
@@ -63,5 +86,11 @@ if __name__ == "__main__":
     parser.add_argument("--drawing", choices=["dxf", "scan"], default="dxf")
     parser.add_argument("--scenario", default="sample_factory")
     parser.add_argument("--quiet-factory", action="store_true")
+    parser.add_argument("--mount", action="append", default=[], help="a lidar")
+    parser.add_argument("--scenario-line", action="append", default=[], help="a section of the scenario")
     a = parser.parse_args()
     make_site(a.madori, a.data, a.site, a.drawing, a.scenario, a.quiet_factory)
+    if a.mount:
+        mount(a.site, a.mount)
+    for line in a.scenario_line:
+        (a.site / "scenario.yaml").write_text(set_section((a.site / "scenario.yaml").read_text(), line))

@@ -76,6 +76,7 @@ class ScriptedVehicle : public hmi::Vehicle {
   }
   [[nodiscard]] std::vector<hmi::FoundDevice> found_devices() const override {
     return {{"vlp16",
+             "VLP-16",
              "UDP 2368",
              true,
              {"heard", {}, "heard"},

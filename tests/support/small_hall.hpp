@@ -5,7 +5,7 @@
 namespace madori::test {
 
 /// A rectangular hall from the origin to (length, width) in which a vehicle stands at (x, y, yaw), quiet:
-/// no noise, no drop-outs, no slip.
+/// perfect lidars, no slip.
 inline simulation::FactorySetup small_hall(double length_m = 20.0, double width_m = 12.0, double x_m = 5.0,
                                            double y_m = 4.0, double yaw_rad = 0.0) {
   simulation::FactorySetup setup;
@@ -14,9 +14,10 @@ inline simulation::FactorySetup small_hall(double length_m = 20.0, double width_
   setup.scenario.name = "small hall";
   setup.scenario.start = {x_m, y_m, yaw_rad};
   setup.scenario.vehicle.slip_noise = 0.0;
-  setup.scenario.vlp16.noise_m = setup.scenario.vlp16.dropout = 0.0;
-  setup.scenario.lms1xx.noise_m = setup.scenario.lms1xx.dropout = 0.0;
-  setup.scenario.s300.noise_m = setup.scenario.s300.dropout = 0.0;
+  for (simulation::LidarErrors* errors : {static_cast<simulation::LidarErrors*>(&setup.scenario.vlp16),
+                                          static_cast<simulation::LidarErrors*>(&setup.scenario.lms1xx),
+                                          static_cast<simulation::LidarErrors*>(&setup.scenario.s300)})
+    *errors = {};
   return setup;
 }
 

@@ -80,13 +80,16 @@ class UpperLasers {
   }
   void fill(sensors::vlp16::DataPacket& packet) const {
     simulation::Random random(seed_, kStream, packet_);
-    const simulation::EchoOptions options{static_cast<float>(spec_.noise_m), spec_.dropout, 0.4F,
+    const simulation::EchoOptions options{static_cast<float>(spec_.noise_m), spec_.dropout, 0.0, 0.4F,
                                           static_cast<float>(spec_.range_max_m)};
     for (std::size_t f = 0; f < kFirings; ++f)
       for (std::size_t c = 0; c < sensors::vlp16::kChannels; ++c) {
-        const std::uint64_t bits = random.next();  // each laser has its own draw, measured or not
-        if (c % 2 == 0) continue;
-        const auto echo = simulation::echoes_of(beams_.hit(place(f, c / 2)), options, bits).strongest;
+        if (c % 2 == 0) {  // each laser has its own draw, measured or not
+          (void)random.next();
+          continue;
+        }
+        const auto hits = simulation::meet(beams_.spot(place(f, c / 2)), {}, 0.0F);
+        const auto echo = simulation::echoes_of(hits, options, {}, 0.0F, random).strongest;
         if (echo.range_m == simulation::Hit::kNothing) continue;
         packet.blocks[f / 2].returns[f % 2 * sensors::vlp16::kChannels + c] = {
             static_cast<std::uint16_t>(std::lround(echo.range_m / sensors::vlp16::kMetresPerUnit)),

@@ -22,6 +22,11 @@ export function noticeText(t: Translate, prefix: string, notice: Notice): string
   return foreign && `kind.${notice.code}` in en ? kindText(t, notice) : t(key as TextKey, { ...values, ...known });
 }
 
+/** A device as people say it: the vehicle knows its lidars' products, the page has words for the rest. */
+export function deviceName(t: Translate, device: { type: string; title: string }): string {
+  return device.title !== "" ? t("device.titled", { title: device.title }) : t(`device.${device.type}` as TextKey);
+}
+
 /** What kind of standstill a cause is, without its values: for sums over many. */
 export function kindText(t: Translate, cause: Notice): string {
   const key = [`kind.${cause.code}`, `cause.${cause.code}`].find((one) => one in en);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "app/learned/kept_memory.hpp"
 #include "app/learned/living_map_file.hpp"
@@ -170,6 +171,7 @@ void WorkingDay::look_after(const Delivery& delivery) {
   const std::string because = std::string(to_string(state.mode)) + ": " + state.standstill.cause.text;
   // While it localizes the reasons change from scan to scan; it is one standstill nevertheless.
   const std::string one_standstill = state.mode == app::Mode::Localizing ? to_string(state.mode) : because;
+  if (app::drives(state.mode)) told_place_ = false;
   if (one_standstill != stands_because_ || app::drives(state.mode)) {
     stands_because_ = one_standstill;
     stands_since_ = factory_->now();
@@ -202,9 +204,23 @@ void WorkingDay::look_after(const Delivery& delivery) {
     if (surprises_->take_away_near(state.ahead.check.where)) help(delivery, because, blocked);
     stands_since_ = factory_->now();
   } else if (state.mode == app::Mode::Localizing && stood_s > kCarriesAfterS) {
-    surprises_->carry_away(chance_, true);
+    // Says on the map where the vehicle is; moves it where that does not help.
+    if (std::exchange(told_place_, !told_place_))
+      surprises_->carry_away(chance_, true);
+    else
+      tell_place();
     help(delivery, because, false);
   }
+}
+
+/// As a person taps it: not exactly.
+void WorkingDay::tell_place() {
+  constexpr double kTapM = 0.3, kTapRad = 0.1;
+  const auto truth = factory_->truth().map_from_base;
+  const Transform2<Map, Base> tapped(truth.x_m() + chance_.uniform(-kTapM, kTapM),
+                                     truth.y_m() + chance_.uniform(-kTapM, kTapM),
+                                     truth.yaw_rad() + chance_.uniform(-kTapRad, kTapRad));
+  run_->say({app::OperatorWord::SetPose, {}, {tapped.translation(), tapped.yaw_rad(), {kTapM, kTapRad}}});
 }
 
 void WorkingDay::help(const Delivery& delivery, const std::string& reason, bool every_way_blocked) {

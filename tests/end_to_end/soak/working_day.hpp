@@ -49,6 +49,7 @@ class WorkingDay {
   void tick();
   void wait(double seconds);
   void look_after(const Delivery& delivery);
+  void tell_place();
   void help(const Delivery& delivery, const std::string& reason, bool every_way_blocked);
   void note_delivered(const Delivery& delivery, Stamp began);
   void watch_map(app::LocalizerPoseOptions& options);
@@ -72,7 +73,8 @@ class WorkingDay {
   bool kidnapping_due_ = false, pallet_due_ = false, person_due_ = false;
   std::string stands_because_;
   Stamp stands_since_{};
-  bool pressed_ = false;  ///< the bumper was, in this emergency stop
+  bool pressed_ = false;     ///< the bumper was, in this emergency stop
+  bool told_place_ = false;  ///< in this standstill
   std::uint64_t ticks_ = 0;
 };
 

@@ -83,6 +83,19 @@ TEST(Lidars, WhatCannotBeIsRefusedInOneSentence) {
   EXPECT_NE(refusal_of({field}).find("has no protective field"), std::string::npos);
 }
 
+TEST(Lidars, WhoLiesOnTheFloorIsSeenByWhatLooksDownOrStandsLow) {
+  const auto lowest_m = [](std::vector<mapping::SensorRecord> sensors) {
+    return lowest_ahead_m(lidars_of(site_with(std::move(sensors)), "hall"));
+  };
+  auto backwards = kLeft;
+  backwards.yaw_deg = 180.0;
+  EXPECT_EQ(lowest_m({kTop}), 0.0);
+  EXPECT_EQ(lowest_m({kFront}), 0.25);
+  EXPECT_EQ(lowest_m({kFront, kLeft}), 0.15);
+  EXPECT_EQ(lowest_m({kFront, backwards}), 0.25);
+  EXPECT_GT(lowest_m({backwards}), 100.0) << "nothing looks ahead";
+}
+
 TEST(Lidars, TheCommandLineSaysWhereTheyAre) {
   SocketOptions options;
   options.lidar_port = 4000;

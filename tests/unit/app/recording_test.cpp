@@ -218,6 +218,48 @@ TEST(Recording, ACutOutReplaysBitForBit) {
   EXPECT_GT(replay(stops, other, std::make_unique<WheelPose>()).different, 10U);
 }
 
+/// A planar lidar's scan that ends at `now`.
+LaserScan some_scan(std::size_t lidar, Stamp now) {
+  LaserScan scan;
+  scan.stamp = now - std::chrono::milliseconds(15);
+  scan.angle_min_rad = -2.0;
+  scan.angle_step_rad = 0.01;
+  scan.range_max_m = 20.0;
+  scan.beam_period = std::chrono::microseconds(27);
+  scan.ranges_m.assign(401, 3.0F + static_cast<float>(lidar));
+  scan.lidar = lidar;
+  return scan;
+}
+
+/// Two planar lidars beside what the toy vehicle sees with; read by Debian's python3-rosbag.
+TEST(Recording, RosToolsReadScansCommandsAndFrames) {
+  const test::TemporaryFolder folder;
+  RecorderOptions options;
+  options.max_waiting = 1'000'000;
+  options.segment_s = 4.0;
+  options.lidars = {config().lidars.front(), config().lidars.front()};
+  options.lidars[0].name = "front left";
+  options.lidars[0].mounting = {0.7, 0.25, 0.15, 0.8};
+  options.lidars[1].name = "rear";
+  {
+    Recorder recorder(folder.path(), options);
+    test::ToyVehicle vehicle(config(), {0.0, 0.0, 0.0});
+    vehicle.set_source(std::make_unique<WheelPose>());
+    vehicle.on_step = [&](CycleInput in, const CycleOutput& out, const CycleState& s) {
+      in.scans = {some_scan(0, in.now), some_scan(1, in.now)};
+      recorder.add(in, out, s);
+    };
+    vehicle.drive_to({{1, StopAction::Unload, 0.5}});
+    vehicle.say(OperatorWord::Resume);
+    vehicle.run_until([&] { return vehicle.delivered(); }, 10.0);
+  }
+  const std::string command = "/usr/bin/python3 " MADORI_SOURCE_DIR "/tests/unit/app/read_bag.py " +
+                              folder.path().string() + " front_left rear";
+  const int status = std::system(command.c_str());
+  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "python3-rosbag is not installed";
+  EXPECT_EQ(status, 0) << command;
+}
+
 TEST(Recording, WhatIsNoRecordingIsRefused) {
   const test::TemporaryFolder folder;
   EXPECT_THROW((void)replay(folder.path(), config(), std::make_unique<WheelPose>()), Error);

@@ -255,9 +255,7 @@ export const en = {
   "mount.y_m": "Left",
   "mount.z_m": "Height",
   "mount.yaw_deg": "Turned",
-  "device.vlp16": "VLP-16 lidar",
-  "device.lms1xx": "LMS1xx lidar",
-  "device.s300": "S300 safety scanner",
+  "device.titled": "{title} lidar",
   "device.drive": "Drive",
 
   "locate.places": "Places that fit the scan",

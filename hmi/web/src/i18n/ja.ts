@@ -256,9 +256,7 @@ export const ja: Record<TextKey, string> = {
   "mount.y_m": "左方",
   "mount.z_m": "高さ",
   "mount.yaw_deg": "向き",
-  "device.vlp16": "VLP-16 ライダー",
-  "device.lms1xx": "LMS1xx ライダー",
-  "device.s300": "S300 安全スキャナ",
+  "device.titled": "{title} ライダー",
   "device.drive": "駆動部",
 
   "locate.places": "スキャンに合う場所",

@@ -1,6 +1,7 @@
 import type { Live } from "../api_types";
 import { noticeText, useText } from "../i18n";
 import { en, type TextKey } from "../i18n/en";
+import { deviceName } from "../notice_text";
 import type { Frame } from "../live/live_socket";
 import { live } from "../live/live_socket";
 import { useStore } from "../store";
@@ -31,7 +32,7 @@ export function Silent({ frame, age }: { frame: Frame; age: number }) {
     <>
       {frame.live.devices.filter((device) => !device.healthy && device.type !== "link").map((device) => (
         <p key={device.name} class="bad" data-silent={device.type}>
-          <Icon name="warning" /> {device.age_s > 86_400 ? t("device.never", { name: t(`device.${device.type}` as TextKey) }) : t("device.silent_for", { name: t(`device.${device.type}` as TextKey), age: (device.age_s + age).toFixed(0) })}
+          <Icon name="warning" /> {device.age_s > 86_400 ? t("device.never", { name: deviceName(t, device) }) : t("device.silent_for", { name: deviceName(t, device), age: (device.age_s + age).toFixed(0) })}
         </p>
       ))}
     </>

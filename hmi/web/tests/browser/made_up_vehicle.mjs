@@ -88,12 +88,12 @@ function liveState(t) {
     speed: waiting ? 0 : 0.6, turn_rate: 0.1, battery: null, battery_v: 25.3, emergency_stop: false, order: 7, goal: "Press 1",
     path: Array.from({ length: 40 }, (_, i) => Object.values(poseAt(t + i)).slice(0, 2)), blocked: waiting ? [[40, 24], [39, 23]] : [],
     particles: Array.from({ length: 100 }, (_, i) => [poseAt(t).x + 0.3 * Math.sin(i), poseAt(t).y + 0.3 * Math.cos(1.7 * i), 0]),
-    devices: [{ name: "top", type: "vlp16", healthy: true, age_s: 0.05, detail: none, rate_hz: 10 }, { name: "drive", type: "drive", healthy: true, age_s: 0.02, detail: none, rate_hz: 50 }],
+    devices: [{ name: "top", type: "made_up", title: "Made-up", healthy: true, age_s: 0.05, detail: none, rate_hz: 10 }, { name: "drive", type: "drive", title: "", healthy: true, age_s: 0.02, detail: none, rate_hz: 50 }],
     score: 0.91, odometer_m: 1234.5, drivable: true, locked: none, revisions, editors: [], camera: false,
   };
 }
 
-const lidar = { name: "top", type: "vlp16", x_m: 0.3, y_m: 0, z_m: 1.2, yaw_deg: 0 };
+const lidar = { name: "top", type: "made_up", x_m: 0.3, y_m: 0, z_m: 1.2, yaw_deg: 0 };
 const vehicle = { length_m: 1, width_m: 0.6, base_to_rear_m: 0.2, max_speed_mps: 1, height_m: 0.8, wheel_radius_m: 0.1, half_wheel_separation_m: 0.25, max_acceleration_mps2: 0.5, max_turn_rate_radps: 1, max_deceleration_mps2: 0.8, max_turn_acceleration_radps2: 1.5, reaction_s: 0.25 };
 const answers = {
   "/api/session": () => ({ role: "integrator", needs_pin: false }),
@@ -115,7 +115,7 @@ const answers = {
     m_per_px: kScale, relative_uncertainty: 0.003, residuals: [{ label: "1", residual_m: 0.012, outlier: false }], verdict: "good", text: "", mirrored: false, applied: false,
     method: "known", georeference: null, overlay: null, disagreements: [], reason: { code: "scale-good", values: {}, text: "good" }, notes: [],
   }),
-  "/api/devices": () => [{ type: "vlp16", address: "udp 2368", heard: true, detail: none, sensor: lidar }, { type: "drive", address: "/dev/ttyUSB0", heard: true, detail: none, sensor: null }, { type: "s300", address: "/dev/ttyUSB1", heard: false, detail: none, sensor: null }],
+  "/api/devices": () => [{ type: "made_up", title: "Made-up", address: "udp 2368", heard: true, detail: none, sensor: lidar }, { type: "drive", title: "", address: "/dev/ttyUSB0", heard: true, detail: none, sensor: null }, { type: "other", title: "Other", address: "/dev/ttyUSB1", heard: false, detail: none, sensor: null }],
   "/api/locate": () => ({ state: "ambiguous", hypotheses: [{ ...poseAt(0), score: 0.91 }, { x: 14, y: 12, yaw: 1, score: 0.47 }] }),
   "/api/orders": () => [order(7, "running", [0, 3], 5), order(8, "queued", [4]), order(9, "queued", [3, 0])],
   "/api/orders/history": () => [order(6, "done", [4]), order(5, "failed", [3])],

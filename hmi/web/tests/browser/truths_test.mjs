@@ -60,8 +60,8 @@ const kSmall = { width: 1024, height: 600 };
 const kPhone = { width: 390, height: 844 };
 const failed = [
   ...(await small("3", kSmall, async (panel) => {
-    vehicle.say({ devices: [{ name: "lidar", type: "vlp16", healthy: false, age_s: 12, rate_hz: 0, detail: { code: "", values: {}, text: "" } }, { name: "drive", type: "drive", healthy: false, age_s: 12, rate_hz: 0, detail: { code: "", values: {}, text: "" } }] });
-    await panel.page.locator("[data-silent=vlp16]").waitFor({ timeout: 3000 });
+    vehicle.say({ devices: [{ name: "lidar", type: "made_up", title: "Made-up", healthy: false, age_s: 12, rate_hz: 0, detail: { code: "", values: {}, text: "" } }, { name: "drive", type: "drive", title: "", healthy: false, age_s: 12, rate_hz: 0, detail: { code: "", values: {}, text: "" } }] });
+    await panel.page.locator("[data-silent=made_up]").waitFor({ timeout: 3000 });
     await panel.page.locator(".map-canvas[data-scan=hidden]").waitFor({ timeout: 3000 });
     for (const name of ["Score", "Speed", "Battery"]) expect((await panel.page.locator(".gauge", { hasText: name }).locator("dd").innerText()).includes("12 s old"), `${name} is shown as if it were now`);
   })),

@@ -2,8 +2,8 @@ import { useState } from "preact/hooks";
 import { api } from "../../api";
 import type { FoundDevice, SensorInfo, Site, VehicleInfo } from "../../api_types";
 import { noticeText, useText } from "../../i18n";
-import type { TextKey } from "../../i18n/en";
 import { live } from "../../live/live_socket";
+import { deviceName } from "../../notice_text";
 import { usePolled, useStore } from "../../store";
 import { Icon } from "../../ui/icon";
 import { NumberField } from "../../ui/number_pad";
@@ -46,7 +46,7 @@ function Found({ plan, use }: { plan: Plan; use: (sensor: SensorInfo) => void })
             <li key={device.type + device.address} class={device.heard ? "" : "bad"}>
               <Icon name={device.heard ? "good" : "bad"} />
               <span>
-                <strong>{t(`device.${device.type}` as TextKey)}</strong> {t(device.heard ? "vehicle.heard" : "vehicle.silent")}
+                <strong>{deviceName(t, device)}</strong> {t(device.heard ? "vehicle.heard" : "vehicle.silent")}
                 <small>{device.address} {!["heard", "silent"].includes(device.detail.code) && noticeText(t, "device", device.detail)}</small>
                 {state && <small>{state.rate_hz !== null && t("vehicle.rate", { rate: state.rate_hz.toFixed(1) })} {noticeText(t, "device", state.detail)} <Stale age={state.age_s} /></small>}
               </span>
