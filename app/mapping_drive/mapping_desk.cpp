@@ -19,8 +19,8 @@ constexpr std::size_t kMostWaitingScans = 20;  ///< two seconds of a lidar that 
 constexpr std::size_t kMostWaiting = 2000;     ///< readings of the wheels with them
 constexpr double kStepM = 0.04;                ///< between two scans that the mapper gets,
 constexpr double kStepRad = 0.0175;            ///< or this much turning
-constexpr double kLostM = 0.5;
-constexpr int kLostScans = 8;
+constexpr double kLostM = 0.3;
+constexpr int kLostScans = 4;
 constexpr double kSyncS = 5.0;
 constexpr double kPictureS = 1.0;
 constexpr double kPictureShare = 0.05;  ///< of the thread's time at most
@@ -240,12 +240,19 @@ void MappingDesk::note(const PoseEstimate& pose, const Transform2<Odom, Base>& m
   const double step_m = last_scan_ ? way_m(*last_scan_, moved_to) : 0.0;
   last_scan_ = moved_to;
   const bool found = pose.health.state == LocalizationState::Localized;
+  const std::size_t keyframes = mapper_.memory().size();
+  if (!found && lost_scans_ == 0 && !count_.lost) broken_at_ = keyframes - 1;
   lost_m_ = found ? 0.0 : lost_m_ + step_m;
   lost_scans_ = found ? 0 : lost_scans_ + 1;
   ++count_.scans;
   count_.driven_m += step_m;
-  count_.lost = lost_m_ > kLostM || lost_scans_ >= kLostScans;
-  count_.keyframes = mapper_.memory().size();
+  // What comes behind a break fits itself: only what was seen before tells that the drive is tied again.
+  const bool changed = keyframes != count_.keyframes || mapper_.memory().loops() != count_.loops;
+  if (lost_m_ > kLostM || lost_scans_ >= kLostScans)
+    count_.lost = true;
+  else if (count_.lost && found && changed)
+    count_.lost = !mapper_.lies_on_earlier(broken_at_);
+  count_.keyframes = keyframes;
   count_.loops = mapper_.memory().loops();
   const std::scoped_lock lock(mutex_);
   newest_ = MappedPose{pose, moved_to};

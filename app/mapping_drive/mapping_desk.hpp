@@ -108,6 +108,7 @@ class MappingDesk {
   Duration later_{};
   double lost_m_ = 0.0;
   int lost_scans_ = 0;
+  std::size_t broken_at_ = 0;  ///< the keyframes of before the newest scans that fitted nothing
   Stamp synced_{};
   double picture_cost_s_ = 0.0;
   std::chrono::steady_clock::time_point drawn_at_;

@@ -24,6 +24,8 @@ class GraphMapper final : public Mapper {
   [[nodiscard]] FinishedMap finish() override;
   /// What was seen so far, and where from.
   [[nodiscard]] const Memory& memory() const { return map_.memory; }
+  /// Whether the newest keyframe lies on what those before keyframe `end` saw: the drive is tied to them.
+  [[nodiscard]] bool lies_on_earlier(std::size_t end) const;
 
  private:
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
