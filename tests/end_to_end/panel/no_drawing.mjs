@@ -84,6 +84,20 @@ async function driveByKeys(panel) {
   await until("it stands again", async () => Math.abs((await seen(panel)).speed ?? 1) < 0.01);
 }
 
+/** On the finished site: driven by hand with the pad, and the way is a draft of the Routes page. */
+async function teachByHand(panel, look) {
+  await touch(panel, "By hand", { role: "tab" });
+  const finger = await panel.context.newCDPSession(panel.page);
+  const { pose } = await seen(panel);
+  await driveTo(panel, finger, [pose.x + 1.6 * Math.cos(pose.yaw), pose.y + 1.6 * Math.sin(pose.yaw)]);
+  await finger.detach();
+  await look("drive-by-hand-pad");
+  await touch(panel, "Teach this route");
+  await panel.page.getByText("Not saved yet").waitFor();
+  await mapReady(panel);
+  await look("drive-taught");
+}
+
 function score(site) {
   const found = JSON.parse(runToEnd(madori, ["evaluate", "--map", site, "--building", join(data, "two_rooms/true_walls.csv"), "--align", "anywhere", "--json", "-"]));
   return [found.map_to_building.mean_m, found.building_to_map.mean_m];
@@ -147,6 +161,7 @@ async function main(browser) {
   await locate(panel, look);
   const more = await deliver(panel, look);
   console.log(`delivered, faults confirmed meanwhile: ${more}`);
+  await teachByHand(panel, look);
   expectQuietConsole(panel);
 }
 

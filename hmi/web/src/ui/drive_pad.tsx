@@ -1,18 +1,8 @@
 import { useState } from "preact/hooks";
 import { useText } from "../i18n";
-import { holding, type Push } from "./jog_hold";
+import { holding } from "./jog_hold";
 import { useJogKeys } from "./jog_keys";
-
-/** nearer to the middle than this the vehicle stands, and a thumb that goes straight ahead does not turn */
-const kDead = 0.12;
-
-const live = (share: number) => (Math.abs(share) < kDead ? 0 : (share - Math.sign(share) * kDead) / (1 - kDead));
-
-/** A place on the pad, shares of its radius to the right and upwards, as what it asks for. */
-export function pushAt(right: number, up: number): Push {
-  const size = Math.max(1, Math.hypot(right, up));
-  return [live(up / size), live(-right / size)];
-}
+import { pushAt } from "./jog_push";
 
 /** A round pad: up is ahead, its sides turn, all between are curves; the farther from the middle the faster. */
 export function DrivePad() {

@@ -1,5 +1,6 @@
 import { live } from "../live/live_socket";
 import { Store } from "../store";
+import type { Push } from "./jog_push";
 
 const REPEAT_MS = 80;
 
@@ -7,9 +8,6 @@ const REPEAT_MS = 80;
 export const jogSpeeds = [[0.15, 0.25], [0.3, 0.4], [0.6, 0.8]] as const;
 export const jogStep = new Store(1);
 export const stepBy = (by: number) => jogStep.set(Math.min(jogSpeeds.length - 1, Math.max(0, jogStep.value + by)));
-
-/** Shares of full speed ahead and of full turn to the left, -1 to 1. */
-export type Push = readonly [ahead: number, left: number];
 
 /** What a hand holds, whichever way it does: sent again and again while it holds, a stop once after. */
 class Holding {

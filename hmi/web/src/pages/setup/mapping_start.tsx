@@ -58,7 +58,7 @@ export function MappingStart({ close }: { close: () => void }) {
     <div class="columns">
       <div class="grow">
         <h2>{t("mapping.lidars")}</h2>
-        <div class="buttons">
+        <div class="buttons kinds">
           {mapping.kinds.map((kind) => <Tool key={kind.type} icon="plus" label={t(`device.${kind.type}` as TextKey)} onClick={() => add(kind)} />)}
         </div>
         {setup.sensors.map((sensor, i) => <Mounted key={i} sensor={sensor} change={(next) => setSensor(i, next)} remove={() => setSensor(i, null)} />)}
