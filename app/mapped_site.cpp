@@ -87,7 +87,8 @@ mapping::Site site_of(const MappedSite& mapped, const MappedFor& whom) {
   site.vehicle = whom.vehicle;
   site.sensors = whom.sensors;
   site.drawing = {"drawing.png", mapped.width_px, mapped.height_px, 1, 0.0};
-  site.scale = mapping::ScaleRecord{MappedSite::kMetresPerPixel, "mapped", 0.0, 0.0, iso_time_utc(), {whom.source}};
+  site.scale =
+      mapping::ScaleRecord{MappedSite::kMetresPerPixel, "mapped", 0.0, 0.0, iso_time_utc(), {whom.source}};
   return site;
 }
 

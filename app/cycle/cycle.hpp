@@ -72,7 +72,7 @@ struct CycleConfig {
   double clear_for_s = 0.6;            ///< the way must have been free so long before the vehicle goes on
   double door_zone_m = 3.0;    ///< around a door or lift node nothing is driven around, only waited for
   double jog_timeout_s = 0.3;  ///< a held key that is silent for longer stops the vehicle
-  bool mapping = false;        ///< a map is made by driving by hand: no routes, no walls, nothing drives itself
+  bool mapping = false;  ///< a map is made by driving by hand: no routes, no walls, nothing drives itself
 };
 
 /// Recordings hold the numbers of these words: new ones go to the end.

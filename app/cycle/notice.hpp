@@ -128,7 +128,8 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"left-wheel-disobeys", "the left wheel ran at {turned} m/s and was told {asked} m/s"},
     CatalogueEntry{"right-wheel-disobeys", "the right wheel ran at {turned} m/s and was told {asked} m/s"},
     CatalogueEntry{"mapping", "a map is made by driving"},
-    CatalogueEntry{"mapping-lost", "the map does not go on here: what the lidar sees fits nothing seen before"},
+    CatalogueEntry{"mapping-lost",
+                   "the map does not go on here: what the lidar sees fits nothing seen before"},
     CatalogueEntry{"mapping-stopped", "stopped at a panel while a map is made"},
 };
 

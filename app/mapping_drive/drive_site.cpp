@@ -26,6 +26,16 @@ fs::path setup_file(const fs::path& site) {
   return site / "mapping" / "setup.yaml";
 }
 
+/// Whether the drawing is still the map that was driven: not another one, not rescaled.
+bool is_as_mapped(const fs::path& site) {
+  try {
+    const auto scale = mapping::load_site(site).scale;
+    return scale && scale->method == "mapped";
+  } catch (const std::exception&) {  // told by who loads the site to drive
+    return false;
+  }
+}
+
 std::string way_csv(const std::vector<planning::DrivenPose>& way) {
   std::string text = "time_s,x_m,y_m,yaw_rad\n";
   for (const auto& [stamp, pose] : way)
@@ -37,7 +47,8 @@ std::string way_csv(const std::vector<planning::DrivenPose>& way) {
 std::vector<planning::DrivenPose> way_of(const localization::FinishedMap& map,
                                          const Transform2<Map, Map>& map_from_memory) {
   std::vector<planning::DrivenPose> way;
-  for (const auto& scan : map.scans) planning::note_way(way, scan.stamp, map_from_memory * scan.map_from_base);
+  for (const auto& scan : map.scans)
+    planning::note_way(way, scan.stamp, map_from_memory * scan.map_from_base);
   return way;
 }
 
@@ -111,13 +122,15 @@ std::size_t make_site_of_drive(MappingDesk& desk, const fs::path& site, const st
   const mapping::Site setup = load_mapping_setup(site);
   MappedFor whom{site.filename().string(), kSource, setup.vehicle, setup.sensors, {}};
   whom.files[kWayFile] = way_csv(way_of(map, mapped.map_from_memory));
-  if (stands && !map.scans.empty() && desk.newest()) whom.files[kPoseFile] = last_pose(map, desk, *stands, mapped);
+  if (stands && !map.scans.empty() && desk.newest())
+    whom.files[kPoseFile] = last_pose(map, desk, *stands, mapped);
   progress("save", 0.9);
   save_mapped_site(mapped, site, whom);
   return mapped.walls.size();
 }
 
 std::vector<planning::DrivenPose> load_driven_way(const fs::path& site) {
+  if (!is_as_mapped(site)) return {};
   std::ifstream in(site / kWayFile);
   std::vector<planning::DrivenPose> way;
   std::string line;

@@ -50,7 +50,8 @@ std::size_t make_site_of_drive(MappingDesk& desk, const std::filesystem::path& s
                                const std::optional<StandsAt>& stands,
                                const std::function<void(const std::string& stage, double share)>& progress);
 
-/// The way that was driven when the site was mapped; empty where there is none, or it cannot be read.
+/// The way that was driven when the site was mapped; empty where there is none, it cannot be read, or the
+/// site has another drawing or scale by now.
 [[nodiscard]] std::vector<planning::DrivenPose> load_driven_way(const std::filesystem::path& site);
 
 }  // namespace madori::app

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <unordered_set>
 #include <utility>
 
 #include "core/thread_role.hpp"
-#include "localization/drawing_fit/wall_lines.hpp"
 #include "localization/localizer/options.hpp"
 
 namespace madori::app {
@@ -23,9 +21,8 @@ constexpr double kLostM = 0.3;
 constexpr int kLostScans = 4;
 constexpr double kSyncS = 5.0;
 constexpr double kPictureS = 1.0;
+constexpr auto kPicturePause = std::chrono::seconds(1);
 constexpr double kPictureShare = 0.05;  ///< of the thread's time at most
-constexpr double kCellM = 0.08;         ///< of several points in one, a picture needs one
-constexpr std::size_t kMostPoints = 20'000;
 
 double way_m(const Transform2<Odom, Base>& from, const Transform2<Odom, Base>& to) {
   return distance_m(from.translation(), to.translation());
@@ -39,23 +36,6 @@ bool moved(const Transform2<Odom, Base>& from, const Transform2<Odom, Base>& to)
 OdometryReading as_kept(const OdometryReading& r) {
   const auto& p = r.odom_from_base;
   return {r.stamp, {p.x_m(), p.y_m(), p.yaw_rad()}};
-}
-
-std::vector<Point2<Map>> picture_points(const localization::Memory& memory) {
-  std::vector<Point2<Map>> points;
-  std::unordered_set<std::uint64_t> taken;
-  const auto half = [](double v) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::lround(v / kCellM)));
-  };
-  for (std::size_t k = 0; k < memory.size(); ++k)
-    for (const auto& p : memory.keyframes()[k].scan->points) {
-      const Point2<Map> at = memory.poses()[k] * Point2<Base>{p.x_m, p.y_m};
-      if (taken.insert(half(at.x_m) << 32U | half(at.y_m)).second) points.push_back(at);
-    }
-  const std::size_t shown = std::min(points.size(), kMostPoints);
-  for (std::size_t i = 0; i < shown; ++i) points[i] = points[i * points.size() / shown];
-  points.resize(shown);
-  return points;
 }
 
 }  // namespace
@@ -79,8 +59,8 @@ void MappingDesk::put(Item item) {
     waiting_.push_back(std::move(item));
     waiting_scans_ += scan ? 1 : 0;
     if (waiting_scans_ > kMostWaitingScans) {
-      const auto oldest = std::ranges::find_if(
-          waiting_, [](const Item& i) { return std::holds_alternative<GivenScan>(i); });
+      const auto oldest =
+          std::ranges::find_if(waiting_, [](const Item& i) { return std::holds_alternative<GivenScan>(i); });
       waiting_.erase(oldest);
       --waiting_scans_;
       ++dropped_;
@@ -144,7 +124,15 @@ void MappingDesk::run(const std::stop_token& stop) {
   (void)take_role("mapping", ThreadRole::Ordinary);
   read_earlier();
   std::unique_lock lock(mutex_);
-  while (changed_.wait(lock, stop, [this] { return !waiting_.empty() || asked_; })) {
+  const auto wanted = [this] { return !waiting_.empty() || asked_; };
+  for (;;) {  // what still waits when it ends is worked on, and so kept
+    if (!changed_.wait_for(lock, stop, kPicturePause, wanted)) {
+      if (stop.stop_requested()) break;
+      lock.unlock();  // what came last is drawn, too
+      draw_picture();
+      lock.lock();
+      continue;
+    }
     if (waiting_.empty()) {
       auto asked = *std::exchange(asked_, std::nullopt);
       lock.unlock();
@@ -270,9 +258,7 @@ void MappingDesk::draw_picture() {
   const double since_s = std::chrono::duration<double>(now - drawn_at_).count();
   const bool same = memory.size() == drawn_keyframes_ && memory.loops() == drawn_loops_;
   if (same || since_s < std::max(kPictureS, picture_cost_s_ / kPictureShare)) return;
-  auto picture = std::make_shared<MappingPicture>();
-  picture->points = picture_points(memory);
-  picture->walls = localization::wall_lines(localization::memory_cloud(memory));
+  auto picture = std::make_shared<MappingPicture>(picture_of(memory));
   drawn_keyframes_ = memory.size();
   drawn_loops_ = memory.loops();
   drawn_at_ = Clock::now();

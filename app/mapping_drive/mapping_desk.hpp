@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "app/mapping_drive/drive_journal.hpp"
+#include "app/mapping_drive/mapping_picture.hpp"
 #include "localization/slam/graph_mapper.hpp"
-#include "mapping/wall_map/wall.hpp"
 
 namespace madori::app {
 
@@ -26,18 +26,11 @@ struct MappingProgress {
   double driven_m = 0.0;
   int scans = 0;
   std::size_t waiting = 0;  ///< scans that the mapper has still to look at
-  int dropped = 0;  ///< scans that a busy computer had no time for
+  int dropped = 0;          ///< scans that a busy computer had no time for
   std::size_t keyframes = 0;
   int loops = 0;
   bool lost = false;    ///< the map does not go on here
   std::string problem;  ///< why the drive is not kept on the disk; empty: it is
-};
-
-/// What was seen so far, Map frame (the first pose is its origin).
-struct MappingPicture {
-  std::size_t revision = 0;
-  std::vector<Point2<Map>> points;
-  mapping::Walls walls;
 };
 
 /// Where the mapper put a scan, and where the wheels were then.

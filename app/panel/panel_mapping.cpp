@@ -28,9 +28,12 @@ mapping::SensorRecord usual_place(const sensors::LidarRow& row) {
 
 hmi::Notice problem_of(const MappingProgress& drive) {
   if (!drive.problem.empty())
-    return {"mapping-not-kept", {{"reason", drive.problem}}, "the drive is not kept on the disk: " + drive.problem};
+    return {"mapping-not-kept",
+            {{"reason", drive.problem}},
+            "the drive is not kept on the disk: " + drive.problem};
   if (drive.lost)
-    return {"mapping-lost", {},
+    return {"mapping-lost",
+            {},
             "the map does not go on here: drive back slowly to where it was right; it goes on from there"};
   if (drive.dropped >= kManyDropped)
     return {"mapping-slow",
@@ -93,7 +96,8 @@ hmi::Reply PanelVehicle::start_mapping(const mapping::VehicleRecord& vehicle,
 }
 
 hmi::Reply PanelVehicle::drop_mapping() {
-  if (finishing_) return hmi::Reply::refused("mapping-busy", "a site is being made of the drive: wait for it");
+  if (finishing_)
+    return hmi::Reply::refused("mapping-busy", "a site is being made of the drive: wait for it");
   if (!run_.may_change_site()) return hmi::Reply::refused("driving", "the vehicle is driving: stop it first");
   run_.end_mapping();
   std::error_code missing;
@@ -105,7 +109,8 @@ hmi::Reply PanelVehicle::may_finish_mapping() const {
   const auto desk = run_.mapping();
   if (!desk) return hmi::Reply::refused("not-mapping", "no map is being made by driving");
   if (finishing_ || desk->progress().reading)
-    return hmi::Reply::refused("mapping-busy", "the drive so far is being looked at: wait until that is done");
+    return hmi::Reply::refused("mapping-busy",
+                               "the drive so far is being looked at: wait until that is done");
   if (!run_.may_change_site()) return hmi::Reply::refused("driving", "the vehicle is driving: stop it first");
   return hmi::Reply::done();
 }

@@ -78,7 +78,8 @@ hmi::Reply PanelVehicle::command(hmi::Command command) {
   const auto view = run_.view();
   const bool stop = command == hmi::Command::Stop || command == hmi::Command::Halt;
   if (!view) return stop ? hmi::Reply::done() : not_drivable(run_);  // the drive is not enabled then
-  if ((command == hmi::Command::Start || command == hmi::Command::Resume) && run_.mapping()) return mapping_now();
+  if ((command == hmi::Command::Start || command == hmi::Command::Resume) && run_.mapping())
+    return mapping_now();
   const Mode now = view->mode;
   switch (command) {
     case hmi::Command::Start:
@@ -115,7 +116,8 @@ hmi::Reply PanelVehicle::jog(const VelocityCommand& velocity) {
   if (!view) return stands ? hmi::Reply::done() : not_drivable(run_);
   if (view->mode == Mode::EmergencyStop || view->mode == Mode::Fault) return confirm_first();
   if (!stands && (finishing_ || reads_drive(run_)))
-    return hmi::Reply::refused("mapping-busy", "the drive so far is being looked at: wait until that is done");
+    return hmi::Reply::refused("mapping-busy",
+                               "the drive so far is being looked at: wait until that is done");
   if (!jogging_.allows(velocity, clock_now()))
     return hmi::Reply::refused("stopped", "somebody pressed Stop: let the button go first");
   if (view->mode != Mode::Manual && stands) return hmi::Reply::done();

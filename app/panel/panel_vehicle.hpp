@@ -74,9 +74,9 @@ class PanelVehicle final : public hmi::Vehicle {
   WorkMeter meter_;
   JogBar jogging_;
   std::optional<CameraCapture> camera_;
-  std::atomic<bool> finishing_ = false;      ///< a site is being made of the map
-  mutable std::mutex way_mutex_;             ///< of what follows
-  std::vector<planning::DrivenPose> way_;    ///< driven by hand since that began last
+  std::atomic<bool> finishing_ = false;    ///< a site is being made of the map
+  mutable std::mutex way_mutex_;           ///< of what follows
+  std::vector<planning::DrivenPose> way_;  ///< driven by hand since that began last
   bool by_hand_ = false;
 };
 

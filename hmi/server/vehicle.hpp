@@ -152,11 +152,11 @@ struct MappingView {
   int scans = 0;
   long long keyframes = 0;
   int loops = 0;
-  int dropped = 0;  ///< scans that the computer had no time for
-  Notice problem;   ///< what is wrong with the map, or with keeping the drive
-  long long revision = 0;             ///< of walls and points
-  std::vector<Segment2<Map>> walls;   ///< so far
-  mapping::VehicleRecord vehicle;     ///< what it is made with, or is proposed
+  int dropped = 0;                   ///< scans that the computer had no time for
+  Notice problem;                    ///< what is wrong with the map, or with keeping the drive
+  long long revision = 0;            ///< of walls and points
+  std::vector<Segment2<Map>> walls;  ///< so far
+  mapping::VehicleRecord vehicle;    ///< what it is made with, or is proposed
   std::vector<mapping::SensorRecord> sensors;
 };
 

@@ -147,8 +147,10 @@ void note_way(std::vector<DrivenPose>& way, Stamp stamp, const Transform2<Map, B
   if (!way.empty()) {
     const auto step = way.back().map_from_base.inverse() * map_from_base;
     const double moved_m = std::hypot(step.x_m(), step.y_m());
-    if (moved_m > kJumpM) way.clear();
-    else if (moved_m < kStepM && std::abs(step.yaw_rad()) < kStepRad) return;
+    if (moved_m > kJumpM)
+      way.clear();
+    else if (moved_m < kStepM && std::abs(step.yaw_rad()) < kStepRad)
+      return;
   }
   way.push_back({stamp, map_from_base});
 }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 const fs::path kRooms = fs::path(MADORI_SOURCE_DIR) / "data/two_rooms";
-const std::vector<Point2<Map>> kRound{{5.0, 2.0}, {5.5, 4.0},  {9.5, 4.0}, {10.0, 6.3}, {10.0, 1.8},
+const std::vector<Point2<Map>> kRound{{5.0, 2.0}, {5.5, 4.0}, {9.5, 4.0}, {10.0, 6.3}, {10.0, 1.8},
                                       {9.5, 4.0}, {5.5, 4.0}, {3.5, 6.0}, {2.0, 3.5}};
 
 mapping::SensorRecord planar() {
@@ -52,14 +52,13 @@ class MappingDriveTest : public testing::Test {
     setup_ = {mapping::VehicleRecord{}, sensors};
     factory_ = std::make_shared<simulation::Factory>(setup);
     link_ = std::make_unique<FactoryLink>(
-        factory_, WheelGeometry{setup_.vehicle.wheel_radius_m, setup_.vehicle.wheel_radius_m,
-                                setup_.vehicle.half_wheel_separation_m},
+        factory_,
+        WheelGeometry{setup_.vehicle.wheel_radius_m, setup_.vehicle.wheel_radius_m,
+                      setup_.vehicle.half_wheel_separation_m},
         20ms);
     start_program();
   }
-  void start_program() {
-    run_.emplace(site_, std::make_unique<Lent>(*link_), SiteRun::Hooks{});
-  }
+  void start_program() { run_.emplace(site_, std::make_unique<Lent>(*link_), SiteRun::Hooks{}); }
   /// As soon as the mapper listens.
   void map(bool anew) {
     run_->map_by_driving(setup_, anew);
@@ -185,7 +184,7 @@ TEST_F(MappingDriveTest, AnInterruptedDriveGoesOn) {
   map(true);
   drive_round(0, 4);
   const double before_m = run_->mapping()->progress().driven_m;
-  run_.reset();  // the program is killed
+  run_.reset();                                                              // the program is killed
   fs::resize_file(drive_file(site_), fs::file_size(drive_file(site_)) - 7);  // ... while it wrote
   EXPECT_TRUE(has_open_drive(site_));
   start_program();

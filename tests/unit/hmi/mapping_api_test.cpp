@@ -17,7 +17,8 @@ class MappingApiTest : public PanelTest {
   static std::vector<planning::DrivenPose> corner() {
     std::vector<planning::DrivenPose> way;
     for (int i = 0; i <= 100; ++i)
-      planning::note_way(way, stamp_from_seconds(i), {0.05 + std::min(i, 50) * 0.1, 0.05 + std::max(0, i - 50) * 0.1, 0.0});
+      planning::note_way(way, stamp_from_seconds(i),
+                         {0.05 + std::min(i, 50) * 0.1, 0.05 + std::max(0, i - 50) * 0.1, 0.0});
     return way;
   }
 };
@@ -70,9 +71,10 @@ TEST_F(MappingApiTest, TheWayDrivenIsTaughtAsADraft) {
   EXPECT_EQ(taught["legs"].size(), 4U);
   EXPECT_EQ(get("/api/site/routes")["nodes"].size(), 0U);  // nothing is saved
   // taught once more on top of itself: the same
-  const json again = json::parse(
-      call("POST", "/api/site/routes/taught",
-           json{{"revision", ""}, {"nodes", taught["nodes"]}, {"legs", taught["legs"]}}.dump()).body);
+  const json again =
+      json::parse(call("POST", "/api/site/routes/taught",
+                       json{{"revision", ""}, {"nodes", taught["nodes"]}, {"legs", taught["legs"]}}.dump())
+                      .body);
   EXPECT_EQ(again["nodes"], taught["nodes"]);
 }
 

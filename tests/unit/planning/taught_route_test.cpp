@@ -16,7 +16,8 @@ namespace {
 constexpr double kMps = 0.3;
 
 /// Turns on the spot, then straight on, from place to place; `stops_s` how long it stands at each.
-std::vector<DrivenPose> drive(const std::vector<Point2<Map>>& places, double stops_s = 0.0, double noise_m = 0.0) {
+std::vector<DrivenPose> drive(const std::vector<Point2<Map>>& places, double stops_s = 0.0,
+                              double noise_m = 0.0) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, noise_m > 0.0 ? noise_m : 1e-9);
   std::vector<DrivenPose> way;
@@ -65,7 +66,8 @@ TEST(TaughtRoute, AStraightWayIsOneLegBothWays) {
 TEST(TaughtRoute, CornersAndStopsGetNodes) {
   const auto way = drive({{0, 0}, {6, 0}, {6, 4}, {6, 7}}, 3.0);
   const RouteGraph routes = taught({}, way);
-  for (const Point2<Map>& place : {Point2<Map>{0, 0}, {6, 0}, {6, 4}, {6, 7}}) EXPECT_TRUE(has_node_near(routes, place));
+  for (const Point2<Map>& place : {Point2<Map>{0, 0}, {6, 0}, {6, 4}, {6, 7}})
+    EXPECT_TRUE(has_node_near(routes, place));
   EXPECT_EQ(routes.nodes().size(), 4U);
   EXPECT_LT(off_legs_m(routes, way), 0.2);
 }
