@@ -4,7 +4,7 @@
 // Usage: no_drawing.mjs MADORI PAGE DATA SHOTS WIDTHxHEIGHT
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { expect, mapReady, touch, touchMap, until } from "./browser.mjs";
+import { askServer, expect, mapReady, touch, touchMap, until } from "./browser.mjs";
 import { freeUdpPort, runToEnd, start, startVehicle, temporaryFolder } from "./processes.mjs";
 import { expectQuietConsole, given, openGivenPanel, picture, run } from "./program.mjs";
 import { deliver, locate } from "./set_up.mjs";
@@ -89,7 +89,10 @@ async function teachByHand(panel, look) {
   await touch(panel, "By hand", { role: "tab" });
   const finger = await panel.context.newCDPSession(panel.page);
   const { pose } = await seen(panel);
-  await driveTo(panel, finger, [pose.x + 1.6 * Math.cos(pose.yaw), pose.y + 1.6 * Math.sin(pose.yaw)]);
+  const { json: routes } = await askServer(panel, "GET", "/api/site/routes");
+  const away = ({ x, y }) => Math.hypot(x - pose.x, y - pose.y);
+  const [goal] = routes.nodes.filter((node) => away(node) > 1.5).sort((a, b) => away(a) - away(b));  // by a way that is free
+  await driveTo(panel, finger, [goal.x, goal.y]);
   await finger.detach();
   await look("drive-by-hand-pad");
   await touch(panel, "Teach this route");

@@ -575,6 +575,7 @@ export const de: Record<TextKey, string> = {
   "mapping.hint": "Langsam an jeder Wand vorbei und zum Anfang zurück: dort schließt sich die Karte. Abschließen macht daraus den Standort.",
   "stage.last-look": "die ganze Fahrt noch einmal",
   "stage.walls": "Wände",
+  "error.way-too-short": "Der von Hand gefahrene Weg ist kürzer als ein Meter. Dort von Hand fahren, wo der Weg sein soll, dann übernehmen.",
   "error.mapping": "Es wird eine Karte durch Fahren gemacht. Erst abschließen oder verwerfen.",
   "error.not-mapping": "Es wird keine Karte durch Fahren gemacht. In Einrichten beginnen.",
   "error.mapping-busy": "Die bisherige Fahrt wird ausgewertet. Warten, bis das fertig ist.",

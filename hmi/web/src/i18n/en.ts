@@ -604,6 +604,7 @@ export const en = {
   "mapping.hint": "Drive slowly past every wall and come back to where you began: there the map closes. Finish makes the site.",
   "stage.last-look": "the whole drive once more",
   "stage.walls": "walls",
+  "error.way-too-short": "The way driven by hand is shorter than a metre. Drive by hand where the route shall be, then teach it.",
   "error.mapping": "A map is being made by driving. Finish it, or give it up, first.",
   "error.not-mapping": "No map is being made by driving. Begin one in Set up.",
   "error.mapping-busy": "The drive so far is being looked at. Wait until that is done.",

@@ -605,6 +605,7 @@ export const ja: Record<TextKey, string> = {
   "mapping.hint": "すべての壁の前をゆっくり走り、出発点に戻ると地図が閉じます。完了でサイトになります。",
   "stage.last-look": "走行全体の見直し",
   "stage.walls": "壁",
+  "error.way-too-short": "手動で走った道が 1 m 未満です。経路にしたい所を手動で走ってから取り込んでください。",
   "error.mapping": "走行で地図を作成中です。先に完了するか、やめてください。",
   "error.not-mapping": "走行による地図は作成中ではありません。設定で始めてください。",
   "error.mapping-busy": "これまでの走行を処理中です。終わるまでお待ちください。",

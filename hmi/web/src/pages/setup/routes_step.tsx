@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { api } from "../../api";
+import { api, Refused } from "../../api";
 import type { Finding, Routes, Site, Walls } from "../../api_types";
 import { useText } from "../../i18n";
 import type { FactoryMap } from "../../map/factory_map";
@@ -16,6 +16,7 @@ import { draw, faultyOf, headingTo, nodeAt, update, type RoutePlan } from "./rou
 import { useEdit, type Edit } from "./use_edit";
 
 const kReach_px = 28;
+const kWorthTeaching_m = 1;
 
 function useRoutes(site: Site, routes: Routes) {
   return useEdit<RoutePlan>({
@@ -49,6 +50,8 @@ function useTeaching(edit: Edit<RoutePlan>, atOnce: boolean) {
   now.current = edit;
   const teach = () =>
     void attempt(async () => {
+      const way = await api.drivenWay();
+      if (way.length_m < kWorthTeaching_m) throw new Refused(0, "way-too-short", "the way driven by hand is shorter than a metre");
       const { nodes, legs } = await api.teachRoutes({ revision: "", ...now.current.value });
       now.current.change({ nodes, legs });
     });
@@ -117,7 +120,7 @@ export function RoutesStep({ site, walls, routes, teach = false, changed, next }
           <div class="buttons" role="group" aria-label={t("routes.tools")}>
             <Tool icon="pen" label={t("routes.add")} pressed={drawing} onClick={() => lift(true)} />
             <Tool icon="select" label={t("routes.select")} pressed={!drawing} onClick={() => lift(false)} />
-            {taught.length_m >= 1 && <Tool icon="drive" label={t("routes.teach", { length: taught.length_m.toFixed(0) })} onClick={taught.teach} />}
+            {taught.length_m >= kWorthTeaching_m && <Tool icon="drive" label={t("routes.teach", { length: taught.length_m.toFixed(0) })} onClick={taught.teach} />}
           </div>
         )}
         {!node && <p class="quiet">{t(!drawing ? "routes.hint.select" : plan.nodes.length < 4 ? "routes.hint" : "routes.hint.short")}</p>}
