@@ -43,7 +43,8 @@ TEST_F(MappingApiTest, BeginsGrowsAndIsGivenUp) {
 TEST_F(MappingApiTest, ARequestOfTheWrongShapeIsRefused) {
   for (const char* body : {"{}", R"({"vehicle": {}, "sensors": [], "anew": true})"})
     EXPECT_EQ(call("POST", "/api/mapping", body).status, 400) << body;
-  for (const char* body : {"[]", "no json"}) EXPECT_EQ(call("POST", "/api/mapping", body).status, 422) << body;
+  for (const char* body : {"[]", "no json"})
+    EXPECT_EQ(call("POST", "/api/mapping", body).status, 422) << body;
   EXPECT_EQ(get("/api/mapping")["state"], "none");
 }
 
