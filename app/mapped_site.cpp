@@ -81,11 +81,14 @@ std::string picture_png(const mapping::GrayImage& image) {
   return as_text(mapping::palette_png(image.width_px, image.height_px, indices, kInkOnPaper));
 }
 
-mapping::Site site_of(const MappedSite& mapped, const std::string& name, const std::string& log) {
+mapping::Site site_of(const MappedSite& mapped, const MappedFor& whom) {
   mapping::Site site;
-  site.name = name;
+  site.name = whom.name;
+  site.vehicle = whom.vehicle;
+  site.sensors = whom.sensors;
   site.drawing = {"drawing.png", mapped.width_px, mapped.height_px, 1, 0.0};
-  site.scale = mapping::ScaleRecord{MappedSite::kMetresPerPixel, "mapped", 0.0, 0.0, iso_time_utc(), {log}};
+  site.scale =
+      mapping::ScaleRecord{MappedSite::kMetresPerPixel, "mapped", 0.0, 0.0, iso_time_utc(), {whom.source}};
   return site;
 }
 
@@ -114,8 +117,7 @@ MappedSite map_site(const localization::MemoryCloud& memory, const std::string& 
   return mapped;
 }
 
-void save_mapped_site(const MappedSite& mapped, const std::filesystem::path& folder, const std::string& name,
-                      const std::string& log) {
+void save_mapped_site(const MappedSite& mapped, const std::filesystem::path& folder, const MappedFor& whom) {
   constexpr double kScale = MappedSite::kMetresPerPixel;
   mapping::SiteTransaction change(folder);
   const mapping::GrayImage picture = picture_of(mapped);
@@ -128,7 +130,8 @@ void save_mapped_site(const MappedSite& mapped, const std::filesystem::path& fol
   mapping::stage_wall_files(change, mapped.walls, mapped.width_px * kScale, mapped.height_px * kScale, {});
   change.write("drawing.png", picture_png(picture));
   change.write("import.png", as_text(mapping::import_picture(picture, lines, {}, kScale)));
-  change.write("site.yaml", mapping::site_yaml(site_of(mapped, name, log)));
+  change.write("site.yaml", mapping::site_yaml(site_of(mapped, whom)));
+  for (const auto& [file, content] : whom.files) change.write(file, content);
   change.commit();
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "localization/drawing_fit/memory_cloud.hpp"
+#include "mapping/site/site.hpp"
 #include "mapping/wall_map/wall.hpp"
 
 namespace madori::app {
@@ -23,9 +26,17 @@ struct MappedSite {
 /// Straight walls of the memory, turned and shifted onto a picture. Throws Error when there are none.
 [[nodiscard]] MappedSite map_site(const localization::MemoryCloud& memory, const std::string& log);
 
+/// What site.yaml says beside the map, and what else is written with it.
+struct MappedFor {
+  std::string name;
+  std::string source;  ///< the log or drive that it was made of
+  mapping::VehicleRecord vehicle{};
+  std::vector<mapping::SensorRecord> sensors{};
+  std::map<std::string, std::string> files{};  ///< name in the site -> content
+};
+
 /// Writes the site folder in one atomic step: walls.csv, walls.pcd, map.pgm, map.yaml, drawing.png (what was
-/// seen), import.png (the walls over it), site.yaml. Throws Error.
-void save_mapped_site(const MappedSite& mapped, const std::filesystem::path& folder, const std::string& name,
-                      const std::string& log);
+/// seen), import.png (the walls over it), site.yaml, and `whom.files`. Throws Error.
+void save_mapped_site(const MappedSite& mapped, const std::filesystem::path& folder, const MappedFor& whom);
 
 }  // namespace madori::app

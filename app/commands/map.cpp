@@ -64,7 +64,7 @@ void map_log(const MapArguments& arguments) {
   const MappedSite mapped = map_site(localization::memory_cloud(memory), arguments.log);
   const std::string name =
       arguments.name.empty() ? std::filesystem::path(arguments.log).stem().string() : arguments.name;
-  save_mapped_site(mapped, arguments.out, name, arguments.log);
+  save_mapped_site(mapped, arguments.out, {name, arguments.log});
   if (!arguments.trajectory.empty())
     mapping::write_file_atomically(arguments.trajectory, tum_text(run.causal, mapped.map_from_memory));
   if (!arguments.at_last.empty())

@@ -72,6 +72,7 @@ struct CycleConfig {
   double clear_for_s = 0.6;            ///< the way must have been free so long before the vehicle goes on
   double door_zone_m = 3.0;    ///< around a door or lift node nothing is driven around, only waited for
   double jog_timeout_s = 0.3;  ///< a held key that is silent for longer stops the vehicle
+  bool mapping = false;  ///< a map is made by driving by hand: no routes, no walls, nothing drives itself
 };
 
 /// Recordings hold the numbers of these words: new ones go to the end.
@@ -192,6 +193,7 @@ struct CycleState {
   std::optional<std::int64_t> stopped_order;  ///< that ended with it
   VelocityCommand jog;
   Stamp jog_heard{};
+  std::optional<Stamp> jog_held;  ///< since when the guard leaves nothing of what is asked by hand
   Errand errand;
   Way way;
   Progress progress;

@@ -98,8 +98,17 @@ double share_to_go(const CycleState& state, const VelocityCommand& wanted,
 }
 
 VelocityCommand guarded(CycleState& state, const VelocityCommand& wanted, const CycleConfig& config) {
-  if (!drives(state.mode) || wanted == VelocityCommand{}) return wanted;
+  const bool looks = drives(state.mode) || (config.mapping && state.mode == Mode::Manual);
+  if (!looks || wanted == VelocityCommand{}) {
+    state.jog_held.reset();
+    return wanted;
+  }
+  constexpr double kNothingLeft = 0.12;
   const double share = share_to_go(state, wanted, obstacle_points(state), config);
+  if (share > kNothingLeft || state.mode != Mode::Manual)
+    state.jog_held.reset();
+  else if (!state.jog_held)
+    state.jog_held = state.previous;
   return {wanted.linear_mps * share, wanted.angular_radps * share};
 }
 

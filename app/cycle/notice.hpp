@@ -56,6 +56,9 @@ enum class Cause : std::uint8_t {
   LidarBlind,
   LeftWheelDisobeys,
   RightWheelDisobeys,
+  Mapping,
+  MappingLost,
+  MappingStopped,
 };
 
 /// What a person can do about it.
@@ -84,6 +87,9 @@ enum class Remedy : std::uint8_t {
   LookAndGoOn,
   UncoverLidar,
   LookAtWheel,
+  DriveToMap,
+  DriveBack,
+  LookAndDrive,
 };
 
 inline constexpr std::array kCauses{
@@ -121,6 +127,10 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"lidar-blind", "the lidar sees nothing any more in a direction ahead"},
     CatalogueEntry{"left-wheel-disobeys", "the left wheel ran at {turned} m/s and was told {asked} m/s"},
     CatalogueEntry{"right-wheel-disobeys", "the right wheel ran at {turned} m/s and was told {asked} m/s"},
+    CatalogueEntry{"mapping", "a map is made by driving"},
+    CatalogueEntry{"mapping-lost",
+                   "the map does not go on here: what the lidar sees fits nothing seen before"},
+    CatalogueEntry{"mapping-stopped", "stopped at a panel while a map is made"},
 };
 
 inline constexpr std::array kRemedies{
@@ -148,6 +158,9 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"look-and-go-on", "look whether it is open, then press Go on"},
     CatalogueEntry{"uncover-lidar", "clean the lidar, take away what covers it, check its network cable"},
     CatalogueEntry{"look-at-wheel", "free the wheel, or have its motor or encoder mended, then confirm"},
+    CatalogueEntry{"drive-to-map", "drive by hand past every wall, then press Finish"},
+    CatalogueEntry{"drive-back", "drive back slowly to where the map was right; it goes on from there"},
+    CatalogueEntry{"look-and-drive", "look around, then drive on by hand"},
 };
 
 /// An event of the cycle, not the cause of a standstill.

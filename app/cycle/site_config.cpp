@@ -52,17 +52,29 @@ void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
   config.movers.top_speed_mps = v.max_speed_mps;
 }
 
+void take_site(const mapping::Site& site, const std::filesystem::path& folder, CycleConfig& config) {
+  take_vehicle(site.vehicle, config);
+  take_lidars(lidars_of(site, folder), config);
+  for (const auto& sensor : site.sensors)
+    config.check.protective_m = std::max(config.check.protective_m, sensor.protective_m);
+}
+
 }  // namespace
+
+CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem::path& where) {
+  CycleConfig config;
+  config.mapping = true;
+  take_site(setup, where, config);
+  for (SafetyRule& rule : config.safety_rules) rule.by_hand = true;
+  return config;
+}
 
 SiteForDriving load_for_driving(const std::filesystem::path& folder) {
   SiteForDriving loaded{mapping::load_scaled_site(folder), mapping::load_walls(folder / "walls.csv"), {}};
   CycleConfig& config = loaded.config;
   config.routes = planning::load_routes(folder / "routes");
   config.metric = loaded.site.shortest_routes ? planning::RouteMetric::Metres : planning::RouteMetric::Hops;
-  take_vehicle(loaded.site.vehicle, config);
-  take_lidars(lidars_of(loaded.site, folder), config);
-  for (const auto& sensor : loaded.site.sensors)
-    config.check.protective_m = std::max(config.check.protective_m, sensor.protective_m);
+  take_site(loaded.site, folder, config);
   std::vector<Segment2<Map>> segments;
   for (const auto& wall : loaded.walls) segments.push_back(wall.segment);
   config.walls = std::make_shared<const planning::WallGrid>(std::move(segments));

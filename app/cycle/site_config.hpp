@@ -19,4 +19,8 @@ struct SiteForDriving {
 /// scale, no routes, no lidar that can be driven by.
 [[nodiscard]] SiteForDriving load_for_driving(const std::filesystem::path& folder);
 
+/// The same of a vehicle that is about to map by driving: no routes, no walls, and a silent lidar forbids to
+/// move by hand, too, for what is driven blind is a hole in the map. `where`: the folder of what is wrong.
+[[nodiscard]] CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem::path& where);
+
 }  // namespace madori::app

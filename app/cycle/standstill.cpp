@@ -69,6 +69,21 @@ Standstill why_paused(const CycleState& state, Stamp now) {
           notice(Remedy::LookAndResume), now};
 }
 
+/// While a map is made there is neither an order nor a drawing: nothing to resume.
+Standstill why_mapping(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  constexpr double kHeldS = 0.3;
+  const Stamp now = input.now;
+  if (const auto* rule = forbidding_rule(state, input, config, true))
+    return {notice(rule->cause), notice(rule->remedy), now};
+  if (state.jog_held && to_seconds(now - *state.jog_held) > kHeldS)
+    return because(Cause::SomethingInTheWay, Remedy::ClearAround, now);
+  if (state.mode == Mode::Paused && state.stopped)
+    return because(Cause::MappingStopped, Remedy::LookAndDrive, now);
+  if (!may_drive(state.pose.health.state) || state.pose.health.state == LocalizationState::Degraded)
+    return because(Cause::MappingLost, Remedy::DriveBack, now);
+  return because(Cause::Mapping, Remedy::DriveToMap, now);
+}
+
 Standstill why_at_stop(const OrderStop& stop, Stamp now) {
   if (stop.action == StopAction::Load) return because(Cause::Loading, Remedy::GoOn, now);
   if (stop.action == StopAction::Unload) return because(Cause::Unloading, Remedy::GoOn, now);
@@ -97,6 +112,8 @@ Standstill why_waiting(const CycleState& state, const CycleInput& input, const C
 Standstill standstill_of(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   if (!drives(state.mode))
     if (auto deaf = why_deaf(state, input.now, config); !deaf.cause.empty()) return deaf;
+  if (config.mapping && state.mode != Mode::EmergencyStop && state.mode != Mode::Fault)
+    return why_mapping(state, input, config);
   switch (state.mode) {
     case Mode::Driving:
     case Mode::Detouring:

@@ -149,7 +149,8 @@ void LiveCopy::show(const CycleInput& input, const CycleState& state, const Cycl
   take_scan(input, config.lidars, state.site->on_drawing(state.pose.map_from_base));
   if (!due(input.now)) return;
   enter(to_string(state.mode), input.now);
-  live_.drivable = true;
+  live_.drivable = !config.mapping;
+  live_.mapping = config.mapping;
   live_.cause = shown(state.standstill.cause);
   live_.remedy = shown(state.standstill.remedy);
   live_.pose = state.pose;

@@ -25,6 +25,15 @@ std::string english_of(const std::string& code) {
   return code;
 }
 
+hmi::Reply mapping_now() {
+  return hmi::Reply::refused("mapping", "a map is being made by driving: finish it, or give it up, first");
+}
+
+bool reads_drive(const SiteRun& run) {
+  const auto desk = run.mapping();
+  return desk && desk->progress().reading;
+}
+
 hmi::Reply confirm_first() {
   return hmi::Reply::refused("confirm-first", "look around the vehicle and confirm first");
 }
@@ -34,6 +43,7 @@ hmi::Reply confirm_first() {
 PanelVehicle::PanelVehicle(SiteRun& run, const std::filesystem::path& database, SocketOptions devices,
                            const std::string& camera)
     : run_(run),
+      site_(database.parent_path()),
       devices_(std::move(devices)),
       orders_(database, [&run](int id) { return run.node_name(id); }),
       meter_(database) {
@@ -46,7 +56,15 @@ hmi::LiveState PanelVehicle::live() const {
   return live;
 }
 
+void PanelVehicle::begin_run() {
+  meter_.forget_step();
+  const std::scoped_lock lock(way_mutex_);
+  way_.clear();
+  by_hand_ = false;
+}
+
 void PanelVehicle::observe(const CycleInput& input, const CycleState& state, const TransportRun& run) {
+  note_way_by_hand(state, run.config());
   meter_.count(input, state);
   copy_.show(input, state, run.config(), run.view().device_problem);
   if (state.lidar_heard == input.now) copy_.set_odometer(meter_.sums().distance_m);
@@ -60,6 +78,8 @@ hmi::Reply PanelVehicle::command(hmi::Command command) {
   const auto view = run_.view();
   const bool stop = command == hmi::Command::Stop || command == hmi::Command::Halt;
   if (!view) return stop ? hmi::Reply::done() : not_drivable(run_);  // the drive is not enabled then
+  if ((command == hmi::Command::Start || command == hmi::Command::Resume) && run_.mapping())
+    return mapping_now();
   const Mode now = view->mode;
   switch (command) {
     case hmi::Command::Start:
@@ -95,6 +115,9 @@ hmi::Reply PanelVehicle::jog(const VelocityCommand& velocity) {
   const bool stands = velocity == VelocityCommand{};
   if (!view) return stands ? hmi::Reply::done() : not_drivable(run_);
   if (view->mode == Mode::EmergencyStop || view->mode == Mode::Fault) return confirm_first();
+  if (!stands && (finishing_ || reads_drive(run_)))
+    return hmi::Reply::refused("mapping-busy",
+                               "the drive so far is being looked at: wait until that is done");
   if (!jogging_.allows(velocity, clock_now()))
     return hmi::Reply::refused("stopped", "somebody pressed Stop: let the button go first");
   if (view->mode != Mode::Manual && stands) return hmi::Reply::done();
@@ -105,6 +128,7 @@ hmi::Reply PanelVehicle::jog(const VelocityCommand& velocity) {
 
 hmi::Reply PanelVehicle::add_order(const std::vector<hmi::StopView>& stops, int repeat) {
   if (!run_.view()) return not_drivable(run_);
+  if (run_.mapping()) return mapping_now();
   std::vector<int> nodes;
   for (const auto& stop : stops) nodes.push_back(stop.node);
   std::optional<int> after;
@@ -183,6 +207,7 @@ std::shared_ptr<const std::string> PanelVehicle::camera_jpeg() const {
 }
 
 hmi::Reply PanelVehicle::may_change_site() const {
+  if (run_.mapping()) return mapping_now();
   if (run_.may_change_site()) return hmi::Reply::done();
   return driving();
 }

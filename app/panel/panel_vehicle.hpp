@@ -1,7 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
+#include <functional>
+#include <mutex>
 #include <optional>
+#include <vector>
 
 #include "app/camera/camera_capture.hpp"
 #include "app/panel/jog_bar.hpp"
@@ -23,7 +27,7 @@ class PanelVehicle final : public hmi::Vehicle {
                const std::string& camera = "");
 
   /// On the cycle's thread: a run begins; after each of its steps; after a tick without a run.
-  void begin_run() { meter_.forget_step(); }
+  void begin_run();
   void observe(const CycleInput& input, const CycleState& state, const TransportRun& run);
   void idle(const CycleInput& input);
 
@@ -46,17 +50,34 @@ class PanelVehicle final : public hmi::Vehicle {
   [[nodiscard]] hmi::StatisticsView statistics() const override;
   [[nodiscard]] std::vector<hmi::WallView> walls_seen() const override;
   [[nodiscard]] std::shared_ptr<const std::string> camera_jpeg() const override;
+  [[nodiscard]] hmi::MappingView mapping() const override;
+  [[nodiscard]] std::shared_ptr<const std::string> mapping_points() const override;
+  [[nodiscard]] std::vector<mapping::SensorRecord> lidar_kinds() const override;
+  hmi::Reply start_mapping(const mapping::VehicleRecord& vehicle,
+                           const std::vector<mapping::SensorRecord>& sensors, bool anew) override;
+  hmi::Reply drop_mapping() override;
+  [[nodiscard]] hmi::Reply may_finish_mapping() const override;
+  std::size_t finish_mapping(
+      const std::function<void(const std::string& stage, double share)>& progress) override;
+  [[nodiscard]] std::vector<planning::DrivenPose> driven_way() const override;
   [[nodiscard]] hmi::Reply may_change_site() const override;
   void reload_site() override { run_.reload(); }
 
  private:
+  void note_way_by_hand(const CycleState& state, const CycleConfig& config);
+
   SiteRun& run_;
+  std::filesystem::path site_;
   SocketOptions devices_;
   LiveCopy copy_;
   PanelOrders orders_;
   WorkMeter meter_;
   JogBar jogging_;
   std::optional<CameraCapture> camera_;
+  std::atomic<bool> finishing_ = false;    ///< a site is being made of the map
+  mutable std::mutex way_mutex_;           ///< of what follows
+  std::vector<planning::DrivenPose> way_;  ///< driven by hand since that began last
+  bool by_hand_ = false;
 };
 
 }  // namespace madori::app

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "app/cycle/pose_source.hpp"
+#include "app/pose/scan_maker.hpp"
 #include "core/lidar_model.hpp"
 #include "localization/localizer/localizer.hpp"
-#include "localization/wall_extraction/wall_extractor.hpp"
 #include "mapping/wall_map/wall.hpp"
 
 namespace madori::app {
@@ -23,8 +22,7 @@ struct LocalizerPoseOptions {
   std::function<void(const PointCloud<Base>&, const LidarModel&, const PoseEstimate&)> sweep_onlooker;
 };
 
-/// The localizer as the cycle's pose source. A 3D lidar's revolutions become points on walls one by one.
-/// Without one, what all planar lidars saw in the last tenth of a second is one scan, merged in Base.
+/// The localizer as the cycle's pose source.
 class LocalizerPose final : public PoseSource {
  public:
   LocalizerPose(const mapping::Walls& walls, std::vector<LidarModel> lidars,
@@ -45,29 +43,13 @@ class LocalizerPose final : public PoseSource {
     return localizer_.bent();
   }
   [[nodiscard]] std::shared_ptr<const localization::RememberedParts> remembered() const override;
-  /// From where the points on walls are seen: the lidar's place, the middle between several.
-  [[nodiscard]] static Point2<Base> eye(const std::vector<LidarModel>& lidars);
 
  private:
-  /// What one planar lidar saw last.
-  struct Look {
-    Stamp stamp{};
-    localization::ScanPoints points;  ///< Base frame at the stamp
-    Transform2<Odom, Base> odom_from_base;
-  };
-  void give(Stamp stamp, const localization::ScanPoints& points,
-            const Transform2<Odom, Base>& odom_from_base);
+  void give(const ScanMaker::Scan& scan);
   void show(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base);
-  void give_merged(Stamp now, const Transform2<Odom, Base>& odom_from_base);
 
   LocalizerPoseOptions options_;
-  std::vector<LidarModel> lidars_;
-  std::vector<bool> looks_;  ///< whether a lidar tells of the place
-  Point2<Base> eye_;
-  localization::WallExtractor extractor_;
-  std::vector<std::optional<Look>> newest_;  ///< of each planar one
-  localization::ScanPoints merged_;          ///< of them
-  std::optional<Stamp> given_;
+  ScanMaker scans_;
   PoseEstimate pose_;                     ///< at the last scan that was given
   Transform2<Odom, Base> pose_odometry_;  ///< odom_from_base there
   localization::Localizer localizer_;

@@ -131,10 +131,10 @@ template <class Bytes, class State>
 void each_of(Bytes& bytes, State& s) {
   auto& [mode, standstill, odometry, track, localization, site, pose, obstacles, movers, drive, drive_heard,
          drive_clock, drive_us, drive_restarted, lidars_heard, lidar_heard, looked, previous, gap, begun,
-         stopped, stopped_order, jog, jog_heard, errand, way, progress, ahead, block, detour, trail, trail_at,
-         effort, limits, wheels, wheels_at, disobedient, unarmed_steps, bench] = s;
-  static_cast<void>(bench);       // nothing in it lasts
-  static_cast<void>(standstill);  // for people, each step anew
+         stopped, stopped_order, jog, jog_heard, jog_held, errand, way, progress, ahead, block, detour, trail,
+         trail_at, effort, limits, wheels, wheels_at, disobedient, unarmed_steps, bench] = s;
+  static_cast<void>(bench);                                    // nothing in it lasts
+  static_cast<void>(standstill), static_cast<void>(jog_held);  // for people, each step anew
   static_cast<void>(localization), static_cast<void>(site),
       static_cast<void>(pose);                              // a recording's own part
   static_cast<void>(obstacles), static_cast<void>(movers);  // below: they guard their fields

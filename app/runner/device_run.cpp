@@ -109,7 +109,7 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
                   {.opened =
                        [&](TransportRun& run) {
                          devices.set_wheels(run.config().odometry.wheels);
-                         devices.set_sensors(sensors_of(options.site));
+                         devices.set_sensors(vehicle.sensors_begun_with());
                          onlookers.begin(run, vehicle.memory_begun_with(), looking_on);
                        },
                    .closing = [&] { onlookers.end(); },

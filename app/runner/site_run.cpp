@@ -10,9 +10,11 @@
 #include "app/learned/kept_memory.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "app/learned/living_map_file.hpp"
+#include "app/mapping_drive/mapping_pose.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/route_tools.hpp"
 #include "core/clock.hpp"
+#include "core/result.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 
 namespace madori::app {
@@ -57,7 +59,7 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
     loaded.site = load_for_driving(site);
     const auto& lidars = loaded.site->config.lidars;
     loaded.watch =
-        std::make_shared<WallWatch>(loaded.site->walls, LocalizerPose::eye(lidars), site / kReliabilityFile);
+        std::make_shared<WallWatch>(loaded.site->walls, ScanMaker::eye(lidars), site / kReliabilityFile);
     LocalizerPoseOptions options;
     options.onlooker = [watch = loaded.watch](const auto& points, const auto& pose) {
       (void)watch->see(points, pose);
@@ -82,6 +84,20 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
   return loaded;
 }
 
+SiteRun::Loaded SiteRun::load_mapping(const std::filesystem::path& site) {
+  Loaded loaded;
+  try {
+    loaded.site.emplace();
+    loaded.site->site = load_mapping_setup(site);
+    loaded.site->config = config_for_mapping(loaded.site->site, site / "mapping");
+    loaded.mapping = std::make_shared<MappingDesk>(MappingDesk::Options{drive_file(site)});
+    loaded.pose = std::make_unique<MappingPose>(loaded.mapping, loaded.site->config.lidars);
+  } catch (const std::exception& e) {
+    loaded.missing = e.what();
+  }
+  return loaded;
+}
+
 void SiteRun::take(Loaded loaded) {
   if (run_ && hooks_.closing) hooks_.closing();
   if (keeper_)  // its last writing takes a while: not on this thread
@@ -92,6 +108,7 @@ void SiteRun::take(Loaded loaded) {
   std::unique_ptr<TransportRun> next;
   std::vector<mapping::SensorRecord> sensors;
   if (loaded.missing.empty()) sensors = loaded.site->site.sensors;
+  next_sensors_ = sensors;
   if (loaded.missing.empty()) try {
       next =
           std::make_unique<TransportRun>(std::move(loaded.site->config), std::move(loaded.pose),
@@ -103,13 +120,19 @@ void SiteRun::take(Loaded loaded) {
       again_at_ = clock_now() + kTryAgain;
     }
   if (!loaded.missing.empty()) spdlog::info("not ready to drive: {}", loaded.missing);
+  std::shared_ptr<MappingDesk> before;
   {
     const std::scoped_lock lock(mutex_);
+    before = std::move(mapping_);
     missing_ = loaded.missing;
     watch_ = std::move(loaded.watch);
+    mapping_ = next ? std::move(loaded.mapping) : nullptr;
     sensors_ = std::move(sensors);
     std::swap(run_, next);
   }
+  next.reset();
+  if (before)  // it may have much to finish: not on this thread
+    kept_ = std::async(std::launch::async, [desk = std::move(before)]() mutable { desk.reset(); });
 }
 
 void SiteRun::load_now() {
@@ -134,9 +157,9 @@ void SiteRun::look_for_site() {
   if (!std::exchange(wanted_, false)) return;
   again_at_.reset();
   if (keeper_) keeper_->finish_learning();
-  loading_ = std::async(std::launch::async, [site = site_, before = keeper_] {
+  loading_ = std::async(std::launch::async, [site = site_, before = keeper_, mapping = mapping_wanted_] {
     if (before) before->flush();  // what it learned is read again
-    return load(site);
+    return mapping ? load_mapping(site) : load(site);
   });
 }
 
@@ -152,7 +175,7 @@ void SiteRun::tick(Stamp now) {
   if (run_) {
     run_->tick(now);
     recall_pose();
-    keeper_->observe(run_->state(), now);
+    if (keeper_) keeper_->observe(run_->state(), now);
     return;
   }
   CycleInput input;
@@ -170,6 +193,26 @@ void SiteRun::tell(const std::string& text) {
 void SiteRun::reload() {
   const std::scoped_lock lock(mutex_);
   wanted_ = true;
+}
+
+void SiteRun::map_by_driving(const MappingSetup& setup, bool anew) {
+  if (std::filesystem::exists(site_ / "site.yaml"))
+    throw Error(site_.string(), "is a site already", "map into an empty folder, or import another drawing");
+  save_mapping_setup(site_, setup);
+  if (anew) std::filesystem::remove(drive_file(site_));
+  const std::scoped_lock lock(mutex_);
+  mapping_wanted_ = wanted_ = true;
+}
+
+void SiteRun::end_mapping() {
+  const std::scoped_lock lock(mutex_);
+  mapping_wanted_ = false;
+  wanted_ = true;
+}
+
+std::shared_ptr<MappingDesk> SiteRun::mapping() const {
+  const std::scoped_lock lock(mutex_);
+  return mapping_;
 }
 
 bool SiteRun::say(const OperatorCommand& command) {

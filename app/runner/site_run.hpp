@@ -12,6 +12,7 @@
 #include "app/cycle/site_config.hpp"
 #include "app/keeping/site_keeper.hpp"
 #include "app/learned/wall_watch.hpp"
+#include "app/mapping_drive/drive_site.hpp"
 #include "app/runner/transport_run.hpp"
 
 namespace madori::app {
@@ -19,7 +20,7 @@ namespace madori::app {
 /// The vehicle of a site from an empty folder on. While something is missing it only listens to the devices;
 /// once the site can be driven it runs it (TransportRun), and anew after every change of the site, as soon as
 /// the vehicle stands: no restart. A new run begins paused. What driving teaches of the drawing, and the last
-/// pose, are kept with the site (SiteKeeper).
+/// pose, are kept with the site (SiteKeeper). Without a drawing the run is a drive by hand that makes a map.
 class SiteRun {
  public:
   struct Hooks {
@@ -45,6 +46,13 @@ class SiteRun {
   // From any thread:
   /// The site has changed: load it, beside the ticks.
   void reload();
+  /// Begins a map by driving, or goes on with one; `anew`: what was driven before is forgotten. Throws Error:
+  /// the folder is a site, a value of the setup is out of range.
+  void map_by_driving(const MappingSetup& setup, bool anew);
+  /// Ends it; the drive stays on the disk.
+  void end_mapping();
+  /// Null while no map is made by driving.
+  [[nodiscard]] std::shared_ptr<MappingDesk> mapping() const;
   /// False while there is no run.
   bool say(const OperatorCommand& command);
   /// Nothing while there is no run.
@@ -64,6 +72,8 @@ class SiteRun {
   [[nodiscard]] std::string missing() const;
   /// The sensors of the site that is driven; empty before.
   [[nodiscard]] std::vector<mapping::SensorRecord> sensors() const;
+  /// Those of the run that is about to begin. On the ticks' thread.
+  [[nodiscard]] const std::vector<mapping::SensorRecord>& sensors_begun_with() const { return next_sensors_; }
   /// memory.bin as the run that is about to begin has read it; empty: none. On the ticks' thread.
   [[nodiscard]] const std::string& memory_begun_with() const { return memory_; }
   [[nodiscard]] std::string device_problem() const { return link_->problem(); }
@@ -72,6 +82,7 @@ class SiteRun {
   struct Loaded {
     std::optional<SiteForDriving> site;
     std::unique_ptr<PoseSource> pose;
+    std::shared_ptr<MappingDesk> mapping;
     std::shared_ptr<WallWatch> watch;
     std::unique_ptr<SiteKeeper> keeper;
     LoadedPose last;     ///< of the run before
@@ -79,6 +90,7 @@ class SiteRun {
     std::string missing;
   };
   [[nodiscard]] static Loaded load(const std::filesystem::path& site);
+  [[nodiscard]] static Loaded load_mapping(const std::filesystem::path& site);
   void take(Loaded loaded);
   void look_for_site();
   void recall_pose();
@@ -89,6 +101,8 @@ class SiteRun {
   std::future<Loaded> loading_;
   mutable std::mutex mutex_;  ///< of what follows; the ticks hold it only to exchange the run
   bool wanted_ = true;
+  bool mapping_wanted_ = false;
+  std::shared_ptr<MappingDesk> mapping_;
   std::vector<mapping::SensorRecord> sensors_;
   std::string missing_ = "the site is being loaded";
   std::shared_ptr<WallWatch> watch_;
@@ -97,6 +111,7 @@ class SiteRun {
   std::shared_ptr<SiteKeeper> keeper_;
   PoseRecall recall_{std::nullopt};
   std::string memory_;
+  std::vector<mapping::SensorRecord> next_sensors_;
   std::optional<Stamp> again_at_;  ///< a run that could not be begun is tried again
   std::future<void> kept_;         ///< what the run before learned is being written
 };

@@ -78,7 +78,8 @@ void TransportRun::tick(Stamp now) {
            result.output.command,
            state_.progress.cross_track_m,
            state_.drive.battery_mv / 1000.0,
-           problem.empty() ? link_->problem() : "orders: " + problem};
+           problem.empty() ? link_->problem() : "orders: " + problem,
+           state_.drive};
 }
 
 }  // namespace madori::app

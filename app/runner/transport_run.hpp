@@ -25,6 +25,7 @@ struct VehicleView {
   double cross_track_m = 0.0;
   double battery_v = 0.0;
   std::string device_problem;
+  control::wire::Status drive;  ///< newest
 };
 
 struct TransportOptions {

@@ -12,6 +12,7 @@ Router make_router(ApiContext& context) {
   add_site_routes(router, context);
   add_import_routes(router, context);
   add_preview_routes(router, context);
+  add_mapping_routes(router, context);
   add_backup_routes(router, context);
   add_scale_routes(router, context);
   add_tile_routes(router, context);

@@ -33,6 +33,7 @@ struct ApiContext {
 void add_session_routes(Router& router, ApiContext& context);
 void add_site_routes(Router& router, ApiContext& context);
 void add_import_routes(Router& router, ApiContext& context);
+void add_mapping_routes(Router& router, ApiContext& context);
 void add_preview_routes(Router& router, ApiContext& context);
 void add_tile_routes(Router& router, ApiContext& context);
 void add_setup_routes(Router& router, ApiContext& context);

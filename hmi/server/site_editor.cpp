@@ -8,6 +8,7 @@
 
 #include "core/result.hpp"
 #include "hmi/server/site_files.hpp"
+#include "hmi/server/vehicle_wire.hpp"
 #include "hmi/server/wire.hpp"
 #include "mapping/drawing/drawing_picture.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -24,46 +25,10 @@ using nlohmann::json;
 
 constexpr int kScreenPx = 3000;
 
-/// Text that stands in one line of YAML.
-std::string one_line(std::string text) {
-  std::erase_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '"' || c == '\\'; });
-  return text;
-}
-
-json vehicle_json(const mapping::VehicleRecord& v) {
-  json wire;
-  for (const auto& field : mapping::kVehicleFields) wire[field.name] = v.*field.value;
-  return wire;
-}
-
 json sensors_json(const std::vector<mapping::SensorRecord>& sensors) {
   json list = json::array();
   for (const auto& s : sensors) list.push_back(to_wire(s));
   return list;
-}
-
-mapping::VehicleRecord vehicle_from(const json& wire) {
-  mapping::VehicleRecord v;
-  for (const auto& field : mapping::kVehicleFields) v.*field.value = wire.at(field.name).get<double>();
-  return v;
-}
-
-/// What the panel does not show of a sensor stays as it was in the site.
-std::vector<mapping::SensorRecord> sensors_from(const json& wire,
-                                                const std::vector<mapping::SensorRecord>& before) {
-  std::vector<mapping::SensorRecord> sensors;
-  for (const auto& s : wire) {
-    sensors.push_back({one_line(s.at("name").get<std::string>()), one_line(s.at("type").get<std::string>()),
-                       s.at("x_m").get<double>(), s.at("y_m").get<double>(), s.at("z_m").get<double>(),
-                       s.at("yaw_deg").get<double>()});
-    for (const auto& old : before)
-      if (old.name == sensors.back().name && old.type == sensors.back().type) {
-        sensors.back().protective_m = old.protective_m;
-        sensors.back().address = old.address;
-        sensors.back().settings = old.settings;
-      }
-  }
-  return sensors;
 }
 
 }  // namespace
@@ -82,7 +47,7 @@ json SiteEditor::site() const {
             {"drawing", nullptr},
             {"scale", nullptr},
             {"georeference", nullptr},
-            {"vehicle", vehicle_json({})},
+            {"vehicle", to_wire(mapping::VehicleRecord{})},
             {"sensors", json::array()},
             {"route_metric", "hops"},
             {"attribution", attribution_of(folder_ / "tiles")},
@@ -95,7 +60,7 @@ json SiteEditor::site() const {
   wire["drawing"] = {{"file", site.drawing.file},
                      {"width_px", site.drawing.width_px},
                      {"height_px", site.drawing.height_px}};
-  wire["vehicle"] = vehicle_json(site.vehicle);
+  wire["vehicle"] = to_wire(site.vehicle);
   wire["sensors"] = sensors_json(site.sensors);
   wire["route_metric"] = site.shortest_routes ? "metres" : "hops";
   if (const auto& s = site.scale)

@@ -41,6 +41,10 @@ class SiteEditor {
   [[nodiscard]] nlohmann::json routes() const;
   /// RoutesEdit -> Routes with findings, nothing is saved.
   [[nodiscard]] nlohmann::json check_routes(const nlohmann::json& edit) const;
+  /// RoutesEdit -> Routes with the way driven in them and findings, nothing is saved. Throws Error where too
+  /// little was driven to be a route.
+  [[nodiscard]] nlohmann::json teach_routes(const nlohmann::json& edit,
+                                            const std::vector<planning::DrivenPose>& way) const;
   nlohmann::json save_routes(const nlohmann::json& edit);
   /// RoutesCsv: the two published files, kept byte for byte when they can be read.
   nlohmann::json import_routes(const nlohmann::json& csv);

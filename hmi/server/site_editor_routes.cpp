@@ -30,6 +30,16 @@ json SiteEditor::check_routes(const json& edit) const {
   return routes_to_wire(graph, findings_of(folder_, graph), routes_revision(folder_));
 }
 
+json SiteEditor::teach_routes(const json& edit, const std::vector<planning::DrivenPose>& way) const {
+  constexpr double kLeast_m = 1.0;
+  if (planning::length_m(way) < kLeast_m)
+    throw Error("the way driven", "is shorter than a metre",
+                "drive by hand where the route shall be, then teach it");
+  const planning::RouteGraph graph = planning::taught(graph_from_wire(edit), way);
+  const std::scoped_lock lock(mutex_);
+  return routes_to_wire(graph, findings_of(folder_, graph), routes_revision(folder_));
+}
+
 /// The answer holds what was checked, so that the page need not ask again.
 json SiteEditor::save_routes(const json& edit) {
   const planning::RouteGraph graph = graph_from_wire(edit);

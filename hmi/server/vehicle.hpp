@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "core/pose_estimate.hpp"
 #include "core/velocity_command.hpp"
 #include "mapping/site/site.hpp"
+#include "planning/route_graph/taught_route.hpp"
 
 namespace madori::hmi {
 
@@ -68,6 +70,7 @@ struct LiveState {
   std::optional<double> score;  ///< share of the walls seen that lie on drawn ones, 0..1
   double odometer_m = 0.0;      ///< driven since the site began
   bool drivable = false;        ///< the site is complete and loaded
+  bool mapping = false;         ///< a map is made by driving by hand
   bool camera = false;          ///< there is a picture
   bool emergency_stop = false;
   std::optional<long long> order_id;
@@ -143,6 +146,22 @@ struct StatisticsView {
   std::vector<CauseView> causes;  ///< longest first
 };
 
+/// How far a map by driving is.
+struct MappingView {
+  /// none; interrupted: a drive lies there that can go on; reading: it is being read; mapping; finishing
+  std::string state = "none";
+  double driven_m = 0.0;
+  int scans = 0;
+  long long keyframes = 0;
+  int loops = 0;
+  int dropped = 0;                   ///< scans that the computer had no time for
+  Notice problem;                    ///< what is wrong with the map, or with keeping the drive
+  long long revision = 0;            ///< of walls and points
+  std::vector<Segment2<Map>> walls;  ///< so far
+  mapping::VehicleRecord vehicle;    ///< what it is made with, or is proposed
+  std::vector<mapping::SensorRecord> sensors;
+};
+
 /// GoOn ends the stay at a stop. Stop stands and ends the order that is under way; Halt stands, whoever asks.
 enum class Command { Start, Pause, Resume, Stop, Confirm, GoOn, Halt };
 
@@ -187,6 +206,30 @@ class Vehicle {
   [[nodiscard]] virtual std::vector<WallView> walls_seen() const { return {}; }
   /// The newest picture of the verification camera as JPEG; null where there is none.
   [[nodiscard]] virtual std::shared_ptr<const std::string> camera_jpeg() const = 0;
+
+  [[nodiscard]] virtual MappingView mapping() const { return {}; }
+  /// What was seen so far as a frame of scan_frame.hpp at the origin of the map; null while none is made.
+  [[nodiscard]] virtual std::shared_ptr<const std::string> mapping_points() const { return nullptr; }
+  /// One sensor of every kind of lidar, where it would be mounted by default.
+  [[nodiscard]] virtual std::vector<mapping::SensorRecord> lidar_kinds() const { return {}; }
+  /// Begins a map by driving, or goes on with one; `anew`: what was driven is forgotten. Throws Error.
+  virtual Reply start_mapping(const mapping::VehicleRecord& /*vehicle*/,
+                              const std::vector<mapping::SensorRecord>& /*sensors*/, bool /*anew*/) {
+    return Reply::refused("not-possible", "this vehicle makes no maps");
+  }
+  /// Ends it and forgets what was driven.
+  virtual Reply drop_mapping() { return Reply::refused("not-possible", "this vehicle makes no maps"); }
+  /// Whether it may be finished now; refused with the reason.
+  [[nodiscard]] virtual Reply may_finish_mapping() const {
+    return Reply::refused("not-mapping", "no map is being made by driving");
+  }
+  /// Makes the site of it, which takes seconds; the number of walls. Throws Job::Failed, Error.
+  virtual std::size_t finish_mapping(
+      const std::function<void(const std::string& stage, double share)>& /*progress*/) {
+    return 0;
+  }
+  /// The way that was driven by hand last, on the drawing; empty where there is none.
+  [[nodiscard]] virtual std::vector<planning::DrivenPose> driven_way() const { return {}; }
 
   /// Whether walls, routes, scale or vehicle may be changed now; refused with the reason while it drives.
   [[nodiscard]] virtual Reply may_change_site() const = 0;

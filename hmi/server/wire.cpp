@@ -88,6 +88,7 @@ json to_wire(const LiveState& live, Stamp now) {
           {"score", or_null(live.score)},
           {"odometer_m", live.odometer_m},
           {"drivable", live.drivable},
+          {"mapping", live.mapping},
           {"camera", live.camera},
           {"emergency_stop", live.emergency_stop},
           {"order", or_null(live.order_id)},

@@ -6,6 +6,7 @@
 
 #include "localization/localizer/pose_covariance.hpp"
 #include "localization/localizer/scan_matcher.hpp"
+#include "localization/memory/local_map.hpp"
 #include "localization/slam/final_fit.hpp"
 
 namespace madori::localization {
@@ -92,6 +93,24 @@ PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const P
   anchor_stamp_ = stamp;
   since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
   return estimate(stamp);
+}
+
+bool GraphMapper::lies_on_earlier(std::size_t end) const {
+  constexpr double kNearM = 6.0;
+  constexpr double kRadiusM = 40.0;
+  constexpr double kInliers = 0.5;
+  constexpr double kSamePlaceM = 0.15;
+  const Memory& memory = map_.memory;
+  if (memory.size() <= end) return false;
+  const Transform2<Map, Base>& here = memory.poses().back();
+  std::vector<LocalMap::Piece> pieces;
+  for (std::size_t k = 0; k < end; ++k)
+    if (distance_m(memory.poses()[k].translation(), here.translation()) < kNearM)
+      pieces.push_back({memory.keyframes()[k].scan.get(), memory.poses()[k]});
+  const LocalMap map(pieces, here.translation(), kRadiusM);
+  const MatchResult match = map.refine(*memory.keyframes().back().scan, here, {}, {}, MatchStart::Near);
+  return match.converged && match.inlier_share > kInliers && match.covered_share > kInliers &&
+         distance_m(match.map_from_base.translation(), here.translation()) < kSamePlaceM;
 }
 
 FinishedMap GraphMapper::finish() {

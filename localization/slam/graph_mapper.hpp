@@ -20,7 +20,12 @@ class GraphMapper final : public Mapper {
 
   PoseEstimate on_odometry(const OdometryReading& reading) override;
   PoseEstimate on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) override;
+  /// May also be asked on the way: the mapper goes on afterwards as if it had not been.
   [[nodiscard]] FinishedMap finish() override;
+  /// What was seen so far, and where from.
+  [[nodiscard]] const Memory& memory() const { return map_.memory; }
+  /// Whether the newest keyframe lies on what those before keyframe `end` saw: the drive is tied to them.
+  [[nodiscard]] bool lies_on_earlier(std::size_t end) const;
 
  private:
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hmi/server/job.hpp"
 #include "hmi/server/vehicle.hpp"
 
 namespace madori::test {
@@ -97,6 +98,51 @@ class ScriptedVehicle : public hmi::Vehicle {
     ++reloads_;
   }
 
+  [[nodiscard]] hmi::MappingView mapping() const override {
+    const std::scoped_lock lock(mutex_);
+    hmi::MappingView view;
+    view.state = mapping_;
+    view.walls = {{{0.0, 0.0}, {4.0, 0.0}}};
+    view.sensors = mapping_sensors_;
+    return view;
+  }
+  [[nodiscard]] std::shared_ptr<const std::string> mapping_points() const override {
+    const std::scoped_lock lock(mutex_);
+    return mapping_ == "mapping" ? std::make_shared<const std::string>("MDS2") : nullptr;
+  }
+  [[nodiscard]] std::vector<mapping::SensorRecord> lidar_kinds() const override {
+    return {{"top", "vlp16", 0.3, 0.0, 1.2, 0.0}};
+  }
+  hmi::Reply start_mapping(const mapping::VehicleRecord& vehicle,
+                           const std::vector<mapping::SensorRecord>& sensors, bool /*anew*/) override {
+    const std::scoped_lock lock(mutex_);
+    mapping_ = "mapping";
+    mapping_sensors_ = sensors;
+    mapping_length_m_ = vehicle.length_m;
+    return hmi::Reply::done();
+  }
+  hmi::Reply drop_mapping() override {
+    const std::scoped_lock lock(mutex_);
+    mapping_ = "none";
+    return hmi::Reply::done();
+  }
+  [[nodiscard]] hmi::Reply may_finish_mapping() const override {
+    const std::scoped_lock lock(mutex_);
+    return mapping_ == "mapping" ? hmi::Reply::done()
+                                 : hmi::Reply::refused("not-mapping", "no map is being made by driving");
+  }
+  std::size_t finish_mapping(const std::function<void(const std::string&, double)>& progress) override {
+    progress("last-look", 0.1);
+    if (driven_.empty()) throw hmi::Job::Failed("mapping-too-short", "too little was driven");
+    return 4;
+  }
+  [[nodiscard]] std::vector<planning::DrivenPose> driven_way() const override { return driven_; }
+
+  void drive_way(std::vector<planning::DrivenPose> way) { driven_ = std::move(way); }
+  [[nodiscard]] double mapping_length_m() const {
+    const std::scoped_lock lock(mutex_);
+    return mapping_length_m_;
+  }
   void drive(bool driving) {
     const std::scoped_lock lock(mutex_);
     driving_ = driving;
@@ -147,6 +193,10 @@ class ScriptedVehicle : public hmi::Vehicle {
   std::vector<Transform2<Map, Base>> poses_;
   std::shared_ptr<const std::string> camera_;
   bool refuse_start_ = false;
+  std::string mapping_ = "none";
+  std::vector<mapping::SensorRecord> mapping_sensors_;
+  double mapping_length_m_ = 0.0;
+  std::vector<planning::DrivenPose> driven_;
 };
 
 }  // namespace madori::test

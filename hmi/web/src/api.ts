@@ -68,7 +68,19 @@ export const api = {
   tileSources: () => get<wire.TileSourceInfo[]>("/api/site/tiles/sources"),
   fetchTiles: (wanted: wire.TileRequest) => post<wire.Job>("/api/site/tiles", wanted),
 
+  mapping: () => get<wire.Mapping>("/api/mapping"),
+  mappingPoints: async () => {
+    const answer = await fetch("/api/mapping/points", { credentials: "same-origin" });
+    if (!answer.ok) throw new Refused(answer.status, "not-mapping", "no map is being made");
+    return answer.arrayBuffer();
+  },
+  startMapping: (start: wire.MappingStart) => post("/api/mapping", start),
+  dropMapping: () => request("DELETE", "/api/mapping"),
+  finishMapping: () => post<wire.Job>("/api/mapping/finish"),
+
   routes: () => get<wire.Routes>("/api/site/routes"),
+  drivenWay: () => get<wire.DrivenWay>("/api/site/routes/driven"),
+  teachRoutes: (edit: wire.RoutesEdit) => post<wire.Routes>("/api/site/routes/taught", edit),
   checkRoutes: (edit: wire.RoutesEdit) => post<wire.Routes>("/api/site/routes/check", edit),
   saveRoutes: (edit: wire.RoutesEdit) => put<wire.Routes>("/api/site/routes", edit),
   importRoutes: (csv: wire.RoutesCsv) => post<wire.Routes>("/api/site/routes/csv", csv),

@@ -58,6 +58,7 @@ function Panel() {
   const [session, setSession] = useState<Session | null>(null);
   const [content, setContent] = useState<Content | null>(null);
   const [page, setPage] = useState<PageName | null>(null);
+  const [teach, setTeach] = useState(false);
   const show = (loaded: Content) => {
     const { site, routes } = loaded;
     setContent(loaded);
@@ -98,9 +99,9 @@ function Panel() {
   const version = content.site.walls_revision + content.site.routes_revision;
   return (
     <>
-      <Rail page={shown} role={role} needsPin={session.needs_pin} go={setPage} leave={leave} />
-      {shown === "drive" && <DrivePage key={version} {...content} role={role} changed={load} />}
-      {shown === "setup" && <SetupPage {...content} changed={load} finished={() => setPage("drive")} />}
+      <Rail page={shown} role={role} needsPin={session.needs_pin} go={(next) => { setTeach(false); setPage(next); }} leave={leave} />
+      {shown === "drive" && <DrivePage key={version} {...content} role={role} changed={load} teach={() => { setTeach(true); setPage("setup"); }} />}
+      {shown === "setup" && <SetupPage {...content} teach={teach} changed={load} finished={() => setPage("drive")} />}
       {shown === "history" && <HistoryPage role={role} />}
       <CommandBar role={role} />
       <Toast />

@@ -41,6 +41,29 @@ function pictureSource(picture: HTMLCanvasElement, all: Extent, projection: Proj
   });
 }
 
+/** Of a map whose size nobody knows yet. */
+const growing = mapProjection([-2000, -2000, 2000, 2000]);
+
+/** Points, two pixels wide, drawn into the part of them that a map shows. */
+function pointSource(points: Float32Array): ImageCanvas {
+  return new ImageCanvas({
+    projection: growing,
+    ratio: 1,
+    canvasFunction: (extent, _resolution, _ratio, size) => {
+      const [x0 = 0, , x1 = 1, y1 = 0] = extent;
+      const canvas = document.createElement("canvas");
+      canvas.width = Math.ceil(size[0] ?? 1);
+      canvas.height = Math.ceil(size[1] ?? 1);
+      const perUnit = (size[0] ?? 1) / (x1 - x0);
+      const context = canvas.getContext("2d");
+      if (!context) return canvas;
+      context.fillStyle = palette().grey;
+      for (let i = 0; i + 1 < points.length; i += 2) context.fillRect(((points[i] ?? 0) - x0) * perUnit, (y1 - (points[i + 1] ?? 0)) * perUnit, 2, 2);
+      return canvas;
+    },
+  });
+}
+
 /** The picture of the factory that all pages share. Layers from the bottom: drawing, walls, routes, sketch; above them what moves. */
 export class FactoryMap {
   readonly map: OlMap;
@@ -50,6 +73,7 @@ export class FactoryMap {
   /** for what a page draws itself */
   readonly sketch = new VectorSource();
   readonly live: LiveOverlay;
+  private readonly seenPoints = new ImageLayer<ImageCanvas>();
   private readonly drawing = new ImageLayer<ImageCanvas>({ opacity: 0.45 });
   private extent: Extent = [0, 0, 10, 10];
   /** left free around walls and drawing, the buttons below included; pixels: top, right, bottom, left */
@@ -66,7 +90,7 @@ export class FactoryMap {
       controls: [],
       pixelRatio: 1,
       interactions: interactionDefaults({ altShiftDragRotate: false, pinchRotate: false, doubleClickZoom: false }),
-      layers: [this.drawing, layer(this.walls, styles.wall), layer(this.seen, styles.seen), layer(this.routes, styles.route), layer(this.sketch, styles.sketch)],
+      layers: [this.drawing, this.seenPoints, layer(this.walls, styles.wall), layer(this.seen, styles.seen), layer(this.routes, styles.route), layer(this.sketch, styles.sketch)],
       view: new View({ projection: mapProjection([0, 0, 10, 10]), center: [5, 5], resolution: 0.1 }),
     });
     this.live = new LiveOverlay(this.map);
@@ -111,6 +135,34 @@ export class FactoryMap {
       },
       () => undefined, // the walls are shown all the same
     );
+  }
+
+  /** No drawing: a map that grows around its origin. */
+  showGrowing(): void {
+    this.map.setView(new View({ projection: growing, center: [0, 0], resolution: 0.02 }));
+    this.extent = [-4, -4, 4, 4];
+    this.fit();
+  }
+
+  /** What was seen so far of a growing map: x, y pairs. */
+  showPoints(points: Float32Array): void {
+    let [x0, y0, x1, y1] = [-4, -4, 4, 4];
+    for (let i = 0; i + 1 < points.length; i += 2) {
+      const [x = 0, y = 0] = [points[i], points[i + 1]];
+      [x0, y0, x1, y1] = [Math.min(x0, x), Math.min(y0, y), Math.max(x1, x), Math.max(y1, y)];
+    }
+    this.extent = [x0, y0, x1, y1];
+    this.seenPoints.setSource(pointSource(points));
+    this.map.getTargetElement()?.setAttribute("data-points", String(points.length / 2));  // so that a test can ask
+    this.view?.();
+  }
+
+  /** A finger has chosen the view: only so much that the vehicle does not leave it. */
+  keepInView(at: XY): void {
+    if (this.view) return;
+    const [width = 0, height = 0] = this.map.getSize() ?? [];
+    const [u = 0, v = 0] = this.map.getPixelFromCoordinate(at) ?? [];
+    if (width > 0 && (u < 0 || v < 0 || u > width || v > height)) this.map.getView().setCenter(at);
   }
 
   private moved(event: Event): void {

@@ -10,6 +10,7 @@ import { usePlacing } from "../map/use_placing";
 import { usePolled, useSelected, useStore } from "../store";
 import { faultyOf } from "./setup/route_edit";
 import { Camera } from "../ui/camera";
+import { DrivePad } from "../ui/drive_pad";
 import { Gauges, heardAgo } from "../ui/gauges";
 import { Icon } from "../ui/icon";
 import { Jog } from "../ui/jog";
@@ -18,6 +19,7 @@ import { Replay } from "../ui/replay";
 import { STALE_S, Stale, useAge } from "../ui/stale";
 import { StateCard, kLost_s } from "../ui/state_card";
 import { Tabs, type Tab } from "../ui/tabs";
+import { Tool } from "../ui/tool";
 import { WhereCard } from "../ui/where_card";
 
 const kLate_ms = 250;
@@ -50,7 +52,7 @@ function OldBanner({ frame, back }: { frame: Frame | null; back: number }) {
 const Newest = ({ children }: { children: (frame: Frame | null) => ComponentChildren }) => <>{children(useStore(live.newest))}</>;
 
 /** The operator's page: where the vehicle is, what it does, why it stands, and what to send it next. */
-export function DrivePage({ site, walls, routes, role, changed }: { site: Site; walls: Walls; routes: Routes; role: Session["role"]; changed: () => Promise<unknown> }) {
+export function DrivePage({ site, walls, routes, role, changed, teach }: { site: Site; walls: Walls; routes: Routes; role: Session["role"]; changed: () => Promise<unknown>; teach: () => void }) {
   const t = useText();
   const map = useRef<FactoryMap | null>(null);
   const [following, setFollowing] = useState(false);
@@ -102,6 +104,7 @@ export function DrivePage({ site, walls, routes, role, changed }: { site: Site; 
   const tabs: Tab<TabName>[] = [{ name: "orders", icon: "list", label: t("drive.orders") }];
   if (may) tabs.push({ name: "hand", icon: "hand", label: t("drive.jog") });
   tabs.push({ name: "replay", icon: "history", label: t("drive.replay") });
+  const byHand = may && tab === "hand" && !asking;
   if (camera) tabs.push({ name: "camera", icon: "camera", label: t("drive.camera") });
   return (
     <main class="page with-map">
@@ -110,7 +113,8 @@ export function DrivePage({ site, walls, routes, role, changed }: { site: Site; 
           <Newest>{(frame) => <Gauges frame={frame} />}</Newest>
           {asking && placing.byHand ? <p class="banner card" role="status">{t("locate.hint.hand")}</p> : <Newest>{(frame) => <OldBanner frame={frame} back={back} />}</Newest>}
         </div>
-        {(pieces ?? []).some((piece) => piece.state !== "unseen") && <Legend />}
+        {byHand && <DrivePad />}
+        {!byHand && (pieces ?? []).some((piece) => piece.state !== "unseen") && <Legend />}
       </>}>
         <button type="button" class="target" aria-label={t("drive.follow")} aria-pressed={following} onClick={() => setFollowing(!following)}><Icon name="follow" /></button>
         <button type="button" class="target where-button" aria-pressed={asking} onClick={() => setAsking(!asking)}><Icon name="pin" /> {t("where.title")}</button>
@@ -120,7 +124,7 @@ export function DrivePage({ site, walls, routes, role, changed }: { site: Site; 
         {asking && <WhereCard placing={placing} role={role} walls={walls} changed={() => void changed()} close={() => setAsking(false)} />}
         {!asking && <Tabs label={t("drive.tabs")} tabs={tabs} shown={tab} choose={setTab}>
           {tab === "orders" && <OrdersCard nodes={routes.nodes} may={may} />}
-          {tab === "hand" && <Jog />}
+          {tab === "hand" && <Jog corner={role === "integrator" && <Tool icon="drive" label={t("routes.teach_this")} onClick={teach} />} />}
           {tab === "replay" && <Replay onFrame={(chosen, back_s) => { replayed.current = chosen; setBack(back_s); show(); }} />}
           {tab === "camera" && <Camera />}
         </Tabs>}

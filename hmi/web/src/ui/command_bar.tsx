@@ -37,9 +37,10 @@ export function CommandBar({ role }: { role: string }) {
   const t = useText();
   const state = useSelected(live.newest, (frame) => frame?.live.state ?? "");
   const stays = useSelected(live.newest, (frame) => frame !== null && isStay(frame.live));
+  const mapping = useSelected(live.newest, (frame) => frame?.live.mapping ?? false);  // there is nothing to start or resume
   const may = role === "operator" || role === "integrator";
   const button = (name: CommandName, icon: IconName, useful: boolean) => (
-    <button type="button" class={`target command ${name}`} disabled={!useful} onClick={() => void attempt(() => api.command(name))}>
+    <button type="button" class={`target command ${name}`} disabled={!useful || (mapping && name !== "confirm")} onClick={() => void attempt(() => api.command(name))}>
       <Icon name={icon} />
       <span>{t(`command.${name}`)}</span>
     </button>

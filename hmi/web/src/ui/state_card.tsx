@@ -14,7 +14,7 @@ const standing = new Set(["waiting", "localizing"]);
 const stays = new Set(["loading", "unloading", "order-stop"]);
 export const isStay = ({ cause }: Live): boolean => stays.has(cause.code);
 /** what is wanted, and no reason to look up */
-const wanted = new Set(["", "paused", "stopped", "stopped-order", "no-order", "manual", "setting-up"]);
+const wanted = new Set(["", "paused", "stopped", "stopped-order", "no-order", "manual", "setting-up", "mapping", "mapping-stopped"]);
 
 /** Without a message for so long there is no connection, also where the socket seems open. */
 export const kLost_s = 2;

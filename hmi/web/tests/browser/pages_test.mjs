@@ -50,10 +50,17 @@ async function badWords(panel) {
   }));
 }
 
-async function walk(browser, address, { width, height, target }, language, theme) {
+/** A site without a drawing: what maps it, and the map that grows. `say` is what the vehicle says from then on. */
+const mappingPages = [
+  ["mapping-start", null, ".centre > .buttons button >> nth=-1"],
+  ["mapping", null, ".map-tools button >> nth=0", { mapping: true, state: "manual", cause: { code: "mapping", values: {}, text: "x" }, remedy: { code: "drive-to-map", values: {}, text: "x" } }],
+];
+
+async function walk(browser, address, { width, height, target }, language, theme, walked = pages) {
   const panel = await openPanel(browser, address, { width, height, language, theme });
   const problems = [];
-  for (const [name, entry, part] of pages) {
+  for (const [name, entry, part, say] of walked) {
+    if (say) vehicle.say(say);
     if (entry) await panel.page.locator(entry).tap();
     await panel.page.locator(part).tap();
     const where = `${name}, ${width}x${height}, ${language}, ${theme}`;
@@ -83,8 +90,16 @@ try {
     ...(await walk(browser, vehicle.address, kSizes[2], "de", "dark")),
     ...(await walk(browser, vehicle.address, kSizes[2], "ja", "light")),
   ];
+  const site = await (await fetch(`${vehicle.address}api/site`)).json();
+  const sensors = ["vlp16", "lms1xx", "s300"].map((type) => ({ name: type, type, x_m: 0.3, y_m: 0, z_m: 1.2, yaw_deg: 0 }));
+  vehicle.answer("/api/site", { ...site, drawing: null, scale: null, sensors: [] });
+  vehicle.answer("/api/mapping", { state: "mapping", driven_m: 34, scans: 900, keyframes: 120, loops: 3, dropped: 0, problem: { code: "mapping-lost", values: {}, text: "x" }, revision: 1, walls: [[0, 0, 8, 0]], vehicle: site.vehicle, sensors: sensors.slice(0, 1), kinds: sensors });
+  for (const [size, language, theme] of [[0, "en", "light"], [1, "ja", "dark"], [1, "de", "light"], [2, "de", "dark"]]) {
+    vehicle.say({});
+    problems.push(...(await walk(browser, vehicle.address, kSizes[size], language, theme, mappingPages)));
+  }
   expect(problems.length === 0, problems.join("\n"));
-  console.log(`${pages.length} pages, three sizes, two themes, three languages: nothing found`);
+  console.log(`${pages.length + mappingPages.length} pages, three sizes, two themes, three languages: nothing found`);
 } catch (error) {
   console.error(String(error));
   process.exitCode = 1;

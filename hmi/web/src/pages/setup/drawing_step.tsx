@@ -16,6 +16,7 @@ import { attempt } from "../../ui/toast";
 import { Tool } from "../../ui/tool";
 import { AnotherDrawing, type Revised } from "./another_drawing";
 import { JobCard } from "./job_card";
+import { MappingStart } from "./mapping_start";
 import { RevisionView } from "./revision_view";
 import { Upload } from "./upload";
 import { useEdit } from "./use_edit";
@@ -136,6 +137,7 @@ export function DrawingStep(props: StepProps) {
   const [job, setJob] = useState<Job | null>(null);
   const [working, setWorking] = useState(false);
   const [revised, setRevised] = useState<Revised | null>(null);
+  const [mapping, setMapping] = useState(false);
   const done = (finished: Job) => {
     setJob(finished);
     changed();
@@ -149,12 +151,16 @@ export function DrawingStep(props: StepProps) {
     if (taken) changed();
   };
   if (working) return <div class="centre"><JobCard kind="import" done={done} ended={() => setWorking(false)} /></div>;
+  if (!site.drawing && mapping) return <MappingStart close={() => setMapping(false)} />;
   if (!site.drawing) {
     return (
       <div class="centre">
         <h2>{t("drawing.none")}</h2>
         <Upload send={send} />
-        <div class="buttons"><Restore over={false} done={changed} /></div>
+        <div class="buttons">
+          <Restore over={false} done={changed} />
+          <Tool icon="hand" label={t("mapping.offer")} onClick={() => setMapping(true)} />
+        </div>
       </div>
     );
   }

@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { api } from "../../api";
+import { api, Refused } from "../../api";
 import type { Finding, Routes, Site, Walls } from "../../api_types";
 import { useText } from "../../i18n";
 import type { FactoryMap } from "../../map/factory_map";
@@ -7,14 +7,16 @@ import type { XY } from "../../map/geometry";
 import { MapView } from "../../map/map_view";
 import { pickOn } from "../../map/pick";
 import { EditBar } from "../../ui/edit_bar";
+import { attempt } from "../../ui/toast";
 import { Tool } from "../../ui/tool";
 import { CsvCard } from "./csv_card";
 import { Findings } from "./findings";
 import { NodeCard, type NodeTool } from "./node_card";
 import { draw, faultyOf, headingTo, nodeAt, update, type RoutePlan } from "./route_edit";
-import { useEdit } from "./use_edit";
+import { useEdit, type Edit } from "./use_edit";
 
 const kReach_px = 28;
+const kWorthTeaching_m = 1;
 
 function useRoutes(site: Site, routes: Routes) {
   return useEdit<RoutePlan>({
@@ -41,8 +43,27 @@ function useChecks(plan: RoutePlan, first: readonly Finding[]): readonly Finding
   return findings;
 }
 
+/** The way driven by hand as a draft: `length_m` of it, and what puts it into the plan. */
+function useTeaching(edit: Edit<RoutePlan>, atOnce: boolean) {
+  const [length_m, setLength] = useState(0);
+  const now = useRef(edit);
+  now.current = edit;
+  const teach = () =>
+    void attempt(async () => {
+      const way = await api.drivenWay();
+      if (way.length_m < kWorthTeaching_m) throw new Refused(0, "way-too-short", "the way driven by hand is shorter than a metre");
+      const { nodes, legs } = await api.teachRoutes({ revision: "", ...now.current.value });
+      now.current.change({ nodes, legs });
+    });
+  useEffect(() => {
+    void api.drivenWay().then((way) => setLength(way.length_m), () => undefined);
+    if (atOnce) teach();
+  }, []);
+  return { length_m, teach };
+}
+
 /** Step 3: routes drawn with a finger, checked while they are drawn. */
-export function RoutesStep({ site, walls, routes, changed, next }: { site: Site; walls: Walls; routes: Routes; changed: () => void; next: () => void }) {
+export function RoutesStep({ site, walls, routes, teach = false, changed, next }: { site: Site; walls: Walls; routes: Routes; teach?: boolean; changed: () => void; next: () => void }) {
   const t = useText();
   const [drawing, setDrawing] = useState(true);
   const [chosen, setChosen] = useState<number | null>(null);
@@ -51,6 +72,7 @@ export function RoutesStep({ site, walls, routes, changed, next }: { site: Site;
   const edit = useRoutes(site, routes);
   const plan = edit.value;
   const findings = useChecks(plan, routes.findings);
+  const taught = useTeaching(edit, teach);
   const now = useRef({ drawing, chosen, tool, edit });
   now.current = { drawing, chosen, tool, edit };
   useEffect(() => {
@@ -98,6 +120,7 @@ export function RoutesStep({ site, walls, routes, changed, next }: { site: Site;
           <div class="buttons" role="group" aria-label={t("routes.tools")}>
             <Tool icon="pen" label={t("routes.add")} pressed={drawing} onClick={() => lift(true)} />
             <Tool icon="select" label={t("routes.select")} pressed={!drawing} onClick={() => lift(false)} />
+            {taught.length_m >= kWorthTeaching_m && <Tool icon="drive" label={t("routes.teach", { length: taught.length_m.toFixed(0) })} onClick={taught.teach} />}
           </div>
         )}
         {!node && <p class="quiet">{t(!drawing ? "routes.hint.select" : plan.nodes.length < 4 ? "routes.hint" : "routes.hint.short")}</p>}

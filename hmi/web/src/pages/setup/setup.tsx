@@ -1,13 +1,14 @@
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { api } from "../../api";
 import type { Routes, Setup, Site, Walls } from "../../api_types";
 import { noticeText, useText } from "../../i18n";
 import { live } from "../../live/live_socket";
-import { usePolled, useStore } from "../../store";
+import { usePolled, useSelected, useStore } from "../../store";
 import { Icon } from "../../ui/icon";
 import { Watch } from "../../ui/watch";
 import { DrawingStep } from "./drawing_step";
 import { LocateStep } from "./locate_step";
+import { MappingPage } from "./mapping_page";
 import { RoutesStep } from "./routes_step";
 import { ScaleStep } from "./scale_step";
 import { VehicleStep } from "./vehicle_step";
@@ -56,17 +57,25 @@ interface Props {
   /** loads the site anew; the next step begins with what has come. False where nothing came. */
   changed: () => Promise<boolean>;
   finished: () => void;
+  /** the way just driven shall become routes */
+  teach?: boolean;
 }
 
 /** The five steps; they can be left and resumed, also on another panel. */
-export function SetupPage({ site, walls, routes, changed, finished }: Props) {
+export function SetupPage({ site, walls, routes, changed, finished, teach = false }: Props) {
   const t = useText();
-  const [step, setStep] = useState<Step>(firstOpen(site, routes));
+  const [step, setStep] = useState<Step>(teach ? "routes" : firstOpen(site, routes));
+  const wasMapping = useRef(false);
   const { value: setup } = usePolled(api.setup, 2000);
   const locked = useStore(live.newest)?.live.locked;
+  const mapping = useSelected(live.newest, (frame) => frame?.live.mapping ?? false);
+  const open = firstOpen(site, routes);
+  useEffect(() => setStep((old) => (old === "drawing" && open !== "drawing" && wasMapping.current ? open : old)), [open]);
+  wasMapping.current ||= mapping;
   const next = () => setStep(steps[steps.indexOf(step) + 1] ?? "locate");
   /** Not at once: the next step would begin on what was before, and a quick touch go there. */
   const saved = () => void changed().then((came) => came && next());
+  if (mapping && !site.drawing) return <MappingPage />;
   return (
     <main class="page">
       <StepBar shown={step} site={site} setup={setup} choose={setStep} />
@@ -74,7 +83,7 @@ export function SetupPage({ site, walls, routes, changed, finished }: Props) {
       <div class="with-map step" key={step}>
         {step === "drawing" && <DrawingStep site={site} walls={walls} routes={routes} changed={() => void changed()} next={saved} />}
         {step === "scale" && <ScaleStep key={site.scale?.m_per_px} site={site} walls={walls} next={next} saved={saved} />}
-        {step === "routes" && <RoutesStep key={site.scale?.m_per_px} site={site} walls={walls} routes={routes} changed={() => void changed()} next={saved} />}
+        {step === "routes" && <RoutesStep key={site.scale?.m_per_px} site={site} walls={walls} routes={routes} teach={teach} changed={() => void changed()} next={saved} />}
         {step === "vehicle" && <VehicleStep site={site} next={saved} />}
         {step === "locate" && <LocateStep key={walls.revision} site={site} walls={walls} finished={finished} />}
       </div>

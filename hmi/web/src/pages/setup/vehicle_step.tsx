@@ -61,7 +61,23 @@ function Found({ plan, use }: { plan: Plan; use: (sensor: SensorInfo) => void })
   );
 }
 
-function Mounted({ sensor, change, remove }: { sensor: SensorInfo; change: (next: SensorInfo) => void; remove: () => void }) {
+/** The numbers of the vehicle. */
+export function Shape({ vehicle, change }: { vehicle: VehicleInfo; change: (next: VehicleInfo) => void }) {
+  const t = useText();
+  return (
+    <>
+      <h2>{t("vehicle.shape")}</h2>
+      <div class="buttons">
+        {dimensions.map(([key, least, most, unit]) => (
+          <NumberField key={key} label={t(`vehicle.${key}`)} value={vehicle[key]} unit={unit} least={least} most={most}
+            change={(value) => value !== null && change({ ...vehicle, [key]: value })} />
+        ))}
+      </div>
+    </>
+  );
+}
+
+export function Mounted({ sensor, change, remove }: { sensor: SensorInfo; change: (next: SensorInfo) => void; remove: () => void }) {
   const t = useText();
   return (
     <section class="mounted">
@@ -99,13 +115,7 @@ export function VehicleStep({ site, next }: { site: Site; next: () => void }) {
         <Found plan={plan} use={(sensor) => edit.change({ ...plan, sensors: [...plan.sensors, sensor] })} />
         {more && (
           <>
-            <h2>{t("vehicle.shape")}</h2>
-            <div class="buttons">
-              {dimensions.map(([key, least, most, unit]) => (
-                <NumberField key={key} label={t(`vehicle.${key}`)} value={plan.vehicle[key]} unit={unit} least={least} most={most}
-                  change={(value) => value !== null && edit.change({ ...plan, vehicle: { ...plan.vehicle, [key]: value } })} />
-              ))}
-            </div>
+            <Shape vehicle={plan.vehicle} change={(vehicle) => edit.change({ ...plan, vehicle })} />
             <h2>{t("vehicle.routes")}</h2>
             <div class="buttons">
               {metrics.map((metric) => (
