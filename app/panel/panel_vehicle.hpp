@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/braking/braking_desk.hpp"
 #include "app/camera/camera_capture.hpp"
 #include "app/panel/jog_bar.hpp"
 #include "app/panel/live_copy.hpp"
@@ -41,6 +42,8 @@ class PanelVehicle final : public hmi::Vehicle {
   hmi::Reply set_pose(const Transform2<Map, Base>& map_from_base) override;
   hmi::Reply insist_on_pose(const Transform2<Map, Base>& map_from_base) override;
   hmi::Reply report(const std::string& text) override;
+  hmi::Reply start_braking_test(bool loaded) override;
+  [[nodiscard]] hmi::BrakingView braking() const override;
   [[nodiscard]] std::vector<hmi::FoundDevice> found_devices() const override;
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const override;
   [[nodiscard]] hmi::StatisticsView statistics() const override;
@@ -50,12 +53,15 @@ class PanelVehicle final : public hmi::Vehicle {
   void reload_site() override { run_.reload(); }
 
  private:
+  [[nodiscard]] hmi::Reply not_drivable() const;
+
   SiteRun& run_;
   SocketOptions devices_;
   LiveCopy copy_;
   PanelOrders orders_;
   WorkMeter meter_;
   JogBar jogging_;
+  BrakingDesk braking_;
   std::optional<CameraCapture> camera_;
 };
 

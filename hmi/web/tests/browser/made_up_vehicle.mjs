@@ -115,6 +115,7 @@ const answers = {
     m_per_px: kScale, relative_uncertainty: 0.003, residuals: [{ label: "1", residual_m: 0.012, outlier: false }], verdict: "good", text: "", mirrored: false, applied: false,
     method: "known", georeference: null, overlay: null, disagreements: [], reason: { code: "scale-good", values: {}, text: "good" }, notes: [],
   }),
+  "/api/vehicle/braking": () => ({ running: false, stops_now: 0, stops_wanted: 3, way_m: 4.3, trouble: none, stops: [], verdict: null }),
   "/api/devices": () => [{ type: "vlp16", address: "udp 2368", heard: true, detail: none, sensor: lidar }, { type: "drive", address: "/dev/ttyUSB0", heard: true, detail: none, sensor: null }, { type: "s300", address: "/dev/ttyUSB1", heard: false, detail: none, sensor: null }],
   "/api/locate": () => ({ state: "ambiguous", hypotheses: [{ ...poseAt(0), score: 0.91 }, { x: 14, y: 12, yaw: 1, score: 0.47 }] }),
   "/api/orders": () => [order(7, "running", [0, 3], 5), order(8, "queued", [4]), order(9, "queued", [3, 0])],
