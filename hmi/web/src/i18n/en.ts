@@ -376,6 +376,7 @@ export const en = {
   "cause.height-unseen": "No lidar sees whether the door or lift ahead is open high enough",
   "cause.lidar-blind": "The lidar sees nothing any more in a direction ahead",
   "cause.left-wheel-disobeys": "The left wheel ran at {turned} m/s and was told {asked} m/s",
+  "cause.too-long-for-way": "The vehicle does not get to point {node}: a drawn wall stands where it turns.",
   "cause.right-wheel-disobeys": "The right wheel ran at {turned} m/s and was told {asked} m/s",
   "cause.time-gap": "The program stood still, or the computer's clock jumped",
 
@@ -466,6 +467,8 @@ export const en = {
   "finding.repeated-neighbour": "neighbour {node} stands twice: counted once",
   "finding.repeated-row": "point {node} stands already on line {earlier}: join the two lines",
   "finding.through-wall": "The leg {from} → {to} goes through a drawn wall. Move a point or erase the wall.",
+  "finding.tight-corner": "A vehicle of {length} m does not get round point {node} from {from} to {to}: a drawn wall is in its way. Move the point, or use a shorter vehicle.",
+  "finding.no-turn-about": "A vehicle of {length} m cannot turn about at point {node}: a drawn wall is in its way.",
   "finding.narrow-at-wall": "The leg {from} → {to} passes a drawn wall at {distance} m, less than half the vehicle's width of {half} m.",
   "finding.no-way-back": "From point {node} no way leads back to the others.",
   "finding.out-of-reach": "Point {node} cannot be reached from the others.",

@@ -377,6 +377,7 @@ export const ja: Record<TextKey, string> = {
   "cause.height-unseen": "前方の扉または昇降機が十分な高さまで開いているか、ライダーでは見えません",
   "cause.lidar-blind": "前方のある方向がライダーから見えなくなりました",
   "cause.left-wheel-disobeys": "左の車輪が指示どおりに回りませんでした（指示 {asked} m/s、実際 {turned} m/s）",
+  "cause.too-long-for-way": "点{node}へ行けません：曲がる場所に図面の壁があります。",
   "cause.right-wheel-disobeys": "右の車輪が指示どおりに回りませんでした（指示 {asked} m/s、実際 {turned} m/s）",
   "cause.time-gap": "プログラムが停止していたか、コンピュータの時計が飛びました",
 
@@ -467,6 +468,8 @@ export const ja: Record<TextKey, string> = {
   "finding.repeated-neighbour": "隣の点 {node} が二度あります。一度と数えました",
   "finding.repeated-row": "点 {node} は {earlier} 行目にもあります。一行にまとめてください",
   "finding.through-wall": "区間 {from} → {to} が図面の壁を通り抜けています。点を動かすか壁を消してください。",
+  "finding.tight-corner": "全長{length} mの車両は、{from}から{to}へ点{node}を曲がれません（図面の壁）。点を動かすか、短い車両を使ってください。",
+  "finding.no-turn-about": "全長{length} mの車両は、点{node}で向きを変えられません（図面の壁）。",
   "finding.narrow-at-wall": "区間 {from} → {to} は壁まで {distance} m で、車幅の半分 {half} m より近くを通ります。",
   "finding.no-way-back": "点 {node} からほかの点へ戻る道がありません。",
   "finding.out-of-reach": "点 {node} へはほかの点から行けません。",
