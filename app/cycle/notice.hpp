@@ -56,6 +56,7 @@ enum class Cause : std::uint8_t {
   LidarBlind,
   LeftWheelDisobeys,
   RightWheelDisobeys,
+  TooLongForWay,
 };
 
 /// What a person can do about it.
@@ -121,6 +122,8 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"lidar-blind", "the lidar sees nothing any more in a direction ahead"},
     CatalogueEntry{"left-wheel-disobeys", "the left wheel ran at {turned} m/s and was told {asked} m/s"},
     CatalogueEntry{"right-wheel-disobeys", "the right wheel ran at {turned} m/s and was told {asked} m/s"},
+    CatalogueEntry{"too-long-for-way",
+                   "the vehicle does not get to node {node}: a drawn wall stands where it turns"},
 };
 
 inline constexpr std::array kRemedies{

@@ -19,4 +19,7 @@ struct SiteForDriving {
 /// scale, no routes, no lidar that can be driven by.
 [[nodiscard]] SiteForDriving load_for_driving(const std::filesystem::path& folder);
 
+/// Other routes for a configuration whose walls and vehicle are known.
+void take_routes(planning::RouteGraph routes, CycleConfig& config);
+
 }  // namespace madori::app

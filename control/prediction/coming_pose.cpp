@@ -14,6 +14,8 @@ Transform2<Base, Base> arc(const VelocityCommand& v, double time_s) {
   return {chord_m * std::cos(half_turn), chord_m * std::sin(half_turn), 2.0 * half_turn};
 }
 
+constexpr double kOldestPoseS = 0.5;  ///< an older pose is of a drive that is silent, or was never heard
+
 double towards(double now, double wanted, double most) {
   return now + std::clamp(wanted - now, -most, most);
 }
@@ -21,7 +23,6 @@ double towards(double now, double wanted, double most) {
 }  // namespace
 
 void SentCommands::add(Stamp at, const VelocityCommand& command, const WheelResponse& response) {
-  constexpr double kOldestPoseS = 0.5;  ///< the measured pose may be so old
   sent_.push_back({at, command});
   const Stamp obeyed = at - duration_from_seconds(response.reaction_s + kOldestPoseS);
   while (sent_.size() > 1 && (*(sent_.begin() + 1)).at <= obeyed) sent_.pop_front();
@@ -35,7 +36,8 @@ Transform2<Base, Base> SentCommands::way_until_obeyed(Stamp measured, const Velo
   Transform2<Base, Base> way;
   VelocityCommand v = velocity;
   auto obeyed = sent_.begin();
-  for (Stamp t = measured; t < now + reaction && !sent_.empty();) {
+  for (Stamp t = std::max(measured, now - duration_from_seconds(kOldestPoseS));
+       t < now + reaction && !sent_.empty();) {
     const Stamp end = std::min(t + step, now + reaction);
     const double dt_s = to_seconds(end - t);
     while (obeyed + 1 != sent_.end() && (obeyed + 1)->at + reaction <= t) ++obeyed;

@@ -50,6 +50,14 @@ void check_walls(const RouteGraph& graph, const std::vector<Segment2<Map>>& wall
   }
 }
 
+/// Whether a wall stands nearer to the way between two nodes than half the vehicle: check_walls says so.
+bool is_said_of_leg(const RouteGraph& graph, std::size_t from, std::size_t to,
+                    const std::vector<Segment2<Map>>& walls, const RouteCheckOptions& options) {
+  const Segment2<Map> way{graph.nodes()[from].position, graph.nodes()[to].position};
+  return std::ranges::any_of(
+      walls, [&](const auto& wall) { return distance_m(way, wall) < options.vehicle.half_width_m; });
+}
+
 /// Each node once, however many ways lead round it.
 void check_corners(const RouteGraph& graph, const std::vector<Segment2<Map>>& walls,
                    const RouteCheckOptions& options, std::vector<RouteFinding>& findings) {
@@ -57,6 +65,9 @@ void check_corners(const RouteGraph& graph, const std::vector<Segment2<Map>>& wa
   for (const TightCorner& corner : tight_corners(graph, WallGrid(walls), options.vehicle)) {
     const bool about = corner.from == corner.to;
     const RouteNode& node = graph.nodes()[corner.node];
+    if (is_said_of_leg(graph, corner.from, corner.node, walls, options) ||
+        is_said_of_leg(graph, corner.node, corner.to, walls, options))
+      continue;
     if (!said.insert({corner.node, about}).second) continue;
     std::map<std::string, std::string> values{
         {"node", id_of(graph, corner.node)},

@@ -70,6 +70,12 @@ TEST(ComingPose, NothingSentIsNoWay) {
   EXPECT_EQ(way.yaw_rad(), 0.0);
 }
 
+TEST(ComingPose, ADriveThatWasNeverHeardIsNotFollowedSinceTheEpoch) {
+  SentCommands sent;
+  sent.add(at_step(0), {}, {});
+  EXPECT_EQ(sent.way_until_obeyed(Stamp{}, {}, at_step(1), {}).x_m(), 0.0);
+}
+
 TEST(ComingPose, RemembersNoMoreThanMatters) {
   SentCommands sent;
   for (int i = 0; i < 10'000; ++i) sent.add(at_step(i), {0.1, 0.0}, {});

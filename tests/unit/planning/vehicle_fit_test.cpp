@@ -14,7 +14,9 @@ namespace {
 struct Aisle {
   explicit Aisle(double width_m) {
     const double h = width_m / 2.0;
-    walls = {{{-3, -h}, {8 + h, -h}},    {{8 + h, -h}, {8 + h, 11}}, {{-3, h}, {8 - h, h}},
+    walls = {{{-3, -h}, {8 + h, -h}},
+             {{8 + h, -h}, {8 + h, 11}},
+             {{-3, h}, {8 - h, h}},
              {{8 - h, h}, {8 - h, 11}}};
   }
   [[nodiscard]] std::vector<TightCorner> tight(const VehicleOutline& vehicle) const {
@@ -32,8 +34,11 @@ TEST(VehicleFit, ALongVehicleDoesNotGetRoundANarrowCorner) {
   const auto found = Aisle(1.6).tight(kLong);
   const auto corners = std::ranges::count_if(found, [](const auto& c) { return c.from != c.to; });
   EXPECT_EQ(corners, 2) << "both ways round";
-  for (const auto& corner : found)
-    if (corner.from != corner.to) EXPECT_EQ(corner.node, 1U);
+  for (const auto& corner : found) {
+    if (corner.from != corner.to) {
+      EXPECT_EQ(corner.node, 1U);
+    }
+  }
 }
 
 TEST(VehicleFit, WideAislesAndShortVehiclesAreFree) {
@@ -45,8 +50,7 @@ TEST(VehicleFit, WideAislesAndShortVehiclesAreFree) {
 TEST(VehicleFit, ADeadEndInWhichItCannotTurnAboutIsFound) {
   const auto found = Aisle(1.6).tight({0.9, 0.1, 0.3, 0.8});
   for (const std::size_t end : {0U, 2U})
-    EXPECT_TRUE(std::ranges::any_of(
-        found, [&](const auto& c) { return c.node == end && c.from == c.to; }))
+    EXPECT_TRUE(std::ranges::any_of(found, [&](const auto& c) { return c.node == end && c.from == c.to; }))
         << end;
 }
 
