@@ -11,6 +11,7 @@ struct SocketOptions;
 /// The options that name the vehicle's devices, the same for every command.
 void add_device_options(CLI::App& command, SocketOptions& devices);
 
+void add_braking_test(CLI::App& app);
 void add_demo(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_landmarks(CLI::App& app);

@@ -37,6 +37,7 @@ std::string on_one_line(std::string text) {
 int main(int argc, char** argv) {
   CLI::App app("Madori: a factory vehicle drives from the drawing of the factory", "madori");
   app.require_subcommand(1);
+  madori::app::add_braking_test(app);
   madori::app::add_demo(app);
   madori::app::add_evaluate(app);
   madori::app::add_landmarks(app);

@@ -17,6 +17,7 @@
 #include "planning/route_graph/route_check.hpp"
 #include "planning/route_graph/route_csv.hpp"
 #include "planning/route_graph/route_search.hpp"
+#include "planning/route_graph/vehicle_fit.hpp"
 
 namespace madori::app {
 namespace {
@@ -68,7 +69,7 @@ void check(const RouteArguments& arguments, const planning::ParsedRoutes& routes
   options.path_file = (folder / "routes/path.csv").string();
   std::vector<Segment2<Map>> walls;
   if (fs::exists(folder / "site.yaml")) {
-    options.half_width_m = mapping::load_scaled_site(folder).vehicle.width_m / 2.0;
+    options.vehicle = planning::outline_of(mapping::load_scaled_site(folder).vehicle);
     for (const auto& wall : mapping::load_walls(folder / "walls.csv")) walls.push_back(wall.segment);
     if (walls.empty())
       throw Error((folder / "walls.csv").string(), "holds no wall to check the routes against",

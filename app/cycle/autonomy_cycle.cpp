@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/cycle/recoveries.hpp"
 #include "app/cycle/stages.hpp"
 #include "core/fill_in.hpp"
 
@@ -33,6 +34,7 @@ bool enables(CycleState& state, bool may_move) {
 void begin_gap(CycleState& state, double seconds, CycleOutput& output) {
   state.gap = state.previous;
   state.limits = {};
+  state.sent.clear();
   state.jog = {};
   output.events.push_back(fill_in(kTimeGapEvent.english, {{"seconds", two_decimals(seconds)}}));
 }
@@ -42,7 +44,7 @@ VelocityCommand wanted_command(CycleState& state, const CycleInput& input, const
   if (state.mode == Mode::Manual)
     return to_seconds(input.now - state.jog_heard) <= config.jog_timeout_s ? state.jog : VelocityCommand{};
   if (!drives(state.mode)) return {};
-  Pursued pursued = pursue_way(state, config);
+  Pursued pursued = pursue_way(state, input, config);
   state.progress = pursued.progress;
   if (state.progress.status == control::PursuitStatus::Arrived) arrive(state, input.now);
   return pursued.command;
@@ -53,18 +55,16 @@ void command_drive(CycleState& state, const VelocityCommand& wanted, const Cycle
                    const CycleConfig& config, CycleOutput& output) {
   const bool by_hand = state.mode == Mode::Manual;
   const bool may_move = (drives(state.mode) || by_hand) && !forbidding_rule(state, input, config, by_hand);
-  const double ahead_m =
-      drives(state.mode) ? state.ahead.stop_along_m - state.progress.along_m : planning::PathCheck::kFree;
-  const double free_m = std::min(config.sure_range_m, ahead_m);
-  const auto limited = control::limit(state.limits,
-                                      {.requested = wanted,
-                                       .may_move = may_move,
-                                       .speed_cap_mps = config.check.braking.speed_within(free_m),
-                                       .step_s = step_s},
-                                      config.limits);
+  const double cap_mps = drives(state.mode) ? allowed_mps(state, input, config)
+                                            : config.check.braking.speed_within(config.sure_range_m);
+  const auto limited = control::limit(
+      state.limits, {.requested = wanted, .may_move = may_move, .speed_cap_mps = cap_mps, .step_s = step_s},
+      config.limits);
   state.limits = limited.state;
   output.command = limited.command;
   output.enable = enables(state, may_move);
+  const bool obeys = output.enable && state.drive.state == control::wire::DriveState::Running;
+  state.sent.add(input.now, obeys ? output.command : VelocityCommand{}, config.response);
 }
 
 /// Why it stands, where it does; said once.
@@ -87,11 +87,13 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   state.previous = input.now;
   if (step_s > config.gap_s) begin_gap(state, step_s, output);
   localize(state, input, config, output);  // wheel angles and revolutions -> map_from_base, bodies, movers
+  foresee(state, input.now, config);       // pose, commands on their way -> command_pose
   remember_trail(state, input.now);
   watch_wheels(state, config);                 // told, but not done: a wheel disobeys
   watch_effort(state, input, config, output);  // driven, but not moved: something holds the vehicle
   navigate(state, input, config, output);      // order -> errand -> route -> way
   check_way(state, input, config, output);     // way against bodies and drawing -> ahead, block
+  recover(state, input, config, output);       // where the way is not free: what is due of the table
   change_mode(state, input, config, output);   // what happened -> what the vehicle is about
   const VelocityCommand wanted = wanted_command(state, input, config);  // way, ahead -> progress, command
   const VelocityCommand safe = guarded(state, wanted, config);          // it leads into nothing

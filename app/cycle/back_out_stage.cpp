@@ -9,8 +9,7 @@ namespace madori::app {
 namespace {
 
 constexpr std::size_t kLongestTrail = 40;
-constexpr int kMostBackOuts = 2;  ///< on one route
-constexpr double kStepM = 0.1;    ///< between the points of a way back, and between lengths that are tried
+constexpr double kTrailStepM = 0.1;  ///< between the points of a way back, and between lengths that are tried
 
 /// Where the vehicle came from, up to a turn on the spot or the end of what is remembered. Headings are those
 /// of the way, not of the vehicle.
@@ -28,7 +27,7 @@ std::optional<Path> way_back(const CycleState& state, const CycleConfig& config)
   for (std::size_t i = state.trail.size(); i-- > 0 && length_m < config.back_out_m;) {
     const Transform2<Map, Base>& pose = state.trail[i];
     const double step_m = distance_m(pose.translation(), last.translation());
-    if (step_m < kStepM) continue;
+    if (step_m < kTrailStepM) continue;
     const double direction = std::atan2(pose.y_m() - last.y_m(), pose.x_m() - last.x_m());
     if (std::abs(wrap_angle(direction - pose.yaw_rad() - kPi)) > kStraightRad) break;
     length_m += step_m;
@@ -43,9 +42,9 @@ std::optional<Path> way_back(const CycleState& state, const CycleConfig& config)
 Path straight_back(const CycleState& state, double length_m, const CycleConfig& config) {
   const Transform2<Map, Base>& here = state.pose.map_from_base;
   Path path;
-  const int steps = static_cast<int>(std::lround(length_m / kStepM));
+  const int steps = static_cast<int>(std::lround(length_m / kTrailStepM));
   for (int i = 0; i <= steps; ++i)
-    path.points.push_back({here * Point2<Base>{-kStepM * i, 0.0}, wrap_angle(here.yaw_rad() + kPi), 0.0,
+    path.points.push_back({here * Point2<Base>{-kTrailStepM * i, 0.0}, wrap_angle(here.yaw_rad() + kPi), 0.0,
                            config.back_out_mps, true});
   return path;
 }
@@ -73,21 +72,9 @@ std::optional<Path> free_way_back(CycleState& state, const CycleConfig& config) 
   const auto is_free = [&](const Path& path) { return is_free_behind(state, path, obstacles, config); };
   auto came = state.errand.backing_held ? std::nullopt : way_back(state, config);
   if (came && is_free(*came)) return came;
-  for (double length_m = config.back_out_m; length_m > kShortestM - 1e-6; length_m -= kStepM)
+  for (double length_m = config.back_out_m; length_m > kShortestM - 1e-6; length_m -= kTrailStepM)
     if (Path path = straight_back(state, length_m, config); is_free(path)) return path;
   return std::nullopt;
-}
-
-/// Whether going back may help: it stands too near to something to go around it.
-bool is_wedged(const CycleState& state, const CycleConfig& config) {
-  constexpr double kNearM = 0.6;
-  const bool waits = state.mode == Mode::Waiting && state.block.since && !state.errand.arrived &&
-                     !state.block.by_mover && !state.detour.pending && !state.way.path.empty();
-  const bool near =
-      state.ahead.stop_along_m - state.progress.along_m < kNearM && !state.detour.failed.empty();
-  return waits && !waits_for_door(state, config) &&
-         (state.block.felt || state.ahead.held || !state.ahead.turn_free || state.block.squeeze.share < 1.0 ||
-          near);
 }
 
 }  // namespace
@@ -110,10 +97,8 @@ void remember_trail(CycleState& state, Stamp now) {
   if (state.trail.size() > kLongestTrail) state.trail.pop_front();
 }
 
-void back_out(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
-  const double stood_s = to_seconds(input.now - state.trail_at);
-  const bool due = stood_s > config.back_out_after_s && stood_s < config.trail_fresh_s;
-  if (!due || state.errand.back_outs >= kMostBackOuts || !is_wedged(state, config)) return;
+void back_out(CycleState& state, const CycleInput& /*input*/, const CycleConfig& config,
+              CycleOutput& output) {
   const auto path = free_way_back(state, config);
   if (!path) return;
   output.events.emplace_back("no way from here: going back the way it came, to have room");

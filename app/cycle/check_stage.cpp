@@ -9,8 +9,6 @@
 namespace madori::app {
 namespace {
 
-constexpr double kDetourWithinM = 4.0;  ///< what is further away may be gone when the vehicle gets there
-
 /// What crosses the way, Map frame.
 std::vector<planning::Mover<Map>>& movers_on_map(CycleState& state) {
   const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
@@ -29,7 +27,7 @@ bool may_turn(const CycleState& state, const CycleConfig& config) {
   if (state.progress.pursuit.begun) return state.progress.pursuit.turning;
   if (state.way.path.empty()) return false;
   const double off_rad =
-      wrap_angle(state.way.path.points().front().facing_rad() - state.pose.map_from_base.yaw_rad());
+      wrap_angle(state.way.path.points().front().facing_rad() - state.command_pose.yaw_rad());
   return std::abs(off_rad) > config.pursuit.turn_first_rad;
 }
 
@@ -40,9 +38,9 @@ bool turn_is_free(CycleState& state, const std::vector<Point2<Map>>& obstacles,
   if (state.progress.pursuit.piece >= state.way.path.pieces().size()) return true;
   const PathPoint& next =
       state.way.path.points()[state.way.path.pieces()[state.progress.pursuit.piece].first];
-  const Point2<Map> here = state.pose.map_from_base.translation();
+  const Point2<Map> here = state.command_pose.translation();
   Path& turn = state.bench.turn;
-  turn.points.assign(2, PathPoint{here, state.pose.map_from_base.yaw_rad()});
+  turn.points.assign(2, PathPoint{here, state.command_pose.yaw_rad()});
   turn.points.back().heading_rad = next.facing_rad();
   return !state.bench.checker.check(turn, 1, 0.0, obstacles, kNoWalls, margins).blocked();
 }
@@ -84,7 +82,6 @@ planning::Squeeze squeeze_here(CycleState& state, const std::vector<Point2<Map>>
   const bool squeezes = state.block.squeeze.share < 1.0;
   const bool stands = state.mode == Mode::Waiting && state.block.since && !state.block.by_mover &&
                       to_seconds(now - *state.block.since) > config.squeeze_after_s;
-  if (!squeezes && !stands) return {};
   if (passes_with({squeezes ? kAllAgain : 1.0, 0.0})) return {};
   if (!stands) return state.block.squeeze;
   if (passes_with({kHalf, 0.0})) return {kHalf, 0.0};
@@ -147,33 +144,9 @@ void note_blocked(CycleState& state, Stamp now, double clear_for_s) {
   }
 }
 
-void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& config,
-                    const std::vector<Point2<Map>>& obstacles, CycleOutput& output) {
-  const bool stuck = !state.ahead.turn_free || state.ahead.held;
-  const bool due = (state.ahead.check.blocked() || stuck) && !state.way.backing && !state.block.by_mover &&
-                   state.block.since && !state.detour.pending &&
-                   to_seconds(input.now - *state.block.since) >= config.detour_after_s &&
-                   to_seconds(input.now - state.detour.asked) >= config.detour_again_s;
-  const bool near = stuck || state.ahead.stop_along_m - state.progress.along_m < kDetourWithinM;
-  const bool going = drives(state.mode) || state.mode == Mode::Waiting;
-  if (!due || !near || !going || waits_for_door(state, config)) return;
-  state.detour.asked = input.now;
-  state.detour.pending = true;
-  ++state.detour.id;
-  planning::PathCheck check = state.ahead.check;
-  if (!check.blocked()) check.first_blocked = check.last_blocked = state.progress.pursuit.index;
-  const auto goal = state.site->routes().index_of(state.errand.stop.node);
-  const bool any_end_heading = goal && !state.site->routes().nodes()[*goal].heading_rad;
-  output.detour_wanted = planning::DetourRequest{
-      state.detour.id, state.way.plain,    state.progress.pursuit.index, state.pose.map_from_base,
-      check,           obstacles,          state.block.squeeze,          any_end_heading,
-      !stuck,          state.site->walls()};
-}
-
 void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
                  const CycleConfig& config) {
   const std::size_t from = std::min(state.progress.pursuit.index, state.way.plain.points.size() - 1);
-  state.block.squeeze = squeeze_here(state, obstacles, now, config);
   const auto margins = planning::with_margins(config.check, state.block.squeeze);
   state.ahead.check = state.bench.checker.check(state.way.plain, from, config.look_ahead_m, obstacles,
                                                 *state.site->walls(), margins);
@@ -209,18 +182,18 @@ void check_behind(CycleState& state, Stamp now, const CycleConfig& config) {
 
 /// Whether what the vehicle would do next is not to be done: it leads into something beside the path. A
 /// moment's shape of the noise does not count.
-void note_held(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
+void note_held(CycleState& state, const std::vector<Point2<Map>>& obstacles, const CycleInput& input,
                const CycleConfig& config) {
   constexpr double kNothingLeft = 0.12;
   constexpr double kMomentS = 0.25;
   const bool going = drives(state.mode) || state.mode == Mode::Waiting;
-  const VelocityCommand next = going ? pursue_way(state, config).command : VelocityCommand{};
+  const VelocityCommand next = going ? pursue_way(state, input, config).command : VelocityCommand{};
   const double share = share_to_go(state, next, obstacles, config);
   if (share > kNothingLeft)
     state.ahead.held_since.reset();
   else if (!state.ahead.held_since)
-    state.ahead.held_since = now;
-  state.ahead.held = state.ahead.held_since && to_seconds(now - *state.ahead.held_since) >= kMomentS;
+    state.ahead.held_since = input.now;
+  state.ahead.held = state.ahead.held_since && to_seconds(input.now - *state.ahead.held_since) >= kMomentS;
 }
 
 }  // namespace
@@ -256,13 +229,34 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   else
     check_ahead(state, obstacles, input.now, config);
   stop_before_doors(state, config);
-  note_held(state, obstacles, input.now, config);
+  note_held(state, obstacles, input, config);
   if (state.way.backing && state.ahead.held) {
     state.errand.backing_held = true;
     return end_back_out(state);
   }
   note_blocked(state, input.now, config.clear_for_s);
-  ask_for_detour(state, input, config, obstacles, output);
+}
+
+void squeeze(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
+  if (state.way.path.empty() || state.errand.arrived || !output.computed_lidar) return;
+  state.block.squeeze = squeeze_here(state, obstacle_points(state), input.now, config);
+}
+
+void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& /*config*/,
+                    CycleOutput& output) {
+  if (state.way.path.empty() || state.errand.arrived || !output.computed_lidar) return;
+  state.detour.asked = input.now;
+  state.detour.pending = true;
+  ++state.detour.id;
+  const bool stuck = !state.ahead.turn_free || state.ahead.held;
+  planning::PathCheck check = state.ahead.check;
+  if (!check.blocked()) check.first_blocked = check.last_blocked = state.progress.pursuit.index;
+  const auto goal = state.site->routes().index_of(state.errand.stop.node);
+  const bool any_end_heading = goal && !state.site->routes().nodes()[*goal].heading_rad;
+  output.detour_wanted = planning::DetourRequest{
+      state.detour.id, state.way.plain,        state.progress.pursuit.index, state.pose.map_from_base,
+      check,           obstacle_points(state), state.block.squeeze,          any_end_heading,
+      !stuck,          state.site->walls()};
 }
 
 }  // namespace madori::app

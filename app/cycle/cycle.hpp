@@ -17,6 +17,7 @@
 #include "control/diff_drive/odometry.hpp"
 #include "control/drive_link/wire.hpp"
 #include "control/limits/limits.hpp"
+#include "control/prediction/coming_pose.hpp"
 #include "control/pure_pursuit/pure_pursuit.hpp"
 #include "control/wheel_watch/wheel_watch.hpp"
 #include "core/laser_scan.hpp"
@@ -27,6 +28,7 @@
 #include "planning/obstacle_check/moving_objects.hpp"
 #include "planning/obstacle_check/obstacle_field.hpp"
 #include "planning/route_graph/route_search.hpp"
+#include "planning/route_graph/vehicle_fit.hpp"
 #include "planning/waypoints/waypoints.hpp"
 #include "sensors/device_clock.hpp"
 #include "sensors/raw_packet.hpp"
@@ -37,10 +39,12 @@ namespace madori::app {
 struct CycleConfig {
   planning::RouteGraph routes;  ///< as drawn, and so are the walls
   std::shared_ptr<const planning::WallGrid> walls = std::make_shared<const planning::WallGrid>();
+  std::vector<planning::TightCorner> tight_corners;  ///< of the routes, for this vehicle
   control::OdometryOptions odometry;
   control::PursuitOptions pursuit;
   control::LimitOptions limits;
   control::WheelWatchOptions wheel_watch;
+  control::WheelResponse response;
   planning::CheckOptions check;
   planning::GuardOptions guard;
   double sure_range_m =
@@ -176,6 +180,8 @@ struct CycleState {
   std::unique_ptr<PoseSource> localization;
   std::shared_ptr<const SiteInBuilding> site;  ///< routes and walls where they stand
   PoseEstimate pose;
+  control::SentCommands sent;
+  Transform2<Map, Base> command_pose;  ///< where the vehicle will be when it obeys what is sent in this step
   planning::ObstacleField obstacles;
   planning::MovingObjects movers;
   control::wire::Status drive;

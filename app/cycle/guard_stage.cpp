@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "app/cycle/stages.hpp"
 #include "core/angle.hpp"
+#include "planning/obstacle_check/clearance.hpp"
 
 namespace madori::app {
 namespace {
@@ -39,6 +41,28 @@ void feel(CycleState& state, const CycleInput& input, const CycleConfig& config)
   state.obstacles.add_felt(places, input.now);
   state.block.felt = true;
   state.ahead.stop_along_m = state.progress.along_m;  // the next revolution looks at it again
+}
+
+/// Whether what the drive was already told leads nearer to something than the law allows: no command changes
+/// that way any more, but the next one can end it.
+bool is_led_into(const CycleState& state, const std::vector<Point2<Map>>& obstacles,
+                 const CycleConfig& config) {
+  const planning::VehicleOutline& vehicle = config.check.vehicle;
+  const auto now_from_map = state.pose.map_from_base.inverse(), then_from_map = state.command_pose.inverse();
+  const auto too_near = [&](const auto& shape, double margin_m) {
+    const double now_m = planning::clearance_m(vehicle, now_from_map * shape);
+    return now_m > 0.0 &&
+           planning::clearance_m(vehicle, then_from_map * shape) < std::min(margin_m, 0.5 * now_m);
+  };
+  const Point2<Map> then = state.command_pose.translation();
+  const double near_m = vehicle.reach_m() + config.guard.body_margin_m;
+  return std::ranges::any_of(obstacles,
+                             [&](const Point2<Map>& p) {
+                               return distance_m(p, then) < near_m && too_near(p, config.guard.body_margin_m);
+                             }) ||
+         state.site->walls()->any_near(then, near_m, [&](const Segment2<Map>& wall) {
+           return too_near(wall, config.guard.wall_margin_m);
+         });
 }
 
 }  // namespace
@@ -93,8 +117,9 @@ void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig&
 
 double share_to_go(const CycleState& state, const VelocityCommand& wanted,
                    const std::vector<Point2<Map>>& obstacles, const CycleConfig& config) {
-  return planning::guarded_share(state.pose.map_from_base, wanted, obstacles, *state.site->walls(),
-                                 config.check.vehicle, config.check.braking, config.guard);
+  if (is_led_into(state, obstacles, config)) return 0.0;
+  return planning::guarded_share(state.command_pose, wanted, obstacles, *state.site->walls(),
+                                 config.check.vehicle, braking_once_obeyed(config), config.guard);
 }
 
 VelocityCommand guarded(CycleState& state, const VelocityCommand& wanted, const CycleConfig& config) {

@@ -115,6 +115,10 @@ bool may_drive(LocalizationState state) {
   return state == LocalizationState::Localized || state == LocalizationState::Degraded;
 }
 
+bool is_placed(const CycleState& state) {
+  return may_drive(state.pose.health.state) && state.lidar_heard.has_value();
+}
+
 void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   ModeChanges mode(state, output);
   const bool stopped = is_stopped_by_drive(state);
@@ -135,7 +139,7 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
     }
   }
   if (is_held(state.mode)) return;
-  const bool sure = may_drive(state.pose.health.state) && state.lidar_heard.has_value();
+  const bool sure = is_placed(state);
   mode.apply(sure ? ModeEvent::Localized : ModeEvent::Lost);
   if (state.mode == Mode::Idle && sure && state.errand.target && !state.way.path.empty())
     mode.apply(ModeEvent::OrderGiven);

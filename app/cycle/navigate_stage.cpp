@@ -104,16 +104,27 @@ void forget_errand(CycleState& state) {
   state.detour = {};
 }
 
+/// Whether a route leads round a corner that the vehicle's outline does not get round.
+bool is_too_tight(const planning::Route& route, const std::vector<planning::TightCorner>& tight) {
+  for (std::size_t i = 1; i + 1 < route.nodes.size(); ++i)
+    for (const planning::TightCorner& corner : tight)
+      if (corner.from == route.nodes[i - 1] && corner.node == route.nodes[i] &&
+          corner.to == route.nodes[i + 1])
+        return true;
+  return false;
+}
+
+void refuse(CycleState& state, Cause why, CycleOutput& output) {
+  state.errand.no_way = notice(why, {{"node", std::to_string(state.errand.stop.node)}});
+  output.order_refused = {state.errand.target->order, state.errand.no_way.text};
+}
+
 void plan(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   state.errand.arrived = state.errand.reported = false;
   state.way.path = {};
   state.way.plain = {};
   const auto goal = state.site->routes().index_of(state.errand.stop.node);
-  if (!goal) {
-    state.errand.no_way = notice(Cause::UnknownNode, {{"node", std::to_string(state.errand.stop.node)}});
-    output.order_refused = {state.errand.target->order, state.errand.no_way.text};
-    return;
-  }
+  if (!goal) return refuse(state, Cause::UnknownNode, output);
   const Point2<Map> here = state.pose.map_from_base.translation();
   auto route = best_route(*state.site, config.metric, here, *goal,
                           blocked_now(state.errand, input.now, config.forget_block_s));
@@ -121,11 +132,8 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
     state.errand.blocked_legs.clear();  // every way is blocked: the vehicle goes to see whether it still is
     route = best_route(*state.site, config.metric, here, *goal, {});
   }
-  if (!route) {
-    state.errand.no_way = notice(Cause::NoWay, {{"node", std::to_string(state.errand.stop.node)}});
-    output.order_refused = {state.errand.target->order, state.errand.no_way.text};
-    return;
-  }
+  if (!route) return refuse(state, Cause::NoWay, output);
+  if (is_too_tight(*route, config.tight_corners)) return refuse(state, Cause::TooLongForWay, output);
   state.errand.nodes = route->nodes;
   state.detour.failed.clear();
   state.block.since.reset();
@@ -166,25 +174,6 @@ std::optional<std::pair<std::size_t, std::size_t>> blocked_leg(const CycleState&
   return leg;
 }
 
-/// After long waiting: another route without the leg that is blocked, where there is one.
-void try_another_route(CycleState& state, const CycleInput& input, const CycleConfig& config,
-                       CycleOutput& output) {
-  state.block.since = input.now;  // the next try is as far away
-  const auto leg = blocked_leg(state, place_of_block(state));
-  const auto& routes = state.site->routes();
-  const auto goal = routes.index_of(state.errand.stop.node);
-  if (!leg || !goal) return;
-  auto blocked = blocked_now(state.errand, input.now, config.forget_block_s);
-  blocked.insert(*leg);
-  if (!best_route(*state.site, config.metric, state.pose.map_from_base.translation(), *goal, blocked)) return;
-  state.errand.blocked_legs.emplace_back(*leg, input.now);
-  output.events.push_back("the leg from node " + std::to_string(routes.nodes()[leg->first].id) + " to node " +
-                          std::to_string(routes.nodes()[leg->second].id) +
-                          " is blocked: taking another route");
-  state.errand.back_outs = 0;  // the other route may need room that this one did not
-  plan(state, input, config, output);
-}
-
 /// The running order's next stop; what was on the way to another one is forgotten. Whether there is any.
 bool take_order(CycleState& state, const std::optional<Order>& order) {
   if (!order || order->state != OrderState::Running || order->stops.empty()) {
@@ -223,6 +212,26 @@ void take_path(CycleState& state, Path path, const CycleConfig& config) {
   state.errand.no_way = {};
 }
 
+void try_another_route(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                       CycleOutput& output) {
+  state.block.since = input.now;  // the next try is as far away
+  const auto leg = blocked_leg(state, place_of_block(state));
+  const auto& routes = state.site->routes();
+  const auto goal = routes.index_of(state.errand.stop.node);
+  if (!leg || !goal) return;
+  auto blocked = blocked_now(state.errand, input.now, config.forget_block_s);
+  blocked.insert(*leg);
+  const auto other =
+      best_route(*state.site, config.metric, state.pose.map_from_base.translation(), *goal, blocked);
+  if (!other || is_too_tight(*other, config.tight_corners)) return;
+  state.errand.blocked_legs.emplace_back(*leg, input.now);
+  output.events.push_back("the leg from node " + std::to_string(routes.nodes()[leg->first].id) + " to node " +
+                          std::to_string(routes.nodes()[leg->second].id) +
+                          " is blocked: taking another route");
+  state.errand.back_outs = 0;  // the other route may need room that this one did not
+  plan(state, input, config, output);
+}
+
 void arrive(CycleState& state, Stamp now) {
   if (state.way.backing) return end_back_out(state);
   state.errand.arrived = true;
@@ -252,20 +261,15 @@ bool waits_for_door(const CycleState& state, const CycleConfig& config) {
 
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   if (!take_order(state, input.order)) return;
-  const bool sure = may_drive(state.pose.health.state) && state.lidar_heard;
+  const bool sure = is_placed(state);
   const bool off_path = state.progress.status == control::PursuitStatus::OffPath;
   const bool needs_path = state.way.path.empty() && state.errand.no_way.empty();
   if (sure && !state.errand.arrived && (needs_path || off_path)) plan(state, input, config, output);
   if (input.detour) take_answer(state, *input.detour, config);
-  if (sure) back_out(state, input, config, output);
-  const double patience_s =
-      waits_for_door(state, config) ? config.door_reroute_after_s : config.reroute_after_s;
-  const bool stuck = state.mode == Mode::Waiting && state.block.since && !state.errand.arrived &&
-                     to_seconds(input.now - *state.block.since) > patience_s;
-  if (sure && stuck) try_another_route(state, input, config, output);
   const bool told = std::any_of(input.commands.begin(), input.commands.end(),
                                 [](const auto& c) { return c.word == OperatorWord::GoOn; });
-  if (state.errand.arrived && !state.errand.reported && (input.now >= state.errand.dwell_until || told)) {
+  if (state.errand.arrived && !state.errand.reported && stands(state) &&
+      (input.now >= state.errand.dwell_until || told)) {
     state.errand.reported = true;
     output.stop_done = state.errand.target;
   }

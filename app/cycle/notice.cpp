@@ -8,7 +8,7 @@
 namespace madori::app {
 namespace {
 
-static_assert(kCauses.size() == static_cast<std::size_t>(Cause::MappingStopped) + 1);
+static_assert(kCauses.size() == static_cast<std::size_t>(Cause::TooLongForWay) + 1);
 static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::LookAndDrive) + 1);
 
 }  // namespace

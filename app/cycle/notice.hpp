@@ -59,6 +59,7 @@ enum class Cause : std::uint8_t {
   Mapping,
   MappingLost,
   MappingStopped,
+  TooLongForWay,
 };
 
 /// What a person can do about it.
@@ -131,6 +132,8 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"mapping-lost",
                    "the map does not go on here: what the lidar sees fits nothing seen before"},
     CatalogueEntry{"mapping-stopped", "stopped at a panel while a map is made"},
+    CatalogueEntry{"too-long-for-way",
+                   "the vehicle does not get to node {node}: a drawn wall stands where it turns"},
 };
 
 inline constexpr std::array kRemedies{

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/cycle/recoveries.hpp"
 #include "app/cycle/stages.hpp"
 #include "core/angle.hpp"
 
@@ -16,25 +17,36 @@ double position_sigma(const PoseEstimate& pose) {
   return std::sqrt(std::max(0.0, middle + std::hypot((xx - yy) / 2.0, xy)));
 }
 
-double speed_for_now(const CycleState& state, const CycleConfig& config) {
-  const double care_m = std::max(0.0, state.ahead.care_along_m - state.progress.along_m);
-  const bool narrow = state.block.squeeze.share < 1.0;
-  const double care_mps = narrow ? config.narrow_speed_mps : config.care_speed_mps;
-  const double care = std::sqrt(care_mps * care_mps + 2.0 * config.pursuit.speed.deceleration_mps2 * care_m);
-  const bool degraded = state.pose.health.state == LocalizationState::Degraded;
-  return degraded ? std::min(care, config.degraded_speed_mps) : care;
-}
-
 }  // namespace
 
-Pursued pursue_way(const CycleState& state, const CycleConfig& config) {
+void foresee(CycleState& state, Stamp now, const CycleConfig& config) {
+  const VelocityCommand measured{state.odometry.linear_mps(), state.odometry.angular_radps()};
+  state.command_pose = state.pose.map_from_base * state.sent.way_until_obeyed(state.odometry.reading().stamp,
+                                                                              measured, now, config.response);
+}
+
+planning::BrakingModel braking_once_obeyed(const CycleConfig& config) {
+  planning::BrakingModel braking = config.check.braking;
+  braking.reaction_s = 0.0;
+  return braking;
+}
+
+bool stands(const CycleState& state) {
+  constexpr double kStillMps = 0.01, kStillRadps = 0.01, kNowhereM = 0.002;
+  const double coming_m =
+      distance_m(state.command_pose.translation(), state.pose.map_from_base.translation());
+  return std::abs(state.odometry.linear_mps()) < kStillMps &&
+         std::abs(state.odometry.angular_radps()) < kStillRadps && coming_m < kNowhereM;
+}
+
+Pursued pursue_way(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const double free_m = state.ahead.stop_along_m - state.progress.along_m;
   const auto out = control::pursue(state.way.path, state.progress.pursuit,
-                                   {.map_from_base = state.pose.map_from_base,
+                                   {.map_from_base = state.command_pose,
                                     .position_sigma_m = position_sigma(state.pose),
                                     .free_distance_m = free_m,
                                     .turn_free = state.ahead.turn_free,
-                                    .max_speed_mps = speed_for_now(state, config)},
+                                    .max_speed_mps = allowed_mps(state, input, config)},
                                    config.pursuit);
   return {out.command, {out.state, out.status, out.along_m, out.cross_track_m}};
 }

@@ -28,12 +28,14 @@ void take_lidars(std::vector<LidarModel> lidars, CycleConfig& config) {
 void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
   constexpr double kComfort = 0.5;  ///< share of the brakes that an ordinary stop uses
   constexpr double kTurnComfort = 2.0 / 3.0;
+  constexpr double kUnforeseenS = 0.1;  ///< the wheels may obey so much earlier or later than the record says
   config.odometry.wheels = {v.wheel_radius_m, v.wheel_radius_m, v.half_wheel_separation_m};
-  config.check.vehicle = {v.length_m - v.base_to_rear_m, v.base_to_rear_m, v.width_m / 2.0, v.height_m};
+  config.check.vehicle = planning::outline_of(v);
   config.pursuit.speed.max_speed_mps = v.max_speed_mps;
   config.pursuit.speed.max_turn_rate_radps = v.max_turn_rate_radps;
   config.pursuit.speed.deceleration_mps2 = kComfort * v.max_deceleration_mps2;
-  config.pursuit.speed.reaction_s = v.reaction_s;
+  config.pursuit.speed.reaction_s = kUnforeseenS;
+  config.response = {v.reaction_s, v.max_deceleration_mps2, v.max_turn_acceleration_radps2};
   config.pursuit.turn_acceleration_radps2 = kTurnComfort * v.max_turn_acceleration_radps2;
   config.limits.max_speed_mps = v.max_speed_mps;
   config.limits.max_turn_rate_radps = v.max_turn_rate_radps;
@@ -72,13 +74,22 @@ CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem
 SiteForDriving load_for_driving(const std::filesystem::path& folder) {
   SiteForDriving loaded{mapping::load_scaled_site(folder), mapping::load_walls(folder / "walls.csv"), {}};
   CycleConfig& config = loaded.config;
-  config.routes = planning::load_routes(folder / "routes");
+  planning::RouteGraph routes = planning::load_routes(folder / "routes");
   config.metric = loaded.site.shortest_routes ? planning::RouteMetric::Metres : planning::RouteMetric::Hops;
   take_site(loaded.site, folder, config);
   std::vector<Segment2<Map>> segments;
   for (const auto& wall : loaded.walls) segments.push_back(wall.segment);
   config.walls = std::make_shared<const planning::WallGrid>(std::move(segments));
+  take_routes(std::move(routes), config);
   return loaded;
+}
+
+void take_routes(planning::RouteGraph routes, CycleConfig& config) {
+  config.routes = std::move(routes);
+  config.tight_corners =
+      planning::tight_corners(config.routes, *config.walls, config.check.vehicle, config.waypoints);
+  // Where it would turn about a manoeuvre may do.
+  std::erase_if(config.tight_corners, [](const auto& corner) { return corner.from == corner.to; });
 }
 
 }  // namespace madori::app

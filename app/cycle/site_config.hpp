@@ -22,5 +22,7 @@ struct SiteForDriving {
 /// The same of a vehicle that is about to map by driving: no routes, no walls, and a silent lidar forbids to
 /// move by hand, too, for what is driven blind is a hole in the map. `where`: the folder of what is wrong.
 [[nodiscard]] CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem::path& where);
+/// Other routes for a configuration whose walls and vehicle are known.
+void take_routes(planning::RouteGraph routes, CycleConfig& config);
 
 }  // namespace madori::app

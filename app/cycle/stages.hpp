@@ -7,6 +7,13 @@ namespace madori::app {
 
 /// Drive statuses become odometry, odometry becomes a pose; revolutions correct it.
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// Where the vehicle will be when it obeys what is sent in this step: pose and commands on their way ->
+/// command_pose.
+void foresee(CycleState& state, Stamp now, const CycleConfig& config);
+/// Braking, from when a command is obeyed: what is driven until then stands in command_pose.
+[[nodiscard]] planning::BrakingModel braking_once_obeyed(const CycleConfig& config);
+/// Whether the wheels stand, and nothing is on its way that moves them.
+[[nodiscard]] bool stands(const CycleState& state);
 /// The order's next stop becomes a route and a path; an answered detour replaces it.
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// Notices a wheel that does not do what it was told.
@@ -15,13 +22,22 @@ void watch_wheels(CycleState& state, const CycleConfig& config);
 void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// Keeps where the vehicle has just driven.
 void remember_trail(CycleState& state, Stamp now);
-/// A wedged vehicle gets a path back the way it came, where it has just driven and nothing is seen behind it.
+/// The acts of recoveries.cpp, each once it is due. A wedged vehicle gets a path back the way it came, where
+/// it has just driven and nothing is seen behind it.
 void back_out(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// What is kept of the margins is less, or all of them again.
+void squeeze(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// A way around is looked for beside the cycle.
+void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                    CycleOutput& output);
+/// Another route without the leg that is blocked, where there is one.
+void try_another_route(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                       CycleOutput& output);
 /// From here the way is planned anew.
 void end_back_out(CycleState& state);
 /// A new path takes the place of the old one.
 void take_path(CycleState& state, Path path, const CycleConfig& config);
-/// The path ahead against what the scan and the drawing show; asks for a way around.
+/// The path ahead against what the scan and the drawing show.
 void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// Without a lidar that sees heights the vehicle stands before each door and lift until an operator, who has
 /// looked, says Go on.
@@ -36,7 +52,7 @@ struct Pursued {
   VelocityCommand command;
   Progress progress;
 };
-[[nodiscard]] Pursued pursue_way(const CycleState& state, const CycleConfig& config);
+[[nodiscard]] Pursued pursue_way(const CycleState& state, const CycleInput& input, const CycleConfig& config);
 /// The end of the path is reached.
 void arrive(CycleState& state, Stamp now);
 /// The command as far as nothing is met on it; a path is not followed to the centimetre.
@@ -62,6 +78,8 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
 /// Whether nobody has heard of a device for too long.
 [[nodiscard]] bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s);
 [[nodiscard]] bool may_drive(LocalizationState state);
+/// Whether the vehicle knows where it is, and hears what that needs.
+[[nodiscard]] bool is_placed(const CycleState& state);
 /// Whether the place lies at a door or a lift, where the vehicle waits instead of driving around.
 [[nodiscard]] bool is_at_door(const CycleState& state, const Point2<Map>& place, const CycleConfig& config);
 /// Whether a door or lift may be what blocks the way. What is remembered only, low and too near to be seen,

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <string_view>
 
 #include "app/cycle/drive_faults.hpp"
+#include "app/cycle/recoveries.hpp"
 #include "app/cycle/stages.hpp"
 #include "core/fill_in.hpp"
 
@@ -96,15 +98,11 @@ Standstill why_waiting(const CycleState& state, const CycleInput& input, const C
     return {notice(rule->cause), notice(rule->remedy), now};
   if (state.errand.arrived) return why_at_stop(state.errand.stop, now);
   if (!state.errand.no_way.empty()) return {state.errand.no_way, notice(Remedy::ClearOrDraw), now};
-  if (state.block.felt) return because(Cause::HeldBack, Remedy::LookAndResume, now);
-  if (state.block.height_unseen) return because(Cause::HeightUnseen, Remedy::LookAndGoOn, now);
-  if (!state.ahead.turn_free) return because(Cause::NoRoomToTurn, Remedy::ClearAround, now);
-  if (waits_for_door(state, config)) return because(Cause::DoorNotOpen, Remedy::OnceOpen, now);
-  if (state.ahead.check.blocked() && state.ahead.check.by_wall)
-    return because(Cause::WallInTheWay, Remedy::MoveRoute, now);
-  if (state.block.unseen) return because(Cause::UnseenInTheWay, Remedy::LookAndResume, now);
-  if (state.detour.failed.empty()) return because(Cause::SomethingInTheWay, Remedy::OnceClear, now);
-  return {notice(Cause::SomethingInTheWay), notice(Remedy::ClearWay, {{"reason", state.detour.failed}}), now};
+  const auto ask = std::ranges::find_if(asks(), [&](const Ask& a) { return a.holds(state, config); });
+  const bool has_reason = std::string_view(ask->remedy.english).find("{reason}") != std::string_view::npos;
+  const Notice remedy =
+      has_reason ? notice(ask->remedy, {{"reason", state.detour.failed}}) : notice(ask->remedy);
+  return {notice(ask->cause), remedy, now};
 }
 
 }  // namespace

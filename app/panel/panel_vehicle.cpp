@@ -10,10 +10,6 @@
 namespace madori::app {
 namespace {
 
-hmi::Reply not_drivable(const SiteRun& run) {
-  return {false, {"not-drivable", {{"reason", run.missing()}}, "not ready to drive: " + run.missing()}};
-}
-
 hmi::Reply driving() {
   return hmi::Reply::refused("driving", "the vehicle is driving: pause it first");
 }
@@ -50,6 +46,11 @@ PanelVehicle::PanelVehicle(SiteRun& run, const std::filesystem::path& database, 
   if (!camera.empty()) camera_.emplace(camera);
 }
 
+hmi::Reply PanelVehicle::not_drivable() const {
+  const std::string missing = run_.missing();
+  return {false, {"not-drivable", {{"reason", missing}}, "not ready to drive: " + missing}};
+}
+
 hmi::LiveState PanelVehicle::live() const {
   hmi::LiveState live = copy_.live();
   live.camera = camera_ && camera_->picture();
@@ -67,6 +68,7 @@ void PanelVehicle::observe(const CycleInput& input, const CycleState& state, con
   note_way_by_hand(state, run.config());
   meter_.count(input, state);
   copy_.show(input, state, run.config(), run.view().device_problem);
+  for (const auto& word : braking_.after_step(input, state, run.config())) run_.say(word);
   if (state.lidar_heard == input.now) copy_.set_odometer(meter_.sums().distance_m);
 }
 
@@ -77,7 +79,7 @@ void PanelVehicle::idle(const CycleInput& input) {
 hmi::Reply PanelVehicle::command(hmi::Command command) {
   const auto view = run_.view();
   const bool stop = command == hmi::Command::Stop || command == hmi::Command::Halt;
-  if (!view) return stop ? hmi::Reply::done() : not_drivable(run_);  // the drive is not enabled then
+  if (!view) return stop ? hmi::Reply::done() : not_drivable();  // the drive is not enabled then
   if ((command == hmi::Command::Start || command == hmi::Command::Resume) && run_.mapping())
     return mapping_now();
   const Mode now = view->mode;
@@ -113,7 +115,7 @@ hmi::Reply PanelVehicle::command(hmi::Command command) {
 hmi::Reply PanelVehicle::jog(const VelocityCommand& velocity) {
   const auto view = run_.view();
   const bool stands = velocity == VelocityCommand{};
-  if (!view) return stands ? hmi::Reply::done() : not_drivable(run_);
+  if (!view) return stands ? hmi::Reply::done() : not_drivable();
   if (view->mode == Mode::EmergencyStop || view->mode == Mode::Fault) return confirm_first();
   if (!stands && (finishing_ || reads_drive(run_)))
     return hmi::Reply::refused("mapping-busy",
@@ -127,7 +129,7 @@ hmi::Reply PanelVehicle::jog(const VelocityCommand& velocity) {
 }
 
 hmi::Reply PanelVehicle::add_order(const std::vector<hmi::StopView>& stops, int repeat) {
-  if (!run_.view()) return not_drivable(run_);
+  if (!run_.view()) return not_drivable();
   if (run_.mapping()) return mapping_now();
   std::vector<int> nodes;
   for (const auto& stop : stops) nodes.push_back(stop.node);
@@ -144,13 +146,13 @@ hmi::Reply PanelVehicle::add_order(const std::vector<hmi::StopView>& stops, int 
 hmi::Reply PanelVehicle::repeat_order(long long id) {
   for (const auto& order : orders_.ended())
     if (order.id == id) return add_order(order.stops, order.repeat);
-  if (!run_.view()) return not_drivable(run_);
+  if (!run_.view()) return not_drivable();
   return orders_.repeat(id);
 }
 
 hmi::Reply PanelVehicle::search_place() {
   if (!run_.may_change_site()) return driving();
-  return run_.say({OperatorWord::SearchPose, {}, {}}) ? hmi::Reply::done() : not_drivable(run_);
+  return run_.say({OperatorWord::SearchPose, {}, {}}) ? hmi::Reply::done() : not_drivable();
 }
 
 hmi::Reply PanelVehicle::set_pose(const Transform2<Map, Base>& map_from_base) {
@@ -158,7 +160,7 @@ hmi::Reply PanelVehicle::set_pose(const Transform2<Map, Base>& map_from_base) {
   // Nobody may be surprised by a vehicle that drives off because its place was said: it waits for Resume.
   run_.say({OperatorWord::Pause, {}, {}});
   const GivenPose given{map_from_base.translation(), map_from_base.yaw_rad(), PoseSigma{}};
-  return run_.say({OperatorWord::SetPose, {}, given}) ? hmi::Reply::done() : not_drivable(run_);
+  return run_.say({OperatorWord::SetPose, {}, given}) ? hmi::Reply::done() : not_drivable();
 }
 
 /// A person who insists is believed to a hand's breadth: what is seen has to speak against that much more.
@@ -167,7 +169,7 @@ hmi::Reply PanelVehicle::insist_on_pose(const Transform2<Map, Base>& map_from_ba
   constexpr PoseSigma kInsisted{0.1, 0.035};
   run_.say({OperatorWord::Pause, {}, {}});
   const GivenPose given{map_from_base.translation(), map_from_base.yaw_rad(), kInsisted};
-  return run_.say({OperatorWord::SetPose, {}, given}) ? hmi::Reply::done() : not_drivable(run_);
+  return run_.say({OperatorWord::SetPose, {}, given}) ? hmi::Reply::done() : not_drivable();
 }
 
 hmi::Reply PanelVehicle::report(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/braking/braking_desk.hpp"
 #include "app/camera/camera_capture.hpp"
 #include "app/panel/jog_bar.hpp"
 #include "app/panel/live_copy.hpp"
@@ -45,6 +46,8 @@ class PanelVehicle final : public hmi::Vehicle {
   hmi::Reply set_pose(const Transform2<Map, Base>& map_from_base) override;
   hmi::Reply insist_on_pose(const Transform2<Map, Base>& map_from_base) override;
   hmi::Reply report(const std::string& text) override;
+  hmi::Reply start_braking_test(bool loaded) override;
+  [[nodiscard]] hmi::BrakingView braking() const override;
   [[nodiscard]] std::vector<hmi::FoundDevice> found_devices() const override;
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const override;
   [[nodiscard]] hmi::StatisticsView statistics() const override;
@@ -65,6 +68,7 @@ class PanelVehicle final : public hmi::Vehicle {
 
  private:
   void note_way_by_hand(const CycleState& state, const CycleConfig& config);
+  [[nodiscard]] hmi::Reply not_drivable() const;
 
   SiteRun& run_;
   std::filesystem::path site_;
@@ -73,6 +77,7 @@ class PanelVehicle final : public hmi::Vehicle {
   PanelOrders orders_;
   WorkMeter meter_;
   JogBar jogging_;
+  BrakingDesk braking_;
   std::optional<CameraCapture> camera_;
   std::atomic<bool> finishing_ = false;    ///< a site is being made of the map
   mutable std::mutex way_mutex_;           ///< of what follows

@@ -16,6 +16,7 @@
 #include "mapping/wall_map/wall.hpp"
 #include "planning/route_graph/route_csv.hpp"
 #include "planning/route_graph/route_search.hpp"
+#include "planning/route_graph/vehicle_fit.hpp"
 
 namespace madori::app {
 namespace {
@@ -62,13 +63,13 @@ void check(const fs::path& site, const mapping::Site& record, const Walls2& befo
            DrawingRevision& revision) {
   if (!fs::exists(site / "routes/path.csv")) return;
   const auto routes = planning::load_routes(site / "routes");
-  const planning::RouteCheckOptions options{.half_width_m = record.vehicle.width_m / 2.0};
+  const planning::RouteCheckOptions options{.vehicle = planning::outline_of(record.vehicle)};
   const auto old = planning::check_routes(routes, before, options);
   for (auto& finding : planning::check_routes(routes, now, options))
     if (std::ranges::none_of(old, [&](const auto& one) { return same(one, finding); }))
       revision.findings.push_back(std::move(finding));
-  const auto left = served(routes, now, options.half_width_m);
-  for (const std::size_t station : served(routes, before, options.half_width_m)) {
+  const auto left = served(routes, now, options.vehicle.half_width_m);
+  for (const std::size_t station : served(routes, before, options.vehicle.half_width_m)) {
     if (left.contains(station)) continue;
     const auto& node = routes.nodes()[station];
     revision.stations_lost.push_back(node.name.empty() ? std::to_string(node.id) : node.name);

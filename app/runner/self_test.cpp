@@ -18,7 +18,7 @@ constexpr std::uintmax_t kRoomForRecordings = 5'000'000'000;
 
 std::string look_at_routes(const fs::path& site, const SiteForDriving& loaded) {
   planning::RouteCheckOptions options;
-  options.half_width_m = loaded.config.check.vehicle.half_width_m;
+  options.vehicle = loaded.config.check.vehicle;
   options.tree_file = (site / "routes/tree.csv").string();
   options.path_file = (site / "routes/path.csv").string();
   for (const auto& finding :

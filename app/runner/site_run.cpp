@@ -261,6 +261,11 @@ std::vector<SeenWall> SiteRun::walls_seen() const {
   return watch ? watch->seen() : std::vector<SeenWall>();
 }
 
+std::optional<BrakingSite> SiteRun::braking_site() const {
+  const std::scoped_lock lock(mutex_);
+  return run_ ? std::optional(app::braking_site(run_->config())) : std::nullopt;
+}
+
 std::vector<mapping::SensorRecord> SiteRun::sensors() const {
   const std::scoped_lock lock(mutex_);
   return sensors_;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/braking/braking_verdict.hpp"
 #include "app/cycle/site_config.hpp"
 #include "app/keeping/site_keeper.hpp"
 #include "app/learned/wall_watch.hpp"
@@ -68,6 +69,8 @@ class SiteRun {
   [[nodiscard]] bool may_change_site() const;
   /// What the run has seen of the drawn walls; empty while there is none.
   [[nodiscard]] std::vector<SeenWall> walls_seen() const;
+  /// What a braking test must know of the site that is driven; nothing while there is no run.
+  [[nodiscard]] std::optional<BrakingSite> braking_site() const;
   /// Why there is no run, as the site's loader says it; empty while there is one.
   [[nodiscard]] std::string missing() const;
   /// The sensors of the site that is driven; empty before.

@@ -14,7 +14,7 @@ struct SpeedLimits {
   double max_turn_rate_radps = 1.0;
   double deceleration_mps2 = 0.4;          ///< comfortable, before corners and the goal
   double lateral_acceleration_mps2 = 0.5;  ///< in curves
-  double reaction_s = 0.25;                ///< motor lag and age of the pose
+  double reaction_s = 0.25;                ///< between what is aimed at and what the wheels do
 
   /// The greatest speed from which the vehicle stands still after `distance_m`, reaction included.
   [[nodiscard]] double speed_to_stop_within(double distance_m) const;

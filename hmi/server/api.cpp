@@ -17,6 +17,7 @@ Router make_router(ApiContext& context) {
   add_scale_routes(router, context);
   add_tile_routes(router, context);
   add_setup_routes(router, context);
+  add_braking_routes(router, context);
   add_vehicle_routes(router, context);
   add_history_routes(router, context);
   add_version_routes(router, context);

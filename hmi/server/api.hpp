@@ -38,6 +38,7 @@ void add_preview_routes(Router& router, ApiContext& context);
 void add_tile_routes(Router& router, ApiContext& context);
 void add_setup_routes(Router& router, ApiContext& context);
 void add_scale_routes(Router& router, ApiContext& context);
+void add_braking_routes(Router& router, ApiContext& context);
 void add_vehicle_routes(Router& router, ApiContext& context);
 void add_history_routes(Router& router, ApiContext& context);
 void add_backup_routes(Router& router, ApiContext& context);

@@ -5,6 +5,7 @@
 
 #include "mapping/site/site.hpp"
 #include "mapping/wall_map/wall_files.hpp"
+#include "planning/route_graph/vehicle_fit.hpp"
 
 namespace madori::hmi {
 
@@ -23,7 +24,7 @@ std::vector<Segment2<Map>> drawn_walls(const std::filesystem::path& folder) {
 std::vector<planning::RouteFinding> findings_of(const std::filesystem::path& folder,
                                                 const planning::RouteGraph& graph) {
   planning::RouteCheckOptions options;
-  if (has_site(folder)) options.half_width_m = mapping::load_site(folder).vehicle.width_m / 2.0;
+  if (has_site(folder)) options.vehicle = planning::outline_of(mapping::load_site(folder).vehicle);
   return planning::check_routes(graph, drawn_walls(folder), options);
 }
 

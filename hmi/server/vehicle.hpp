@@ -162,6 +162,28 @@ struct MappingView {
   std::vector<mapping::SensorRecord> sensors;
 };
 
+/// What the braking tests have measured, and what the record should hold by it.
+struct BrakingView {
+  struct Stop {
+    bool loaded = false;
+    double speed_mps = 0.0, deceleration_mps2 = 0.0, latency_s = 0.0, way_m = 0.0;
+  };
+  /// The worst of all stops.
+  struct Verdict {
+    double deceleration_mps2 = 0.0, reaction_s = 0.0;
+    double needs_m = 0.0;      ///< to stand from the site's top speed
+    double sees_m = 0.0;       ///< how far ahead the lidar is sure to see something
+    double allowed_mps = 0.0;  ///< the top speed that it allows
+  };
+  bool running = false;
+  int stops_now = 0;  ///< of the test that runs or ran last
+  int stops_wanted = 0;
+  double way_m = 0.0;  ///< that a test needs straight ahead; 0 while the site is not ready to drive
+  Notice trouble;      ///< why the last test ended early
+  std::vector<Stop> stops;
+  std::optional<Verdict> verdict;
+};
+
 /// GoOn ends the stay at a stop. Stop stands and ends the order that is under way; Halt stands, whoever asks.
 enum class Command { Start, Pause, Resume, Stop, Confirm, GoOn, Halt };
 
@@ -198,6 +220,12 @@ class Vehicle {
   virtual Reply report(const std::string& /*text*/) {
     return Reply::refused("not-possible", "this vehicle keeps no events");
   }
+
+  /// Drives, stops and measures; Stop ends it. Refused while the vehicle drives.
+  virtual Reply start_braking_test(bool /*loaded*/) {
+    return Reply::refused("not-possible", "this vehicle measures no brakes");
+  }
+  [[nodiscard]] virtual BrakingView braking() const { return {}; }
 
   [[nodiscard]] virtual std::vector<FoundDevice> found_devices() const = 0;
   [[nodiscard]] virtual std::vector<EventView> events(std::size_t newest) const = 0;

@@ -7,7 +7,7 @@
 
 namespace madori::planning {
 
-static_assert(kFindingTexts.size() == static_cast<std::size_t>(Fault::NotText) + 1);
+static_assert(kFindingTexts.size() == static_cast<std::size_t>(Fault::NoTurnAbout) + 1);
 
 RouteFinding finding(Fault fault, Severity severity, std::string file, int line,
                      std::map<std::string, std::string> values) {

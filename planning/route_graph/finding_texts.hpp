@@ -32,6 +32,8 @@ enum class Fault {
   OneWay,
   OpenQuote,
   NotText,
+  TightCorner,
+  NoTurnAbout,
 };
 
 /// The panel's catalogues know a finding by its code; `english` holds {placeholders}.
@@ -69,6 +71,11 @@ inline constexpr std::array kFindingTexts{
     FindingText{"one-way", "leg {from} -> {to} is one-way: node {to} does not list node {from}"},
     FindingText{"open-quote", "a double quote begins and does not end - close it or remove it"},
     FindingText{"not-text", "is no text in UTF-8 (UTF-16, or no text at all) - save it as CSV in UTF-8"},
+    FindingText{"tight-corner",
+                "a vehicle of {length} m does not get round node {node} from {from} to {to}: a drawn wall is "
+                "in its way - move the node, or drive with a shorter vehicle"},
+    FindingText{"no-turn-about",
+                "a vehicle of {length} m cannot turn about at node {node}: a drawn wall is in its way"},
 };
 
 /// A finding with its English text. Precondition: `values` names every placeholder of the fault's text.

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "core/fill_in.hpp"
 #include "core/segment_distance.hpp"
 #include "planning/route_graph/finding_texts.hpp"
 #include "planning/route_graph/route_search.hpp"
+#include "planning/route_graph/vehicle_fit.hpp"
 
 namespace madori::planning {
 namespace {
@@ -39,11 +42,40 @@ void check_walls(const RouteGraph& graph, const std::vector<Segment2<Map>>& wall
     if (nearest_m == 0.0)
       findings.push_back(
           finding(Fault::ThroughWall, Severity::Error, options.tree_file, leg.line, of_leg(graph, leg)));
-    else if (nearest_m < options.half_width_m)
-      findings.push_back(finding(
-          Fault::NarrowAtWall, Severity::Warning, options.tree_file, leg.line,
-          of_leg(graph, leg,
-                 {{"distance", two_decimals(nearest_m)}, {"half", two_decimals(options.half_width_m)}})));
+    else if (nearest_m < options.vehicle.half_width_m)
+      findings.push_back(finding(Fault::NarrowAtWall, Severity::Warning, options.tree_file, leg.line,
+                                 of_leg(graph, leg,
+                                        {{"distance", two_decimals(nearest_m)},
+                                         {"half", two_decimals(options.vehicle.half_width_m)}})));
+  }
+}
+
+/// Whether a wall stands nearer to the way between two nodes than half the vehicle: check_walls says so.
+bool is_said_of_leg(const RouteGraph& graph, std::size_t from, std::size_t to,
+                    const std::vector<Segment2<Map>>& walls, const RouteCheckOptions& options) {
+  const Segment2<Map> way{graph.nodes()[from].position, graph.nodes()[to].position};
+  return std::ranges::any_of(
+      walls, [&](const auto& wall) { return distance_m(way, wall) < options.vehicle.half_width_m; });
+}
+
+/// Each node once, however many ways lead round it.
+void check_corners(const RouteGraph& graph, const std::vector<Segment2<Map>>& walls,
+                   const RouteCheckOptions& options, std::vector<RouteFinding>& findings) {
+  std::set<std::pair<std::size_t, bool>> said;
+  for (const TightCorner& corner : tight_corners(graph, WallGrid(walls), options.vehicle)) {
+    const bool about = corner.from == corner.to;
+    const RouteNode& node = graph.nodes()[corner.node];
+    if (is_said_of_leg(graph, corner.from, corner.node, walls, options) ||
+        is_said_of_leg(graph, corner.node, corner.to, walls, options))
+      continue;
+    if (!said.insert({corner.node, about}).second) continue;
+    std::map<std::string, std::string> values{
+        {"node", id_of(graph, corner.node)},
+        {"length", two_decimals(options.vehicle.front_m + options.vehicle.rear_m)}};
+    if (!about) values.insert({{"from", id_of(graph, corner.from)}, {"to", id_of(graph, corner.to)}});
+    findings.push_back(finding(about ? Fault::NoTurnAbout : Fault::TightCorner,
+                               about ? Severity::Warning : Severity::Error, options.path_file, node.line,
+                               std::move(values)));
   }
 }
 
@@ -84,6 +116,7 @@ std::vector<RouteFinding> check_routes(const RouteGraph& graph, const std::vecto
                                        const RouteCheckOptions& options) {
   std::vector<RouteFinding> findings = one_way_warnings(graph, options.tree_file);
   check_walls(graph, walls, options, findings);
+  check_corners(graph, walls, options, findings);
   check_reachability(graph, options, findings);
   check_spots(graph, options, findings);
   return findings;

@@ -91,6 +91,8 @@ export const api = {
 
   devices: () => get<wire.FoundDevice[]>("/api/devices"),
   saveVehicle: (edit: wire.VehicleEdit) => put<wire.Saved>("/api/site/vehicle", edit),
+  braking: () => get<wire.Braking>("/api/vehicle/braking"),
+  startBraking: (how: wire.BrakingStart) => post("/api/vehicle/braking", how),
   locate: () => get<wire.Locate>("/api/locate"),
   searchAnew: () => post("/api/locate/search"),
   setPose: (pose: wire.SetPose) => post("/api/vehicle/pose", pose),

@@ -23,7 +23,7 @@ constexpr double kCarriesAfterS = 120.0;    ///< to a vehicle that does not know
 
 app::SiteForDriving load(const DayOptions& options) {
   auto loaded = app::load_for_driving(options.site);
-  if (!options.routes.empty()) loaded.config.routes = planning::load_routes(options.routes);
+  if (!options.routes.empty()) app::take_routes(planning::load_routes(options.routes), loaded.config);
   return loaded;
 }
 

@@ -32,7 +32,7 @@ TEST(AutonomyCycle, APersonInTheWayIsWaitedFor) {
 
 TEST(AutonomyCycle, WhatCameTooNearForTheLidarStaysUntilTheOperatorHasLooked) {
   auto v = corridor_vehicle();
-  v->config.detour_after_s = 1000.0;
+  v->config.detour_after_s = v->config.back_out_after_s = 1000.0;
   v->lidar.bodies.push_back(
       {{{6.0, -0.3}, {6.0, 0.3}}, 0.1, 0.2});  // lies lower than the lidar's lowest beam
   v->drive_to({{2}});

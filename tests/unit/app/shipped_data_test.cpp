@@ -13,6 +13,7 @@
 #include "mapping/wall_map/wall.hpp"
 #include "planning/route_graph/route_check.hpp"
 #include "planning/route_graph/route_csv.hpp"
+#include "planning/route_graph/vehicle_fit.hpp"
 
 namespace madori {
 namespace {
@@ -57,7 +58,7 @@ void expect_drivable(const std::string& routes, const Transform2<Map, Map>& map_
     walls.push_back(map_from_factory * wall.segment);
   ASSERT_GT(walls.size(), 100U);
   planning::RouteCheckOptions options;
-  options.half_width_m = mapping::VehicleRecord{}.width_m / 2.0;
+  options.vehicle = planning::outline_of(mapping::VehicleRecord{});
   for (const auto& finding : planning::check_routes(planning::load_routes(kSample / routes), walls, options))
     ADD_FAILURE() << routes << ": " << finding.text();
 }

@@ -116,6 +116,7 @@ const answers = {
     method: "known", georeference: null, overlay: null, disagreements: [], reason: { code: "scale-good", values: {}, text: "good" }, notes: [],
   }),
   "/api/devices": () => [{ type: "made_up", title: "Made-up", address: "udp 2368", heard: true, detail: none, sensor: lidar }, { type: "drive", title: "", address: "/dev/ttyUSB0", heard: true, detail: none, sensor: null }, { type: "other", title: "Other", address: "/dev/ttyUSB1", heard: false, detail: none, sensor: null }],
+  "/api/vehicle/braking": () => ({ running: false, stops_now: 0, stops_wanted: 3, way_m: 4.3, trouble: none, stops: [], verdict: null }),
   "/api/locate": () => ({ state: "ambiguous", hypotheses: [{ ...poseAt(0), score: 0.91 }, { x: 14, y: 12, yaw: 1, score: 0.47 }] }),
   "/api/orders": () => [order(7, "running", [0, 3], 5), order(8, "queued", [4]), order(9, "queued", [3, 0])],
   "/api/orders/history": () => [order(6, "done", [4]), order(5, "failed", [3])],

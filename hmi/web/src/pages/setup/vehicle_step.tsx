@@ -10,6 +10,7 @@ import { NumberField } from "../../ui/number_pad";
 import { Stale } from "../../ui/stale";
 import { Tool } from "../../ui/tool";
 import { EditBar } from "../../ui/edit_bar";
+import { BrakingCard } from "./braking_card";
 import { useEdit } from "./use_edit";
 
 type Plan = Pick<Site, "vehicle" | "sensors" | "route_metric">;
@@ -96,6 +97,7 @@ export function Mounted({ sensor, change, remove }: { sensor: SensorInfo; change
 export function VehicleStep({ site, next }: { site: Site; next: () => void }) {
   const t = useText();
   const [more, setMore] = useState(false);
+  const [brakes, setBrakes] = useState(false);
   const edit = useEdit<Plan>({
     site: site.name,
     kind: "vehicle",
@@ -113,6 +115,12 @@ export function VehicleStep({ site, next }: { site: Site; next: () => void }) {
     <div class="columns">
       <div class="grow">
         <Found plan={plan} use={(sensor) => edit.change({ ...plan, sensors: [...plan.sensors, sensor] })} />
+        {brakes && (
+          <BrakingCard record={plan.vehicle} takeOver={(measured) => {
+            edit.change({ ...plan, vehicle: { ...plan.vehicle, ...measured } });
+            void edit.save();
+          }} />
+        )}
         {more && (
           <>
             <Shape vehicle={plan.vehicle} change={(vehicle) => edit.change({ ...plan, vehicle })} />
@@ -131,7 +139,9 @@ export function VehicleStep({ site, next }: { site: Site; next: () => void }) {
         <p class="facts">{t("vehicle.size", { length: plan.vehicle.length_m, width: plan.vehicle.width_m, speed: plan.vehicle.max_speed_mps })}</p>
         <ul class="facts">{plan.sensors.map((sensor) => <li key={sensor.name}>{t("vehicle.mounted", { name: sensor.name, type: sensor.type, height: sensor.z_m })}</li>)}</ul>
         {plan.sensors.length === 0 && <p class="caution" role="status"><Icon name="warning" /> {t("vehicle.no_sensor")}</p>}
-        <div class="buttons"><Tool icon="setup" label={t("vehicle.details")} pressed={more} onClick={() => setMore(!more)} /></div>
+        <div class="buttons"><Tool icon="setup" label={t("vehicle.details")} pressed={more} onClick={() => setMore(!more)} />
+          <Tool icon="ruler" label={t("braking.measure")} pressed={brakes} onClick={() => setBrakes(!brakes)} />
+        </div>
         <span class="spring" />
         <EditBar edit={edit} kind="vehicle" next={next} />
       </aside>
