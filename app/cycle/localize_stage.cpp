@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/cycle/stages.hpp"
+#include "core/scan_as_cloud.hpp"
 #include "core/sweep_in_base.hpp"
 
 namespace madori::app {
@@ -93,23 +94,6 @@ void follow_drawing(CycleState& state, const CycleConfig& config) {
   state.site = std::move(site);
 }
 
-/// A scan as points in the lidar's plane.
-void lay_in_plane(const LaserScan& scan, PointCloud<Lidar>& cloud) {
-  cloud.stamp = scan.stamp;
-  cloud.lidar = scan.lidar;
-  cloud.points.clear();
-  cloud.points.reserve(scan.ranges_m.size());
-  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const float range_m = scan.ranges_m[i];
-    if (!(range_m > 0.0F && static_cast<double>(range_m) < scan.range_max_m)) continue;
-    const double angle = scan.angle_rad(i);
-    const double after_s = to_seconds(scan.beam_period) * static_cast<double>(i);
-    cloud.points.push_back({range_m * static_cast<float>(std::cos(angle)),
-                            range_m * static_cast<float>(std::sin(angle)), 0.0F, static_cast<float>(after_s),
-                            0, 0});
-  }
-}
-
 /// One sweep to everybody who looks. A lidar that is faster than the way need be checked tells the obstacles
 /// of every sweep, and the movers, whose speeds want time between two looks, of some.
 void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleInput& input,
@@ -158,7 +142,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
   }
   for (const auto& cloud : input.clouds) take_sweep(state, cloud, input, config, output);
   for (const auto& scan : input.scans) {
-    lay_in_plane(scan, state.bench.scan);
+    scan_as_cloud(scan, state.bench.scan);
     take_sweep(state, state.bench.scan, input, config, output);
   }
   state.lidar_heard = heard_all(state, config);

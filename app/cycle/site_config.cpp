@@ -54,13 +54,20 @@ void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
 
 }  // namespace
 
+CycleConfig vehicle_config(const mapping::VehicleRecord& vehicle, std::vector<LidarModel> lidars) {
+  CycleConfig config;
+  take_vehicle(vehicle, config);
+  take_lidars(std::move(lidars), config);
+  return config;
+}
+
 SiteForDriving load_for_driving(const std::filesystem::path& folder) {
   SiteForDriving loaded{mapping::load_scaled_site(folder), mapping::load_walls(folder / "walls.csv"), {}};
+  auto routes = planning::load_routes(folder / "routes");
+  loaded.config = vehicle_config(loaded.site.vehicle, lidars_of(loaded.site, folder));
   CycleConfig& config = loaded.config;
-  config.routes = planning::load_routes(folder / "routes");
+  config.routes = std::move(routes);
   config.metric = loaded.site.shortest_routes ? planning::RouteMetric::Metres : planning::RouteMetric::Hops;
-  take_vehicle(loaded.site.vehicle, config);
-  take_lidars(lidars_of(loaded.site, folder), config);
   for (const auto& sensor : loaded.site.sensors)
     config.check.protective_m = std::max(config.check.protective_m, sensor.protective_m);
   std::vector<Segment2<Map>> segments;
