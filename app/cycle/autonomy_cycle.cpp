@@ -55,7 +55,7 @@ void command_drive(CycleState& state, const VelocityCommand& wanted, const Cycle
   const bool may_move = (drives(state.mode) || by_hand) && !forbidding_rule(state, input, config, by_hand);
   const double ahead_m =
       drives(state.mode) ? state.ahead.stop_along_m - state.progress.along_m : planning::PathCheck::kFree;
-  const double free_m = std::min(config.sure_range_m, ahead_m);
+  const double free_m = std::min(sure_range_m(state, input.now, config), ahead_m);
   const auto limited = control::limit(state.limits,
                                       {.requested = wanted,
                                        .may_move = may_move,
@@ -87,6 +87,8 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   state.previous = input.now;
   if (step_s > config.gap_s) begin_gap(state, step_s, output);
   localize(state, input, config, output);  // wheel angles and revolutions -> map_from_base, bodies, movers
+  watch_mounting(state, input, config, output);     // height, tilt, yaw: as typed?
+  say_missed_lidars(state, input, config, output);  // one of several is silent
   remember_trail(state, input.now);
   watch_wheels(state, config);                 // told, but not done: a wheel disobeys
   watch_effort(state, input, config, output);  // driven, but not moved: something holds the vehicle

@@ -70,8 +70,9 @@ bool is_too_old(const PointCloud<Lidar>& cloud, const Ring<OdometryReading>& tra
 
 /// After a gap the stamps of lidar and drive may need a while to follow the computer's clock: only those that
 /// are as young as they must be tell of now, and fit together.
-bool ends_gap(const CycleState& state, Stamp measured, Stamp now, const CycleConfig& config) {
-  return state.gap && measured >= *state.gap && to_seconds(now - measured) < config.lidar_silent_s &&
+bool ends_gap(const CycleState& state, std::size_t lidar, Stamp measured, Stamp now,
+              const CycleConfig& config) {
+  return state.gap && measured >= *state.gap && to_seconds(now - measured) < patience_s(config, lidar) &&
          to_seconds(now - state.odometry.reading().stamp) < config.drive_silent_s;
 }
 
@@ -104,7 +105,7 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
   const PointCloud<Base>& base = state.bench.sweep;
   state.lidars_heard.resize(config.lidars.size());
   note_heard(state.lidars_heard[cloud.lidar], base, config.lidars[cloud.lidar], input.now);
-  if (ends_gap(state, base.stamp, input.now, config)) state.gap.reset();
+  if (ends_gap(state, cloud.lidar, base.stamp, input.now, config)) state.gap.reset();
   const auto odom_from_base =
       state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);
   state.localization->on_cloud(base, odom_from_base);
@@ -145,7 +146,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     scan_as_cloud(scan, state.bench.scan);
     take_sweep(state, state.bench.scan, input, config, output);
   }
-  state.lidar_heard = heard_all(state, config);
+  state.lidar_heard = heard_all(state, config, input.now);
   follow_drawing(state, config);
 }
 

@@ -56,6 +56,10 @@ enum class Cause : std::uint8_t {
   LidarBlind,
   LeftWheelDisobeys,
   RightWheelDisobeys,
+  LidarsSilent,
+  LidarHeight,
+  LidarLeans,
+  LidarYaw,
 };
 
 /// What a person can do about it.
@@ -84,6 +88,7 @@ enum class Remedy : std::uint8_t {
   LookAndGoOn,
   UncoverLidar,
   LookAtWheel,
+  CorrectMounting,
 };
 
 inline constexpr std::array kCauses{
@@ -121,6 +126,13 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"lidar-blind", "the lidar sees nothing any more in a direction ahead"},
     CatalogueEntry{"left-wheel-disobeys", "the left wheel ran at {turned} m/s and was told {asked} m/s"},
     CatalogueEntry{"right-wheel-disobeys", "the right wheel ran at {turned} m/s and was told {asked} m/s"},
+    CatalogueEntry{"lidars-silent", "silent: lidar {name}"},
+    CatalogueEntry{"lidar-height",
+                   "lidar {name} hangs {found} m above the floor that it sees, and {typed} m was typed"},
+    CatalogueEntry{"lidar-leans", "lidar {name} leans by {found} degrees against the floor that it sees"},
+    CatalogueEntry{
+        "lidar-yaw",
+        "the vehicle gets where lidar {name} would look at {found} degrees, and {typed} was typed"},
 };
 
 inline constexpr std::array kRemedies{
@@ -148,6 +160,8 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"look-and-go-on", "look whether it is open, then press Go on"},
     CatalogueEntry{"uncover-lidar", "clean the lidar, take away what covers it, check its network cable"},
     CatalogueEntry{"look-at-wheel", "free the wheel, or have its motor or encoder mended, then confirm"},
+    CatalogueEntry{"correct-mounting",
+                   "correct its mounting in the vehicle step, or press Measure the mounting there"},
 };
 
 /// An event of the cycle, not the cause of a standstill.
@@ -155,6 +169,13 @@ inline constexpr CatalogueEntry kTimeGapEvent{"event.time-gap",
                                               "the program stood still, or the computer's clock jumped "
                                               "forward, by {seconds} s; the vehicle stands until "
                                               "it has measured anew"};
+
+/// One of several lidars that the vehicle can do without.
+inline constexpr CatalogueEntry kLidarLostEvent{
+    "event.lidar-lost",
+    "lidar {name} is silent: the vehicle goes on with the others, as "
+    "fast as they allow"};
+inline constexpr CatalogueEntry kLidarBackEvent{"event.lidar-back", "lidar {name} is heard again"};
 
 [[nodiscard]] const CatalogueEntry& entry(Cause cause);
 [[nodiscard]] const CatalogueEntry& entry(Remedy remedy);

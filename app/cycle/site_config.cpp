@@ -9,15 +9,12 @@
 namespace madori::app {
 namespace {
 
-/// The slowest lidar rules how long nothing may be heard, and how late something is seen; the highest one
-/// must fit under what is driven under.
+/// The slowest lidar rules how late something is seen; the highest one must fit under what is driven under.
 void take_lidars(std::vector<LidarModel> lidars, CycleConfig& config) {
-  constexpr double kPatienceSweeps = 2.5;
   constexpr double kHeadroomM = 0.1;
   double top_m = config.check.vehicle.height_m;
   for (const LidarModel& lidar : lidars) {
     top_m = std::max(top_m, lidar.mounting.z_m);
-    config.lidar_silent_s = std::max(config.lidar_silent_s, kPatienceSweeps * lidar.period_s);
     config.check.braking.scan_period_s = std::max(config.check.braking.scan_period_s, lidar.period_s);
   }
   config.field.top_m = top_m + kHeadroomM;

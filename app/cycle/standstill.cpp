@@ -44,9 +44,10 @@ Standstill why_deaf(const CycleState& state, Stamp now, const CycleConfig& confi
     return because(Cause::DriveSilent, Remedy::CheckDrive, now);
   const bool asks_person = state.mode == Mode::EmergencyStop || state.mode == Mode::Fault;
   if (!asks_person && silent(state.lidar_heard, config.lidar_silent_s)) {
-    const bool speaks = std::ranges::none_of(
-        state.lidars_heard, [&](const Hearing& h) { return silent(h.heard, config.lidar_silent_s); });
-    if (state.lidar_heard && speaks) return because(Cause::LidarBlind, Remedy::UncoverLidar, now);
+    const std::string names = silent_lidars(state, now, config);
+    if (state.lidar_heard && names.empty()) return because(Cause::LidarBlind, Remedy::UncoverLidar, now);
+    if (config.lidars.size() > 1 && !names.empty())
+      return {notice(Cause::LidarsSilent, {{"name", names}}), notice(Remedy::CheckLidar), now};
     return because(state.lidar_heard ? Cause::LidarSilent : Cause::NoScan, Remedy::CheckLidar, now);
   }
   return {};
@@ -78,7 +79,7 @@ Standstill why_at_stop(const OrderStop& stop, Stamp now) {
 Standstill why_waiting(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Stamp now = input.now;
   if (const auto* rule = forbidding_rule(state, input, config))
-    return {notice(rule->cause), notice(rule->remedy), now};
+    return {rule->said ? rule->said(state, input, config) : notice(rule->cause), notice(rule->remedy), now};
   if (state.errand.arrived) return why_at_stop(state.errand.stop, now);
   if (!state.errand.no_way.empty()) return {state.errand.no_way, notice(Remedy::ClearOrDraw), now};
   if (state.block.felt) return because(Cause::HeldBack, Remedy::LookAndResume, now);
@@ -97,6 +98,10 @@ Standstill why_waiting(const CycleState& state, const CycleInput& input, const C
 Standstill standstill_of(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   if (!drives(state.mode))
     if (auto deaf = why_deaf(state, input.now, config); !deaf.cause.empty()) return deaf;
+  const bool asks_order =
+      state.mode == Mode::Idle || state.mode == Mode::Localizing || state.mode == Mode::Paused;
+  if (asks_order && mounting_forbids(state.mounting))
+    return {mounting_notice(*state.mounting.doubt(), config), notice(Remedy::CorrectMounting), input.now};
   switch (state.mode) {
     case Mode::Driving:
     case Mode::Detouring:

@@ -7,29 +7,28 @@
 namespace madori::app {
 
 inline constexpr CatalogueEntry kMountingDriveSilent{
-    "mounting.drive-silent", "the drive does not answer: check its power and its cable"};
+    "drive-silent", "the drive does not answer: check its power and its cable"};
 inline constexpr CatalogueEntry kMountingDriveStopped{
-    "mounting.drive-stopped",
+    "drive-stopped",
     "emergency stop, bumper or a fault of the drive stopped it: release it, then measure again"};
-inline constexpr CatalogueEntry kMountingLidarSilent{"mounting.lidar-silent",
+inline constexpr CatalogueEntry kMountingLidarSilent{"lidar-silent",
                                                      "lidar {name} is silent: check its power and its cable"};
 inline constexpr CatalogueEntry kMountingField{
-    "mounting.field", "something stands in the safety scanner's protective field: clear it"};
+    "field", "something stands in the safety scanner's protective field: clear it"};
 inline constexpr CatalogueEntry kMountingBlocked{
-    "mounting.blocked",
-    "something stands in the way: clear a metre before the vehicle and the space to turn around"};
-inline constexpr CatalogueEntry kMountingStopped{"mounting.stopped", "stopped by a person: measure again"};
+    "blocked", "something stands in the way: clear a metre before the vehicle and the space to turn around"};
+inline constexpr CatalogueEntry kMountingStopped{"stopped", "stopped by a person: measure again"};
 inline constexpr CatalogueEntry kMountingMoved{
-    "mounting.no-way", "the vehicle was told to drive and did not: free its wheels, then measure again"};
+    "no-way", "the vehicle was told to drive and did not: free its wheels, then measure again"};
 
-inline constexpr CatalogueEntry kLackSweeps{"mounting.lack-sweeps",
+inline constexpr CatalogueEntry kLackSweeps{"lack-sweeps",
                                             "hardly any sweep came: check the lidar and its cable"};
 inline constexpr CatalogueEntry kLackWalls{
-    "mounting.lack-walls", "too few walls are in sight: measure where walls are seen in two directions"};
+    "lack-walls", "too few walls are in sight: measure where walls are seen in two directions"};
 inline constexpr CatalogueEntry kLackTurn{
-    "mounting.lack-turn", "x and y stay as typed: the vehicle must turn by at least 120 degrees"};
+    "lack-turn", "x and y stay as typed: the vehicle must turn by at least 120 degrees"};
 inline constexpr CatalogueEntry kLackStraight{
-    "mounting.lack-straight", "nothing can be told: the vehicle must drive a metre straight on"};
+    "lack-straight", "nothing can be told: the vehicle must drive a metre straight on"};
 
 /// What kept the rest of a mounting from being found; empty where nothing did.
 [[nodiscard]] inline Notice lack_words(localization::MountingLack lack) {

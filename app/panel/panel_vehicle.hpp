@@ -42,6 +42,11 @@ class PanelVehicle final : public hmi::Vehicle {
   hmi::Reply insist_on_pose(const Transform2<Map, Base>& map_from_base) override;
   hmi::Reply report(const std::string& text) override;
   [[nodiscard]] std::vector<hmi::FoundDevice> found_devices() const override;
+  [[nodiscard]] std::vector<hmi::FoundDevice> search_devices() const override;
+  [[nodiscard]] std::vector<hmi::LidarView> lidar_views() const override;
+  hmi::Reply measure_mounting() override;
+  hmi::Reply stop_measuring() override;
+  [[nodiscard]] hmi::MountingState mounting() const override;
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const override;
   [[nodiscard]] hmi::StatisticsView statistics() const override;
   [[nodiscard]] std::vector<hmi::WallView> walls_seen() const override;
@@ -50,6 +55,8 @@ class PanelVehicle final : public hmi::Vehicle {
   void reload_site() override { run_.reload(); }
 
  private:
+  [[nodiscard]] bool is_measuring() const;
+
   SiteRun& run_;
   SocketOptions devices_;
   LiveCopy copy_;
@@ -57,6 +64,9 @@ class PanelVehicle final : public hmi::Vehicle {
   WorkMeter meter_;
   JogBar jogging_;
   std::optional<CameraCapture> camera_;
+  // of the ticks' thread
+  std::vector<mapping::SensorRecord> idle_sensors_;
+  std::vector<LidarModel> idle_lidars_;
 };
 
 }  // namespace madori::app

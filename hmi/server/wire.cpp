@@ -166,6 +166,41 @@ json to_wire(const FoundDevice& device) {
           {"sensor", device.sensor ? to_wire(*device.sensor) : json(nullptr)}};
 }
 
+json to_wire(const LidarView& lidar) {
+  json points = json::array();
+  for (const auto& p : lidar.points) {
+    points.push_back(std::round(p.x_m * 100.0) / 100.0);
+    points.push_back(std::round(p.y_m * 100.0) / 100.0);
+  }
+  return {{"name", lidar.name},
+          {"type", lidar.type},
+          {"place", lidar.place},
+          {"rate_hz", rounded(lidar.rate_hz)},
+          {"silence_s", rounded(lidar.silence_s)},
+          {"lost", lidar.lost},
+          {"refused", lidar.refused},
+          {"state", to_wire(lidar.state)},
+          {"points", points}};
+}
+
+json to_wire(const MountingState& mounting) {
+  json rows = json::array();
+  for (const auto& row : mounting.rows)
+    rows.push_back({{"typed", to_wire(row.typed)},
+                    {"found", to_wire(row.found)},
+                    {"known", row.known},
+                    {"height_known", row.height_known},
+                    {"sigma_m", row.sigma_m},
+                    {"sigma_deg", row.sigma_deg},
+                    {"residual_m", row.residual_m},
+                    {"tilt_deg", row.tilt_deg},
+                    {"lack", to_wire(row.lack)}});
+  return {{"state", mounting.state},
+          {"progress", rounded(mounting.progress)},
+          {"notice", to_wire(mounting.notice)},
+          {"rows", rows}};
+}
+
 std::string dump(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
