@@ -154,8 +154,10 @@ json to_wire(const WallView& wall) {
 }
 
 json to_wire(const mapping::SensorRecord& s) {
-  return {{"name", s.name}, {"type", s.type}, {"x_m", s.x_m},
-          {"y_m", s.y_m},   {"z_m", s.z_m},   {"yaw_deg", s.yaw_deg}};
+  json wire{{"name", s.name}, {"type", s.type}, {"x_m", s.x_m},
+            {"y_m", s.y_m},   {"z_m", s.z_m},   {"yaw_deg", s.yaw_deg}};
+  if (!s.address.empty()) wire["address"] = s.address;
+  return wire;
 }
 
 json to_wire(const FoundDevice& device) {
