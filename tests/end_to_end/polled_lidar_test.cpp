@@ -1,6 +1,6 @@
 // A vehicle whose only lidar is asked for its scans, in the sample factory: the device's bytes, the real
-// localization, the whole cycle in lock-step. It finds its place, drives as fast as its rate allows, and touches
-// nothing.
+// localization, the whole cycle in lock-step. It finds its place, drives as fast as its rate allows, and
+// touches nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,8 @@ TEST_P(PolledLidar, FindsItsPlaceAndDeliversSlowly) {
   config.walls = site.config.walls;
   site.config = std::move(config);
   test::LockStepRun run(site, setup);
-  ASSERT_TRUE(run.run_until([&] { return run.state().pose.health.state == LocalizationState::Localized; }, 120.0))
+  ASSERT_TRUE(
+      run.run_until([&] { return run.state().pose.health.state == LocalizationState::Localized; }, 120.0))
       << run.state().pose.health.reason;
   const auto order = run.orders->add({{kStation, app::StopAction::Pass, 0.0}}, 1, run.factory->now());
   double fastest_mps = 0.0;
@@ -45,7 +46,8 @@ TEST_P(PolledLidar, FindsItsPlaceAndDeliversSlowly) {
   EXPECT_LT(fastest_mps, 1.03 * GetParam().fastest_mps);
   EXPECT_GT(fastest_mps, 0.1);
   EXPECT_TRUE(run.factory->collisions().empty());
-  std::printf("asked %s times a second: at most %.2f m/s, %.0f s\n", GetParam().poll_hz, fastest_mps, run.time_s());
+  std::printf("asked %s times a second: at most %.2f m/s, %.0f s\n", GetParam().poll_hz, fastest_mps,
+              run.time_s());
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, PolledLidar, testing::Values(Polled{"2", 1.51}, Polled{"0.3", 0.64}));

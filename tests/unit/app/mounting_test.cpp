@@ -105,6 +105,7 @@ TEST(WrongMounting, AHeightWrongByThirtyCentimetresIsToldBeforeTheFirstOrderWhic
 
 TEST(WrongMounting, ARightHeightIsNoDoubt) {
   auto v = test::corridor_vehicle();
+  v->run_until([] { return false; }, 3.0);
   v->drive_to({{2}});
   v->say(OperatorWord::Resume);
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << v->state().standstill.cause.text;
