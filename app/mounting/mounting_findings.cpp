@@ -16,8 +16,8 @@ double share_percent(double found, double believed) {
   return 100.0 * (found / believed - 1.0);
 }
 
-double rounded(double value, double step) {
-  return std::round(value / step) * step;
+double rounded(double value, double per_unit) {
+  return std::round(value * per_unit) / per_unit;
 }
 
 }  // namespace
@@ -41,12 +41,12 @@ std::vector<MountingFinding> mounting_findings(const localization::MountingCalib
     const auto& lidar = found.lidars[i];
     MountingFinding one{sensors[i], sensors[i], lidar, lack_words(lidar.lack)};
     if (lidar.known != MountingKnown::Nothing)
-      one.found.yaw_deg = rounded(to_deg(lidar.mounting.yaw_rad), 0.01);
+      one.found.yaw_deg = rounded(to_deg(lidar.mounting.yaw_rad), 100.0);
     if (lidar.known == MountingKnown::All) {
-      one.found.x_m = rounded(lidar.mounting.x_m, 0.001);
-      one.found.y_m = rounded(lidar.mounting.y_m, 0.001);
+      one.found.x_m = rounded(lidar.mounting.x_m, 1000.0);
+      one.found.y_m = rounded(lidar.mounting.y_m, 1000.0);
     }
-    if (lidar.floor) one.found.z_m = rounded(lidar.floor->height_m, 0.001);
+    if (lidar.floor) one.found.z_m = rounded(lidar.floor->height_m, 1000.0);
     all.push_back(std::move(one));
   }
   return all;

@@ -24,6 +24,13 @@ bool moves(Stage stage) {
   return stage == Stage::Forward || stage == Stage::Turning || stage == Stage::Back;
 }
 
+/// A stage that takes longer has a vehicle that does not get on.
+double longest_s(Stage stage, const MountingDriveOptions& options) {
+  constexpr double kWaitsS = 20.0;
+  return kWaitsS + 3.0 * (stage == Stage::Turning ? options.turn_rad / options.turn_radps
+                                                  : options.way_m / options.speed_mps);
+}
+
 Transform2<Map, Odom> as_map() {  // the guard asks for places of the Map; here dead reckoning stands in
   return {};
 }
@@ -179,6 +186,8 @@ CycleOutput MountingManoeuvre::step(const CycleInput& input, const OdometryReadi
     if (!held_since_) held_since_ = input.now;
     if (to_seconds(input.now - *held_since_) > options_.patience_s) stop(Notice(notice_));
   }
+  if (moves(stage_) && to_seconds(input.now - *begun_) > longest_s(stage_, options_))
+    stop(app::notice(kMountingMoved));
   const bool may_move = notice_.empty() && moves(stage_);
   const auto limited = control::limit(
       limits_, {.requested = asked, .may_move = may_move, .step_s = std::max(step_s, 1e-3)}, vehicle_.limits);

@@ -65,7 +65,8 @@ std::optional<FloorSeen> floor_of(const std::vector<const PointCloud<Lidar>*>& s
     off.push_back(std::abs(one.height_m - floor.height_m));
     floor.points += one.points;
   }
-  floor.sigma_m = 1.4826 * median_of(off) / std::sqrt(static_cast<double>(seen.size()));
+  constexpr double kUnevenM = 0.003;  // a floor, and a lidar's ranges on it
+  floor.sigma_m = std::hypot(kUnevenM, 1.4826 * median_of(off) / std::sqrt(static_cast<double>(seen.size())));
   return floor;
 }
 
