@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <filesystem>
 #include <set>
 
 #include "core/angle.hpp"
@@ -29,20 +30,41 @@ void check_mounting(const mapping::SensorRecord& s, const mapping::VehicleRecord
                 "give z_m, its height above the floor in metres");
 }
 
+std::string address_of(const mapping::SensorRecord& sensor, const sensors::LidarRow& row) {
+  return sensor.address.empty() ? row.address : sensor.address;
+}
+
 /// One device cannot be two sensors.
 void check_apart(const std::vector<mapping::SensorRecord>& sensors, const std::string& where) {
-  std::set<std::string> names, addresses;
-  for (const auto& s : sensors) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const auto& s = sensors[i];
     if (!names.insert(s.name).second)
       throw Error(where, "two sensors are named " + s.name, "give each its own name");
-    const std::string address = s.address.empty() ? sensors::lidar_of(s.type, where).address : s.address;
-    if (!addresses.insert(address).second)
-      throw Error(where, "two sensors have the address " + address,
-                  "give each its own below sensors, as address:");
+    const auto& row = sensors::lidar_of(s.type, where);
+    const std::string address = address_of(s, row);
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto& other = sensors::lidar_of(sensors[j].type, where);
+      if (other.link == row.link && same_address(row.link, address, address_of(sensors[j], other)))
+        throw Error(where, "two sensors have the address " + address,
+                    "give each its own below sensors, as address:");
+    }
   }
 }
 
 }  // namespace
+
+bool same_address(sensors::LidarLink link, const std::string& a, const std::string& b) {
+  if (link == sensors::LidarLink::Serial) {
+    std::error_code missing;
+    const std::filesystem::path first = std::filesystem::canonical(a, missing),
+                                second = std::filesystem::canonical(b, missing);
+    return a == b || (!first.empty() && first == second);
+  }
+  const auto first = sensors::host_and_port(a, {"", 0}), second = sensors::host_and_port(b, {"", 0});
+  const bool one_port = first.port == second.port || first.port == 0 || second.port == 0;
+  return one_port && (link == sensors::LidarLink::Udp || first.host == second.host);
+}
 
 sensors::LidarSettings lidar_settings(const mapping::SensorRecord& sensor) {
   return {sensor.name,
@@ -62,9 +84,7 @@ LidarModel lidar_model(const mapping::SensorRecord& sensor) {
 
 double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m) {
   double best_m = 0.0;
-  for (const LidarModel& lidar : lidars)
-    if (planning::SensorView::of(lidar).looks_at(0.0))
-      best_m = std::max(best_m, lidar.mounting.x_m + lidar.sure_range_m(kLegM) - front_m);
+  for (const LidarModel& lidar : lidars) best_m = std::max(best_m, planning::sure_ahead_m(lidar, front_m));
   return best_m;
 }
 

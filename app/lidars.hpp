@@ -5,6 +5,7 @@
 
 #include "core/lidar_model.hpp"
 #include "mapping/site/site.hpp"
+#include "planning/obstacle_check/sight_history.hpp"
 #include "sensors/lidar/registry.hpp"
 
 namespace madori::app {
@@ -15,13 +16,15 @@ namespace madori::app {
 [[nodiscard]] std::string lidar_title(const std::string& type);
 /// What that sensor sees, by its kind and its mounting. Throws Error on an unknown kind or setting.
 [[nodiscard]] LidarModel lidar_model(const mapping::SensorRecord& sensor);
+/// Whether two addresses of that kind of link mean one device: the same UDP port, host or serial port.
+[[nodiscard]] bool same_address(sensors::LidarLink link, const std::string& a, const std::string& b);
+
 /// The lidars of a site in its order. Throws an Error that names `folder`/site.yaml: none at all, an unknown
 /// kind, two of one name or address, one that is mounted outside the vehicle.
 [[nodiscard]] std::vector<LidarModel> lidars_of(const mapping::Site& site,
                                                 const std::filesystem::path& folder);
 
-/// The narrowest standing body that must be seen: a leg (test body of IEC 61496-3).
-inline constexpr double kLegM = 0.07;
+using planning::kLegM;
 /// How far before the vehicle's front a leg is sure to be seen: by the lidar that does it best straight
 /// ahead.
 [[nodiscard]] double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m);

@@ -28,4 +28,17 @@ struct WheelGeometry {
   return {chord_m * std::cos(half), chord_m * std::sin(half), turn_rad};
 }
 
+/// The angles by which the wheels turned in such a step: the inverse of arc_step().
+struct WheelTurns {
+  double left_rad = 0.0;
+  double right_rad = 0.0;
+};
+[[nodiscard]] inline WheelTurns wheel_turns(const WheelGeometry& wheels, const Transform2<Base, Base>& step) {
+  const double half = step.yaw_rad() / 2.0;
+  const double chord_m = step.x_m() * std::cos(half) + step.y_m() * std::sin(half);
+  const double length_m = chord_m * (std::abs(half) < 1e-4 ? 1.0 + half * half / 6.0 : half / std::sin(half));
+  const double apart_m = step.yaw_rad() * wheels.half_separation_m;
+  return {(length_m - apart_m) / wheels.left_radius_m, (length_m + apart_m) / wheels.right_radius_m};
+}
+
 }  // namespace madori

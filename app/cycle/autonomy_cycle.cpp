@@ -56,7 +56,7 @@ void command_drive(CycleState& state, const VelocityCommand& wanted, const Cycle
   const bool by_hand = state.mode == Mode::Manual;
   const bool may_move = (drives(state.mode) || by_hand) && !forbidding_rule(state, input, config, by_hand);
   const double cap_mps = drives(state.mode) ? allowed_mps(state, input, config)
-                                            : config.check.braking.speed_within(config.sure_range_m);
+                                            : config.check.braking.speed_within(sure_range_m(state, input.now, config));
   const auto limited = control::limit(
       state.limits, {.requested = wanted, .may_move = may_move, .speed_cap_mps = cap_mps, .step_s = step_s},
       config.limits);
@@ -88,6 +88,8 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   if (step_s > config.gap_s) begin_gap(state, step_s, output);
   localize(state, input, config, output);  // wheel angles and revolutions -> map_from_base, bodies, movers
   foresee(state, input.now, config);       // pose, commands on their way -> command_pose
+  watch_mounting(state, input, config, output);     // height, tilt, yaw: as typed?
+  say_missed_lidars(state, input, config, output);  // one of several is silent
   remember_trail(state, input.now);
   watch_wheels(state, config);                 // told, but not done: a wheel disobeys
   watch_effort(state, input, config, output);  // driven, but not moved: something holds the vehicle

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cycle/modes.hpp"
+#include "app/cycle/mounting_watch.hpp"
 #include "app/cycle/notice.hpp"
 #include "app/cycle/pose_source.hpp"
 #include "app/cycle/safety_rules.hpp"
@@ -60,7 +61,7 @@ struct CycleConfig {
   double narrow_speed_mps = 0.2;       ///< with less than the ordinary margins
   double degraded_speed_mps = 0.4;     ///< while localization is degraded
   double drive_silent_s = 0.3;         ///< without a status of the drive: fault
-  double lidar_silent_s = 0.35;        ///< without a revolution: stand
+  double lidar_silent_s = 0.35;        ///< without a sweep: stand; longer for slow ones (patience_s)
   double gap_s = 0.25;                 ///< between two steps: the drive has stopped by itself
   double detour_after_s = 1.5;         ///< something must stand so long before a way around is looked for
   double detour_again_s = 4.0;         ///< between two searches
@@ -214,6 +215,8 @@ struct CycleState {
   Stamp wheels_at{};                                     ///< of the reading they were last judged by
   std::optional<control::DisobedientWheel> disobedient;  ///< until a person confirms
   int unarmed_steps = 0;                                 ///< enabled in a row while the drive stayed idle
+  MountingWatch mounting;
+  std::vector<char> lidars_missed;  ///< each: it is silent, and that was said
   Workbench bench;
 };
 

@@ -3,6 +3,7 @@
 
 #include "app/cycle/stages.hpp"
 #include "core/angle.hpp"
+#include "core/fill_in.hpp"
 
 namespace madori::app {
 namespace {
@@ -21,13 +22,24 @@ std::array<double, Hearing::kBearings + 1> edges() {
   return slopes;
 }
 
-/// The younger of what the lidars told that are asked; nothing where none has told anything.
+/// The younger of what the lidars told that are asked; nothing where none has told anything. Who has longer
+/// patience counts as heard later by what that is longer, never later than `now`.
 template <class Asked, class Told>
-std::optional<Stamp> youngest(const CycleState& state, const Asked& asked, const Told& told) {
+std::optional<Stamp> youngest(const CycleState& state, const CycleConfig& config, Stamp now,
+                              const Asked& asked, const Told& told) {
   std::optional<Stamp> newest;
-  for (std::size_t i = 0; i < state.lidars_heard.size(); ++i)
-    if (asked(i)) newest = std::max(newest, told(state.lidars_heard[i]));
+  for (std::size_t i = 0; i < state.lidars_heard.size(); ++i) {
+    if (!asked(i)) continue;
+    const std::optional<Stamp> heard = told(state.lidars_heard[i]);
+    const Duration more = duration_from_seconds(patience_s(config, i) - config.lidar_silent_s);
+    if (heard) newest = std::max(newest, std::optional(std::max(*heard, std::min(*heard + more, now))));
+  }
   return newest;
+}
+
+bool is_missed(const CycleState& state, std::size_t lidar, Stamp now, const CycleConfig& config) {
+  const auto heard = lidar < state.lidars_heard.size() ? state.lidars_heard[lidar].heard : std::nullopt;
+  return is_silent(std::max({heard, state.gap, std::optional(state.begun)}), now, patience_s(config, lidar));
 }
 
 }  // namespace
@@ -53,16 +65,54 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
   }
 }
 
-std::optional<Stamp> heard_all(const CycleState& state, const CycleConfig& config) {
+double patience_s(const CycleConfig& config, std::size_t lidar) {
+  constexpr double kSweeps = 2.5;
+  return std::max(config.lidar_silent_s, kSweeps * config.lidars[lidar].period_s);
+}
+
+std::string silent_lidars(const CycleState& state, Stamp now, const CycleConfig& config) {
+  std::string names;
+  for (std::size_t i = 0; i < config.lidars.size(); ++i)
+    if (is_missed(state, i, now, config)) names += (names.empty() ? "" : ", ") + config.lidars[i].name;
+  return names;
+}
+
+double sure_range_m(const CycleState& state, Stamp now, const CycleConfig& config) {
+  double heard_m = 0.0;
+  bool any_missed = false;
+  for (std::size_t i = 0; i < config.lidars.size(); ++i) {
+    if (is_missed(state, i, now, config))
+      any_missed = true;
+    else
+      heard_m = std::max(heard_m, planning::sure_ahead_m(config.lidars[i], config.check.vehicle.front_m));
+  }
+  return any_missed ? std::min(config.sure_range_m, heard_m) : config.sure_range_m;
+}
+
+void say_missed_lidars(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                       CycleOutput& output) {
+  if (config.lidars.size() < 2) return;
+  state.lidars_missed.resize(config.lidars.size());
+  const bool goes_on = !is_silent(state.lidar_heard, input.now, config.lidar_silent_s);
+  for (std::size_t i = 0; i < config.lidars.size(); ++i) {
+    const bool missed = is_missed(state, i, input.now, config);
+    if (missed == (state.lidars_missed[i] != 0) || (missed && !goes_on)) continue;
+    state.lidars_missed[i] = missed ? 1 : 0;
+    const CatalogueEntry& words = missed ? kLidarLostEvent : kLidarBackEvent;
+    output.events.push_back(fill_in(words.english, {{"name", config.lidars[i].name}}));
+  }
+}
+
+std::optional<Stamp> heard_all(const CycleState& state, const CycleConfig& config, Stamp now) {
   if (state.lidars_heard.size() != config.lidars.size()) return std::nullopt;
   std::optional<Stamp> oldest = youngest(
-      state, [&](std::size_t lidar) { return tells_place(config.lidars, lidar); },
+      state, config, now, [&](std::size_t lidar) { return tells_place(config.lidars, lidar); },
       [](const Hearing& h) { return h.heard; });
   for (std::size_t i = 0; i < Hearing::kBearings; ++i) {
     const double bearing_rad = bearing_of(static_cast<double>(i));
     oldest =
         std::min(oldest, youngest(
-                             state,
+                             state, config, now,
                              [&](std::size_t lidar) {
                                return planning::SensorView::of(config.lidars[lidar]).looks_at(bearing_rad);
                              },

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/cycle/stages.hpp"
+#include "core/scan_as_cloud.hpp"
 #include "core/sweep_in_base.hpp"
 
 namespace madori::app {
@@ -69,8 +70,9 @@ bool is_too_old(const PointCloud<Lidar>& cloud, const Ring<OdometryReading>& tra
 
 /// After a gap the stamps of lidar and drive may need a while to follow the computer's clock: only those that
 /// are as young as they must be tell of now, and fit together.
-bool ends_gap(const CycleState& state, Stamp measured, Stamp now, const CycleConfig& config) {
-  return state.gap && measured >= *state.gap && to_seconds(now - measured) < config.lidar_silent_s &&
+bool ends_gap(const CycleState& state, std::size_t lidar, Stamp measured, Stamp now,
+              const CycleConfig& config) {
+  return state.gap && measured >= *state.gap && to_seconds(now - measured) < patience_s(config, lidar) &&
          to_seconds(now - state.odometry.reading().stamp) < config.drive_silent_s;
 }
 
@@ -93,23 +95,6 @@ void follow_drawing(CycleState& state, const CycleConfig& config) {
   state.site = std::move(site);
 }
 
-/// A scan as points in the lidar's plane.
-void lay_in_plane(const LaserScan& scan, PointCloud<Lidar>& cloud) {
-  cloud.stamp = scan.stamp;
-  cloud.lidar = scan.lidar;
-  cloud.points.clear();
-  cloud.points.reserve(scan.ranges_m.size());
-  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const float range_m = scan.ranges_m[i];
-    if (!(range_m > 0.0F && static_cast<double>(range_m) < scan.range_max_m)) continue;
-    const double angle = scan.angle_rad(i);
-    const double after_s = to_seconds(scan.beam_period) * static_cast<double>(i);
-    cloud.points.push_back({range_m * static_cast<float>(std::cos(angle)),
-                            range_m * static_cast<float>(std::sin(angle)), 0.0F, static_cast<float>(after_s),
-                            0, 0});
-  }
-}
-
 /// One sweep to everybody who looks. A lidar that is faster than the way need be checked tells the obstacles
 /// of every sweep, and the movers, whose speeds want time between two looks, of some.
 void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleInput& input,
@@ -120,7 +105,7 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
   const PointCloud<Base>& base = state.bench.sweep;
   state.lidars_heard.resize(config.lidars.size());
   note_heard(state.lidars_heard[cloud.lidar], base, config.lidars[cloud.lidar], input.now);
-  if (ends_gap(state, base.stamp, input.now, config)) state.gap.reset();
+  if (ends_gap(state, cloud.lidar, base.stamp, input.now, config)) state.gap.reset();
   const auto odom_from_base =
       state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);
   state.localization->on_cloud(base, odom_from_base);
@@ -158,10 +143,10 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
   }
   for (const auto& cloud : input.clouds) take_sweep(state, cloud, input, config, output);
   for (const auto& scan : input.scans) {
-    lay_in_plane(scan, state.bench.scan);
+    scan_as_cloud(scan, state.bench.scan);
     take_sweep(state, state.bench.scan, input, config, output);
   }
-  state.lidar_heard = heard_all(state, config);
+  state.lidar_heard = heard_all(state, config, input.now);
   follow_drawing(state, config);
 }
 

@@ -8,8 +8,8 @@
 namespace madori::app {
 namespace {
 
-static_assert(kCauses.size() == static_cast<std::size_t>(Cause::TooLongForWay) + 1);
-static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::LookAndDrive) + 1);
+static_assert(kCauses.size() == static_cast<std::size_t>(Cause::LidarYaw) + 1);
+static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::CorrectMounting) + 1);
 
 }  // namespace
 

@@ -60,6 +60,10 @@ enum class Cause : std::uint8_t {
   MappingLost,
   MappingStopped,
   TooLongForWay,
+  LidarsSilent,
+  LidarHeight,
+  LidarLeans,
+  LidarYaw,
 };
 
 /// What a person can do about it.
@@ -91,6 +95,7 @@ enum class Remedy : std::uint8_t {
   DriveToMap,
   DriveBack,
   LookAndDrive,
+  CorrectMounting,
 };
 
 inline constexpr std::array kCauses{
@@ -134,6 +139,13 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"mapping-stopped", "stopped at a panel while a map is made"},
     CatalogueEntry{"too-long-for-way",
                    "the vehicle does not get to node {node}: a drawn wall stands where it turns"},
+    CatalogueEntry{"lidars-silent", "silent: lidar {name}"},
+    CatalogueEntry{"lidar-height",
+                   "lidar {name} hangs {found} m above the floor that it sees, and {typed} m was typed"},
+    CatalogueEntry{"lidar-leans", "lidar {name} leans by {found} degrees against the floor that it sees"},
+    CatalogueEntry{
+        "lidar-yaw",
+        "the vehicle gets where lidar {name} would look at {found} degrees, and {typed} was typed"},
 };
 
 inline constexpr std::array kRemedies{
@@ -164,6 +176,8 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"drive-to-map", "drive by hand past every wall, then press Finish"},
     CatalogueEntry{"drive-back", "drive back slowly to where the map was right; it goes on from there"},
     CatalogueEntry{"look-and-drive", "look around, then drive on by hand"},
+    CatalogueEntry{"correct-mounting",
+                   "correct its mounting in the vehicle step, or press Measure the mounting there"},
 };
 
 /// An event of the cycle, not the cause of a standstill.
@@ -171,6 +185,13 @@ inline constexpr CatalogueEntry kTimeGapEvent{"event.time-gap",
                                               "the program stood still, or the computer's clock jumped "
                                               "forward, by {seconds} s; the vehicle stands until "
                                               "it has measured anew"};
+
+/// One of several lidars that the vehicle can do without.
+inline constexpr CatalogueEntry kLidarLostEvent{
+    "event.lidar-lost",
+    "lidar {name} is silent: the vehicle goes on with the others, as "
+    "fast as they allow"};
+inline constexpr CatalogueEntry kLidarBackEvent{"event.lidar-back", "lidar {name} is heard again"};
 
 [[nodiscard]] const CatalogueEntry& entry(Cause cause);
 [[nodiscard]] const CatalogueEntry& entry(Remedy remedy);

@@ -24,6 +24,19 @@ bool lidar_is_silent(const CycleState& state, const CycleInput& input, const Cyc
   return is_silent(state.lidar_heard, input.now, config.lidar_silent_s);
 }
 
+bool mounting_is_wrong(const CycleState& state, const CycleInput& /*input*/, const CycleConfig& /*config*/) {
+  return mounting_forbids(state.mounting);
+}
+
+Notice what_is_wrong(const CycleState& state, const CycleInput& /*input*/, const CycleConfig& config) {
+  return mounting_notice(*state.mounting.doubt(), config);
+}
+
+Notice who_is_silent(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  const std::string names = config.lidars.size() > 1 ? silent_lidars(state, input.now, config) : "";
+  return names.empty() ? notice(Cause::LidarSilent) : notice(Cause::LidarsSilent, {{"name", names}});
+}
+
 }  // namespace
 
 std::vector<SafetyRule> standard_safety_rules() {
@@ -31,7 +44,8 @@ std::vector<SafetyRule> standard_safety_rules() {
       {entry(Cause::TimeGap), entry(Remedy::ByItself), true, after_a_gap},
       {entry(Cause::ProtectiveField), entry(Remedy::ClearField), true, field_is_entered},
       {entry(Cause::DriveSilent), entry(Remedy::CheckDrive), true, drive_is_silent},
-      {entry(Cause::LidarSilent), entry(Remedy::CheckLidar), false, lidar_is_silent},
+      {entry(Cause::LidarSilent), entry(Remedy::CheckLidar), false, lidar_is_silent, who_is_silent},
+      {entry(Cause::LidarHeight), entry(Remedy::CorrectMounting), false, mounting_is_wrong, what_is_wrong},
   };
 }
 

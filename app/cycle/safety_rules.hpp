@@ -13,10 +13,12 @@ struct CycleState;
 /// Something that forbids every motion as long as it holds, whatever the order is. The vehicle goes on by
 /// itself once no rule holds any more; what only a person may end is a mode (modes.hpp).
 struct SafetyRule {
-  CatalogueEntry cause, remedy;  ///< said while the vehicle waits; without {placeholders}
+  CatalogueEntry cause, remedy;  ///< said while the vehicle waits; without {placeholders}, unless `said`
   bool by_hand;                  ///< it holds a vehicle that a person drives by hand, too
   /// Whether it holds in this step. Changes nothing, and reads no clock but CycleInput::now.
   bool (*holds)(const CycleState&, const CycleInput&, const CycleConfig&);
+  /// The cause with what was measured, where that is told.
+  Notice (*said)(const CycleState&, const CycleInput&, const CycleConfig&) = nullptr;
 };
 
 /// Those of the product, in the order in which they are said (docs/how-to/add-a-safety-rule.md).

@@ -9,15 +9,12 @@
 namespace madori::app {
 namespace {
 
-/// The slowest lidar rules how long nothing may be heard, and how late something is seen; the highest one
-/// must fit under what is driven under.
+/// The slowest lidar rules how late something is seen; the highest one must fit under what is driven under.
 void take_lidars(std::vector<LidarModel> lidars, CycleConfig& config) {
-  constexpr double kPatienceSweeps = 2.5;
   constexpr double kHeadroomM = 0.1;
   double top_m = config.check.vehicle.height_m;
   for (const LidarModel& lidar : lidars) {
     top_m = std::max(top_m, lidar.mounting.z_m);
-    config.lidar_silent_s = std::max(config.lidar_silent_s, kPatienceSweeps * lidar.period_s);
     config.check.braking.scan_period_s = std::max(config.check.braking.scan_period_s, lidar.period_s);
   }
   config.field.top_m = top_m + kHeadroomM;
@@ -54,29 +51,35 @@ void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
   config.movers.top_speed_mps = v.max_speed_mps;
 }
 
-void take_site(const mapping::Site& site, const std::filesystem::path& folder, CycleConfig& config) {
-  take_vehicle(site.vehicle, config);
-  take_lidars(lidars_of(site, folder), config);
+void take_protection(const mapping::Site& site, CycleConfig& config) {
   for (const auto& sensor : site.sensors)
     config.check.protective_m = std::max(config.check.protective_m, sensor.protective_m);
 }
 
 }  // namespace
 
-CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem::path& where) {
+CycleConfig vehicle_config(const mapping::VehicleRecord& vehicle, std::vector<LidarModel> lidars) {
   CycleConfig config;
+  take_vehicle(vehicle, config);
+  take_lidars(std::move(lidars), config);
+  return config;
+}
+
+CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem::path& where) {
+  CycleConfig config = vehicle_config(setup.vehicle, lidars_of(setup, where));
+  take_protection(setup, config);
   config.mapping = true;
-  take_site(setup, where, config);
   for (SafetyRule& rule : config.safety_rules) rule.by_hand = true;
   return config;
 }
 
 SiteForDriving load_for_driving(const std::filesystem::path& folder) {
   SiteForDriving loaded{mapping::load_scaled_site(folder), mapping::load_walls(folder / "walls.csv"), {}};
+  auto routes = planning::load_routes(folder / "routes");
+  loaded.config = vehicle_config(loaded.site.vehicle, lidars_of(loaded.site, folder));
   CycleConfig& config = loaded.config;
-  planning::RouteGraph routes = planning::load_routes(folder / "routes");
+  take_protection(loaded.site, config);
   config.metric = loaded.site.shortest_routes ? planning::RouteMetric::Metres : planning::RouteMetric::Hops;
-  take_site(loaded.site, folder, config);
   std::vector<Segment2<Map>> segments;
   for (const auto& wall : loaded.walls) segments.push_back(wall.segment);
   config.walls = std::make_shared<const planning::WallGrid>(std::move(segments));

@@ -15,6 +15,10 @@ struct SiteForDriving {
   CycleConfig config;
 };
 
+/// What a vehicle and its lidars mean for the cycle; routes and walls stay empty.
+[[nodiscard]] CycleConfig vehicle_config(const mapping::VehicleRecord& vehicle,
+                                         std::vector<LidarModel> lidars);
+
 /// Loads a scaled site with its routes; throws Error with the mend where something is missing or faulty: no
 /// scale, no routes, no lidar that can be driven by.
 [[nodiscard]] SiteForDriving load_for_driving(const std::filesystem::path& folder);

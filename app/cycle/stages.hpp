@@ -16,6 +16,21 @@ void foresee(CycleState& state, Stamp now, const CycleConfig& config);
 [[nodiscard]] bool stands(const CycleState& state);
 /// The order's next stop becomes a route and a path; an answered detour replaces it.
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
+/// Notices mountings that are not as typed.
+void watch_mounting(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                    CycleOutput& output);
+/// Whether a mounting is so wrong that nothing may be driven by it.
+[[nodiscard]] bool mounting_forbids(const MountingWatch& watch);
+[[nodiscard]] Notice mounting_notice(const MountingDoubt& doubt, const CycleConfig& config);
+/// Says which lidar is not heard any more while the vehicle can do without it, and that it is back.
+void say_missed_lidars(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                       CycleOutput& output);
+/// How long a lidar may be silent: two and a half of its sweeps, where that is longer than usual.
+[[nodiscard]] double patience_s(const CycleConfig& config, std::size_t lidar);
+/// Which lidars are silent now, by their names: "front, rear".
+[[nodiscard]] std::string silent_lidars(const CycleState& state, Stamp now, const CycleConfig& config);
+/// How far ahead a leg is sure to be seen by the lidars that are heard.
+[[nodiscard]] double sure_range_m(const CycleState& state, Stamp now, const CycleConfig& config);
 /// Notices a wheel that does not do what it was told.
 void watch_wheels(CycleState& state, const CycleConfig& config);
 /// Notices that the vehicle does not get on although it drives; what holds it is remembered as a body.
@@ -72,7 +87,7 @@ const std::vector<Point2<Map>>& obstacle_points(CycleState& state);
 void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarModel& lidar, Stamp now);
 /// When all that driving needs of the lidars had last been heard: the way ahead in somebody's field of view,
 /// and a lidar by which the vehicle knows its place. Nothing before that.
-[[nodiscard]] std::optional<Stamp> heard_all(const CycleState& state, const CycleConfig& config);
+[[nodiscard]] std::optional<Stamp> heard_all(const CycleState& state, const CycleConfig& config, Stamp now);
 /// Whether a lidar tells where the vehicle is: those that see walls over the equipment do, else all of them.
 [[nodiscard]] bool tells_place(const std::vector<LidarModel>& lidars, std::size_t lidar);
 /// Whether nobody has heard of a device for too long.

@@ -46,9 +46,10 @@ Standstill why_deaf(const CycleState& state, Stamp now, const CycleConfig& confi
     return because(Cause::DriveSilent, Remedy::CheckDrive, now);
   const bool asks_person = state.mode == Mode::EmergencyStop || state.mode == Mode::Fault;
   if (!asks_person && silent(state.lidar_heard, config.lidar_silent_s)) {
-    const bool speaks = std::ranges::none_of(
-        state.lidars_heard, [&](const Hearing& h) { return silent(h.heard, config.lidar_silent_s); });
-    if (state.lidar_heard && speaks) return because(Cause::LidarBlind, Remedy::UncoverLidar, now);
+    const std::string names = silent_lidars(state, now, config);
+    if (state.lidar_heard && names.empty()) return because(Cause::LidarBlind, Remedy::UncoverLidar, now);
+    if (config.lidars.size() > 1 && !names.empty())
+      return {notice(Cause::LidarsSilent, {{"name", names}}), notice(Remedy::CheckLidar), now};
     return because(state.lidar_heard ? Cause::LidarSilent : Cause::NoScan, Remedy::CheckLidar, now);
   }
   return {};
@@ -95,7 +96,7 @@ Standstill why_at_stop(const OrderStop& stop, Stamp now) {
 Standstill why_waiting(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Stamp now = input.now;
   if (const auto* rule = forbidding_rule(state, input, config))
-    return {notice(rule->cause), notice(rule->remedy), now};
+    return {rule->said ? rule->said(state, input, config) : notice(rule->cause), notice(rule->remedy), now};
   if (state.errand.arrived) return why_at_stop(state.errand.stop, now);
   if (!state.errand.no_way.empty()) return {state.errand.no_way, notice(Remedy::ClearOrDraw), now};
   const auto ask = std::ranges::find_if(asks(), [&](const Ask& a) { return a.holds(state, config); });
@@ -112,6 +113,10 @@ Standstill standstill_of(const CycleState& state, const CycleInput& input, const
     if (auto deaf = why_deaf(state, input.now, config); !deaf.cause.empty()) return deaf;
   if (config.mapping && state.mode != Mode::EmergencyStop && state.mode != Mode::Fault)
     return why_mapping(state, input, config);
+  const bool asks_order =
+      state.mode == Mode::Idle || state.mode == Mode::Localizing || state.mode == Mode::Paused;
+  if (asks_order && mounting_forbids(state.mounting))
+    return {mounting_notice(*state.mounting.doubt(), config), notice(Remedy::CorrectMounting), input.now};
   switch (state.mode) {
     case Mode::Driving:
     case Mode::Detouring:

@@ -66,10 +66,12 @@ bool take_standstill(std::string_view mode, std::string_view sentence, hmi::Even
   return false;
 }
 
-/// What the clocks did.
+/// What the clocks and the lidars did.
 bool take_clock(std::string_view text, hmi::EventView& view) {
   auto known = said_by(kTimeGapEvent, text);
   if (!known) known = said_by_any(kClockEvents, text);
+  if (!known) known = said_by(kLidarLostEvent, text);
+  if (!known) known = said_by(kLidarBackEvent, text);
   if (!known) return false;
   view.what = shown(*known);
   view.severity = "warning";

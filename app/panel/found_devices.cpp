@@ -1,16 +1,14 @@
 #include "app/panel/found_devices.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 
 #include "app/lidars.hpp"
 #include "app/panel/reference_lidar.hpp"
+#include "app/runner/device_search.hpp"
 
 namespace madori::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 bool is_heard(const std::vector<hmi::DeviceStatus>& live, const std::string& type) {
   return std::ranges::any_of(live, [&](const auto& d) { return d.type == type && d.healthy; });
@@ -24,26 +22,11 @@ std::string place_of(const mapping::SensorRecord& sensor) {
   return row->link == sensors::LidarLink::Udp ? "UDP " + place.substr(place.rfind(':') + 1) : place;
 }
 
+}  // namespace
+
 hmi::Notice heard_or_silent(bool heard) {
   return heard ? hmi::Notice{"heard", {}, "heard"} : hmi::Notice{"silent", {}, "nothing is heard from it"};
 }
-
-/// Serial adapters by the names that udev gives them, which stay when they are plugged in elsewhere.
-std::vector<std::string> serial_ports() {
-  std::vector<std::string> ports;
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator("/dev/serial/by-id", missing))
-    ports.push_back(entry.path().string());
-  for (const auto& entry : fs::directory_iterator("/dev", missing)) {
-    const std::string name = entry.path().filename().string();
-    if (ports.empty() && (name.starts_with("ttyUSB") || name.starts_with("ttyACM")))
-      ports.push_back(entry.path().string());
-  }
-  std::ranges::sort(ports);
-  return ports;
-}
-
-}  // namespace
 
 std::vector<hmi::FoundDevice> found_devices(const SocketOptions& options,
                                             const std::vector<mapping::SensorRecord>& sensors,
@@ -68,6 +51,24 @@ std::vector<hmi::FoundDevice> found_devices(const SocketOptions& options,
                        false,
                        {"unused-port", {{"port", port}}, "not used: start with --drive " + port},
                        std::nullopt});
+  return found;
+}
+
+std::vector<hmi::FoundDevice> searched_devices(const SocketOptions& options,
+                                               const std::vector<mapping::SensorRecord>& sensors) {
+  const auto site = sensors.empty() ? std::vector{reference_lidar()} : sensors;
+  std::vector<hmi::FoundDevice> found;
+  for (const auto& device : search_devices(addressed(site, options), options.drive_device)) {
+    const auto* row = sensors::find_lidar(device.type);
+    std::optional<mapping::SensorRecord> proposal;
+    if (row != nullptr) {
+      proposal = reference_lidar();
+      proposal->type = device.type;
+      proposal->name = device.type + " " + std::to_string(found.size() + 1);
+      if (device.address != row->address) proposal->address = device.address;
+    }
+    found.push_back({device.type, device.address, true, heard_or_silent(true), proposal});
+  }
   return found;
 }
 

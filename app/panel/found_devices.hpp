@@ -14,4 +14,11 @@ namespace madori::app {
                                                           const std::vector<mapping::SensorRecord>& sensors,
                                                           const std::vector<hmi::DeviceStatus>& live);
 
+/// Devices that answer where none of the site's is: search_devices().
+[[nodiscard]] std::vector<hmi::FoundDevice> searched_devices(
+    const SocketOptions& options, const std::vector<mapping::SensorRecord>& sensors);
+
+/// "heard" or "silent", as a word for people.
+[[nodiscard]] hmi::Notice heard_or_silent(bool heard);
+
 }  // namespace madori::app

@@ -23,15 +23,24 @@ constexpr double kFloor_m = 0.1;      ///< returns below are the floor
 constexpr double kScanCell_m = 0.08;  ///< of several returns in one, a picture needs one
 constexpr std::size_t kMostScanPoints = 2000;
 
+/// The last second's, and two at least: a lidar that is asked for its scans may tell one in three seconds.
 void forget_old(std::deque<Stamp>& stamps, Stamp now) {
-  while (!stamps.empty() && to_seconds(now - stamps.front()) > 1.0) stamps.pop_front();
+  while (stamps.size() > 2 && to_seconds(now - stamps.front()) > 1.0) stamps.pop_front();
+}
+
+double rate_of(const std::deque<Stamp>& stamps, Stamp now) {
+  const auto recent = std::ranges::count_if(stamps, [&](Stamp at) { return to_seconds(now - at) <= 1.0; });
+  if (recent > 2 || stamps.size() < 2) return static_cast<double>(recent);
+  const double since_s =
+      std::max(to_seconds(stamps.back() - stamps.front()), to_seconds(now - stamps.back()));
+  return since_s > 0.0 ? static_cast<double>(stamps.size() - 1) / since_s : 0.0;
 }
 
 hmi::DeviceStatus device(const std::string& name, const std::string& type, const std::optional<Stamp>& heard,
-                         Stamp now, std::size_t rate) {
+                         Stamp now, double rate_hz, double silent_s = kSilent_s) {
   const double age_s = heard ? to_seconds(now - *heard) : 1e6;
   hmi::DeviceStatus status{
-      name, type, lidar_title(type), age_s < kSilent_s, std::min(age_s, 1e6), static_cast<double>(rate), {}};
+      name, type, lidar_title(type), age_s < silent_s, std::min(age_s, 1e6), rate_hz, {}};
   if (!heard) status.detail = {"nothing-received", {}, "nothing received yet"};
   return status;
 }
@@ -87,6 +96,7 @@ bool LiveCopy::due(Stamp now) {
 }
 
 void LiveCopy::count_revolutions(const CycleInput& input) {
+  counted_ = input.now;
   const auto count = [&](std::size_t lidar) {
     revolutions_[lidar].push_back(input.now);
     heard_[lidar] = input.now;
@@ -134,9 +144,10 @@ void LiveCopy::take_devices(Stamp now, const std::vector<LidarModel>& lidars,
     const auto heard = heard_.find(i);
     live_.devices.push_back(device(lidars.size() == 1 ? "lidar" : lidars[i].name, lidars[i].type,
                                    heard == heard_.end() ? std::nullopt : std::optional(heard->second), now,
-                                   revolutions_[i].size()));
+                                   rate_of(revolutions_[i], now),
+                                   std::max(kSilent_s, 2.5 * lidars[i].period_s)));
   }
-  live_.devices.push_back(device("drive", "drive", drive, now, reports_.size()));
+  live_.devices.push_back(device("drive", "drive", drive, now, rate_of(reports_, now)));
   if (!problem.empty())
     live_.devices.push_back({"devices", "link", "", false, 0.0, std::nullopt, uncoded(problem)});
 }
@@ -192,11 +203,11 @@ void LiveCopy::take_places(const CycleState& state, Stamp now) {
       locate_state(state.pose.health.state, is_fresh(state.lidar_heard, now), !locate_.places.empty());
 }
 
-void LiveCopy::show_setup(const CycleInput& input, const std::string& problem) {
+void LiveCopy::show_setup(const CycleInput& input, const std::vector<LidarModel>& lidars,
+                          const std::string& problem) {
   const std::scoped_lock lock(mutex_);
   mode_ = Mode::Paused;
   count_revolutions(input);
-  const std::vector<LidarModel> lidars{lidar_model(reference_lidar())};
   take_scan(input, lidars, {});
   if (!due(input.now)) return;
   const auto odometer_m = live_.odometer_m;
@@ -240,6 +251,20 @@ hmi::LocateView LiveCopy::locate() const {
 Mode LiveCopy::mode() const {
   const std::scoped_lock lock(mutex_);
   return mode_;
+}
+
+LiveCopy::Look LiveCopy::look(std::size_t lidar) const {
+  constexpr std::size_t kMost = 400;
+  const std::scoped_lock lock(mutex_);
+  Look look;
+  if (const auto stamps = revolutions_.find(lidar); stamps != revolutions_.end())
+    look.rate_hz = rate_of(stamps->second, counted_);
+  const auto found = seen_.find(lidar);
+  if (found == seen_.end()) return look;
+  const auto& points = found->second.second;
+  const std::size_t shown = std::min(points.size(), kMost);
+  for (std::size_t i = 0; i < shown; ++i) look.points.push_back(points[i * points.size() / shown]);
+  return look;
 }
 
 bool LiveCopy::hears_lidar() const {

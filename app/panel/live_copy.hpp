@@ -17,8 +17,9 @@ class LiveCopy {
   /// On the cycle's thread, after every step.
   void show(const CycleInput& input, const CycleState& state, const CycleConfig& config,
             const std::string& device_problem);
-  /// On the same thread while the site cannot be driven yet: what the devices say.
-  void show_setup(const CycleInput& input, const std::string& problem);
+  /// On the same thread while the site cannot be driven yet: what the devices say. `sensors` as they are
+  /// open.
+  void show_setup(const CycleInput& input, const std::vector<LidarModel>& lidars, const std::string& problem);
   /// The vehicle's odometer, metres; added to what is shown.
   void set_odometer(double metres);
 
@@ -27,6 +28,12 @@ class LiveCopy {
   [[nodiscard]] hmi::LocateView locate() const;
   [[nodiscard]] Mode mode() const;
   [[nodiscard]] bool hears_lidar() const;
+  /// What each lidar saw last, Base frame, at most 400 points, and its sweeps in the last second.
+  struct Look {
+    std::vector<Point2<Base>> points;
+    double rate_hz = 0.0;
+  };
+  [[nodiscard]] Look look(std::size_t lidar) const;
 
  private:
   [[nodiscard]] bool due(Stamp now);
@@ -45,6 +52,7 @@ class LiveCopy {
   Stamp shown_{};
   Stamp placed_{};
   Stamp scanned_{};
+  Stamp counted_{};                                                          ///< the newest step
   std::map<std::size_t, std::deque<Stamp>> revolutions_;                     ///< by lidar, of the last second
   std::map<std::size_t, Stamp> heard_;                                       ///< by lidar
   std::map<std::size_t, std::pair<Stamp, std::vector<Point2<Base>>>> seen_;  ///< by lidar, the newest sweep

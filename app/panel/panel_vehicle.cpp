@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/lidars.hpp"
 #include "app/panel/found_devices.hpp"
 #include "app/panel/notices.hpp"
+#include "app/panel/reference_lidar.hpp"
+#include "core/angle.hpp"
 #include "core/clock.hpp"
 
 namespace madori::app {
@@ -28,6 +31,10 @@ hmi::Reply mapping_now() {
 bool reads_drive(const SiteRun& run) {
   const auto desk = run.mapping();
   return desk && desk->progress().reading;
+}
+
+hmi::Reply measuring() {
+  return hmi::Reply::refused("measuring", "the mountings are being measured: wait, or press Stop");
 }
 
 hmi::Reply confirm_first() {
@@ -73,12 +80,23 @@ void PanelVehicle::observe(const CycleInput& input, const CycleState& state, con
 }
 
 void PanelVehicle::idle(const CycleInput& input) {
-  copy_.show_setup(input, run_.device_problem());
+  const auto listed = run_.sensors();
+  const auto sensors = listed.empty() ? std::vector{reference_lidar()} : listed;
+  if (sensors != idle_sensors_) {
+    idle_lidars_.clear();
+    for (const auto& sensor : sensors) idle_lidars_.push_back(lidar_model(sensor));
+    idle_sensors_ = sensors;
+  }
+  copy_.show_setup(input, idle_lidars_, run_.device_problem());
 }
 
 hmi::Reply PanelVehicle::command(hmi::Command command) {
   const auto view = run_.view();
   const bool stop = command == hmi::Command::Stop || command == hmi::Command::Halt;
+  if (is_measuring()) {
+    run_.stop_measuring();
+    if (!stop && command != hmi::Command::Pause) return measuring();
+  }
   if (!view) return stop ? hmi::Reply::done() : not_drivable();  // the drive is not enabled then
   if ((command == hmi::Command::Start || command == hmi::Command::Resume) && run_.mapping())
     return mapping_now();
@@ -115,6 +133,7 @@ hmi::Reply PanelVehicle::command(hmi::Command command) {
 hmi::Reply PanelVehicle::jog(const VelocityCommand& velocity) {
   const auto view = run_.view();
   const bool stands = velocity == VelocityCommand{};
+  if (is_measuring()) return stands ? hmi::Reply::done() : measuring();
   if (!view) return stands ? hmi::Reply::done() : not_drivable();
   if (view->mode == Mode::EmergencyStop || view->mode == Mode::Fault) return confirm_first();
   if (!stands && (finishing_ || reads_drive(run_)))
@@ -179,6 +198,54 @@ hmi::Reply PanelVehicle::report(const std::string& text) {
 
 std::vector<hmi::FoundDevice> PanelVehicle::found_devices() const {
   return app::found_devices(devices_, run_.sensors(), copy_.live().devices);
+}
+
+std::vector<hmi::FoundDevice> PanelVehicle::search_devices() const {
+  return searched_devices(devices_, run_.sensors());
+}
+
+std::vector<hmi::LidarView> PanelVehicle::lidar_views() const {
+  std::vector<hmi::LidarView> views;
+  for (const LidarState& lidar : run_.lidar_states()) {
+    const auto look = copy_.look(views.size());
+    const auto& health = lidar.health;
+    const bool heard = health.problem.empty() && look.rate_hz > 0.0;
+    hmi::Notice state = health.problem.empty() ? heard_or_silent(heard) : uncoded(health.problem);
+    views.push_back({lidar.sensor.name, lidar.sensor.type, lidar.place, look.rate_hz,
+                     std::min(to_seconds(health.silence), 1e6), static_cast<long long>(health.counters.lost),
+                     static_cast<long long>(health.counters.refused), std::move(state), look.points});
+  }
+  return views;
+}
+
+bool PanelVehicle::is_measuring() const {
+  return run_.mounting().state == MountingView::State::Driving;
+}
+
+hmi::Reply PanelVehicle::measure_mounting() {
+  if (is_measuring()) return measuring();
+  if (!run_.may_change_site()) return driving();
+  try {
+    run_.measure_mounting();
+  } catch (const std::exception& e) {
+    return {false, uncoded(e.what())};
+  }
+  return hmi::Reply::done();
+}
+
+hmi::Reply PanelVehicle::stop_measuring() {
+  run_.stop_measuring();
+  return hmi::Reply::done();
+}
+
+hmi::MountingState PanelVehicle::mounting() const {
+  const MountingView view = run_.mounting();
+  hmi::MountingState state{to_string(view.state), view.progress, shown(view.notice), {}};
+  for (const MountingFinding& f : view.findings)
+    state.rows.push_back({f.typed, f.found, known_word(f.measured.known), f.measured.floor.has_value(),
+                          std::max(f.measured.sigma[0], f.measured.sigma[1]), to_deg(f.measured.sigma[2]),
+                          f.measured.residual_m, f.tilt_deg(), shown(f.lack)});
+  return state;
 }
 
 std::vector<hmi::EventView> PanelVehicle::events(std::size_t newest) const {

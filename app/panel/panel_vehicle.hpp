@@ -49,6 +49,11 @@ class PanelVehicle final : public hmi::Vehicle {
   hmi::Reply start_braking_test(bool loaded) override;
   [[nodiscard]] hmi::BrakingView braking() const override;
   [[nodiscard]] std::vector<hmi::FoundDevice> found_devices() const override;
+  [[nodiscard]] std::vector<hmi::FoundDevice> search_devices() const override;
+  [[nodiscard]] std::vector<hmi::LidarView> lidar_views() const override;
+  hmi::Reply measure_mounting() override;
+  hmi::Reply stop_measuring() override;
+  [[nodiscard]] hmi::MountingState mounting() const override;
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const override;
   [[nodiscard]] hmi::StatisticsView statistics() const override;
   [[nodiscard]] std::vector<hmi::WallView> walls_seen() const override;
@@ -69,6 +74,7 @@ class PanelVehicle final : public hmi::Vehicle {
  private:
   void note_way_by_hand(const CycleState& state, const CycleConfig& config);
   [[nodiscard]] hmi::Reply not_drivable() const;
+  [[nodiscard]] bool is_measuring() const;
 
   SiteRun& run_;
   std::filesystem::path site_;
@@ -83,6 +89,9 @@ class PanelVehicle final : public hmi::Vehicle {
   mutable std::mutex way_mutex_;           ///< of what follows
   std::vector<planning::DrivenPose> way_;  ///< driven by hand since that began last
   bool by_hand_ = false;
+  // of the ticks' thread
+  std::vector<mapping::SensorRecord> idle_sensors_;
+  std::vector<LidarModel> idle_lidars_;
 };
 
 }  // namespace madori::app

@@ -67,6 +67,11 @@ class Player {
   Player(const CycleConfig& config, std::unique_ptr<PoseSource> source)
       : config_(config), state_(config, std::move(source)) {}
 
+  /// Hands the inputs to `look` instead of running the cycle on them.
+  Player(const CycleConfig& config, InputLook look) : Player(config, std::make_unique<RecordedPose>(pose_)) {
+    look_ = std::move(look);
+  }
+
   /// The bag that follows does not go on where the one before ended.
   void begin_anew() {
     finish();
@@ -105,7 +110,7 @@ class Player {
   /// A step is run when the next one begins: messages of the same moment may stand in any order.
   void take_input(const std::string& text) {
     finish();
-    if (awaits_state_)
+    if (awaits_state_ && !look_)
       throw Error("recording", "does not say what the cycle remembered at its beginning",
                   "replay the whole run");
     input_ = text;
@@ -115,6 +120,11 @@ class Player {
   void finish() {
     if (input_.empty()) return;
     const CycleInput input = next_input();
+    if (look_) {
+      ++result_.steps;
+      input_.clear();
+      return look_(input);
+    }
     if (result_.recorded_poses) state_.pose = pose_;
     if (result_.steps++ == 0) begun_ = input.now;
     result_.recorded_s = to_seconds(input.now - begun_);
@@ -182,6 +192,7 @@ class Player {
   std::map<std::size_t, std::deque<std::vector<float>>> scans_;  ///< ranges, by lidar
   std::deque<sensors::LidarSweep> revolutions_;
   std::unique_ptr<sensors::LidarDecoder> decoder_ = decoder();
+  InputLook look_;
   PoseEstimate pose_;  ///< of the step at hand, where poses are those of the recording
   bool awaits_state_ = false;
   bool assembled_any_ = false;
@@ -193,8 +204,10 @@ class Player {
 
 }  // namespace
 
-ReplayResult replay(const fs::path& run, const CycleConfig& config, std::unique_ptr<PoseSource> source) {
-  Player player(config, std::move(source));
+namespace {
+
+/// All messages of a run, in order.
+void play(const fs::path& run, const CycleConfig& config, Player& player) {
   bridge::Input::Sinks sinks;
   sinks.cloud = [&](const std::string&, const bridge::Cloud& cloud) { player.take_cloud(cloud); };
   sinks.scan = [&](const std::string& topic, const bridge::Scan& scan) { player.take_scan(topic, scan); };
@@ -225,7 +238,19 @@ ReplayResult replay(const fs::path& run, const CycleConfig& config, std::unique_
   player.finish();
   if (player.result().steps == 0)
     throw Error(run.string(), "is no recording of a run", "record one: madori run SITE --record");
+}
+
+}  // namespace
+
+ReplayResult replay(const fs::path& run, const CycleConfig& config, std::unique_ptr<PoseSource> source) {
+  Player player(config, std::move(source));
+  play(run, config, player);
   return player.result();
+}
+
+void look_at_inputs(const fs::path& run, const CycleConfig& config, const InputLook& look) {
+  Player player(config, look);
+  play(run, config, player);
 }
 
 }  // namespace madori::app

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "app/cycle/cycle.hpp"
@@ -25,5 +26,10 @@ struct ReplayResult {
 /// or no recording of Madori.
 [[nodiscard]] ReplayResult replay(const std::filesystem::path& run, const CycleConfig& config,
                                   std::unique_ptr<PoseSource> source);
+
+using InputLook = std::function<void(const CycleInput&)>;
+/// Hands out what reached the cycle in each step of a recorded run; `config` needs the lidars alone. Throws
+/// Error as replay() does.
+void look_at_inputs(const std::filesystem::path& run, const CycleConfig& config, const InputLook& look);
 
 }  // namespace madori::app

@@ -116,6 +116,14 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
                    .idle =
                        [&](const CycleInput& input) {
                          if (looking_on != nullptr) looking_on->idle(input);
+                       },
+                   .looked =
+                       [&](const std::vector<mapping::SensorRecord>& sensors) {
+                         try {
+                           devices.set_sensors(sensors);
+                         } catch (const std::exception& e) {  // a port is taken: said, and the rest goes on
+                           spdlog::warn("{}", e.what());
+                         }
                        }});
   CycleTimes times(!options.cycle_times.empty());
   const auto panel = open_panel(vehicle, {options.site, options.hmi, options.panel_folder, options.devices,

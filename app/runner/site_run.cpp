@@ -10,6 +10,7 @@
 #include "app/learned/kept_memory.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "app/learned/living_map_file.hpp"
+#include "app/lidars.hpp"
 #include "app/mapping_drive/mapping_pose.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/route_tools.hpp"
@@ -39,6 +40,17 @@ class LentLink final : public VehicleLink {
 
 constexpr Duration kTryAgain = std::chrono::seconds(3);
 
+/// What the site lists, whether it can be driven or not.
+std::vector<mapping::SensorRecord> listed_sensors(const std::filesystem::path& site) {
+  try {
+    const auto sensors = mapping::load_site(site).sensors;
+    for (const auto& sensor : sensors) (void)lidar_model(sensor);
+    return sensors;
+  } catch (const std::exception&) {  // what is wrong is told by who loads the site to drive
+    return {};
+  }
+}
+
 bool stands(const VehicleView& view) {
   if (drives(view.mode) || view.mode == Mode::Waiting) return false;
   return view.mode != Mode::Manual || view.command == VelocityCommand{};
@@ -56,6 +68,7 @@ SiteRun::~SiteRun() {
 SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
   Loaded loaded;
   try {
+    loaded.sensors = listed_sensors(site);
     loaded.site = load_for_driving(site);
     const auto& lidars = loaded.site->config.lidars;
     loaded.watch =
@@ -106,9 +119,9 @@ void SiteRun::take(Loaded loaded) {
   recall_ = PoseRecall(std::move(loaded.last.pose));
   memory_ = std::move(loaded.memory);
   std::unique_ptr<TransportRun> next;
-  std::vector<mapping::SensorRecord> sensors;
-  if (loaded.missing.empty()) sensors = loaded.site->site.sensors;
-  next_sensors_ = sensors;
+  if (loaded.missing.empty()) loaded.sensors = loaded.site->site.sensors;
+  next_sensors_ = loaded.sensors;
+  if (!loaded.missing.empty() && hooks_.looked) hooks_.looked(loaded.sensors);
   if (loaded.missing.empty()) try {
       next =
           std::make_unique<TransportRun>(std::move(loaded.site->config), std::move(loaded.pose),
@@ -127,7 +140,7 @@ void SiteRun::take(Loaded loaded) {
     missing_ = loaded.missing;
     watch_ = std::move(loaded.watch);
     mapping_ = next ? std::move(loaded.mapping) : nullptr;
-    sensors_ = std::move(sensors);
+    sensors_ = std::move(loaded.sensors);
     std::swap(run_, next);
   }
   next.reset();
@@ -170,8 +183,54 @@ void SiteRun::recall_pose() {
   if (!recall_.verdict().empty()) spdlog::info("{}", recall_.verdict());
 }
 
+void SiteRun::measure_mounting() {
+  const auto site = mapping::load_site(site_);
+  (void)lidars_of(site, site_);  // throws where there are none, or they cannot be
+  auto mounting = std::make_shared<MountingRun>(site.vehicle, site.sensors);
+  say({OperatorWord::Pause, {}, {}});
+  const std::scoped_lock lock(mutex_);
+  mounting_ = std::move(mounting);
+}
+
+void SiteRun::stop_measuring() {
+  const std::scoped_lock lock(mutex_);
+  if (mounting_) mounting_->stop();
+}
+
+MountingView SiteRun::mounting() const {
+  std::shared_ptr<const MountingRun> mounting;
+  {
+    const std::scoped_lock lock(mutex_);
+    mounting = mounting_;
+  }
+  return mounting ? mounting->view() : MountingView();
+}
+
+/// Whether the measurement has the vehicle. After it, the run that stood meanwhile begins anew: where its
+/// vehicle is, it does not know any more.
+bool SiteRun::tick_mounting(Stamp now) {
+  std::shared_ptr<MountingRun> mounting;
+  {
+    const std::scoped_lock lock(mutex_);
+    mounting = mounting_;
+  }
+  if (!mounting) return false;
+  if (!mounting->drives()) {
+    (void)mounting->tick({});
+    return false;
+  }
+  CycleInput input;
+  input.now = now;
+  link_->collect(input);
+  link_->send(mounting->tick(input));
+  if (hooks_.idle) hooks_.idle(input);
+  if (!mounting->drives()) reload();
+  return true;
+}
+
 void SiteRun::tick(Stamp now) {
   look_for_site();
+  if (tick_mounting(now)) return;
   if (run_) {
     run_->tick(now);
     recall_pose();

@@ -14,6 +14,7 @@
 #include "app/keeping/site_keeper.hpp"
 #include "app/learned/wall_watch.hpp"
 #include "app/mapping_drive/drive_site.hpp"
+#include "app/mounting/mounting_run.hpp"
 #include "app/runner/transport_run.hpp"
 
 namespace madori::app {
@@ -28,6 +29,8 @@ class SiteRun {
     std::function<void(TransportRun&)> opened;    ///< a run is about to begin
     std::function<void()> closing;                ///< the run is about to end
     std::function<void(const CycleInput&)> idle;  ///< a tick without a run: what the devices say
+    /// A site that cannot be driven yet was read, and these are its sensors.
+    std::function<void(const std::vector<mapping::SensorRecord>&)> looked = nullptr;
   };
 
   SiteRun(std::filesystem::path site, std::unique_ptr<VehicleLink> link, Hooks hooks);
@@ -73,13 +76,21 @@ class SiteRun {
   [[nodiscard]] std::optional<BrakingSite> braking_site() const;
   /// Why there is no run, as the site's loader says it; empty while there is one.
   [[nodiscard]] std::string missing() const;
-  /// The sensors of the site that is driven; empty before.
+  /// The sensors of the site, as they were read last; empty while it names none.
   [[nodiscard]] std::vector<mapping::SensorRecord> sensors() const;
   /// Those of the run that is about to begin. On the ticks' thread.
   [[nodiscard]] const std::vector<mapping::SensorRecord>& sensors_begun_with() const { return next_sensors_; }
   /// memory.bin as the run that is about to begin has read it; empty: none. On the ticks' thread.
   [[nodiscard]] const std::string& memory_begun_with() const { return memory_; }
   [[nodiscard]] std::string device_problem() const { return link_->problem(); }
+  [[nodiscard]] std::vector<LidarState> lidar_states() const { return link_->lidars(); }
+
+  /// Measures how the lidars are mounted: the vehicle drives about a metre forward, once around and back,
+  /// past everything else. Throws Error where the site names no vehicle and lidars. Precondition: it stands
+  /// (may_change_site()) and no measurement drives.
+  void measure_mounting();
+  void stop_measuring();
+  [[nodiscard]] MountingView mounting() const;
 
  private:
   struct Loaded {
@@ -91,9 +102,11 @@ class SiteRun {
     LoadedPose last;     ///< of the run before
     std::string memory;  ///< memory.bin as this run begins with it
     std::string missing;
+    std::vector<mapping::SensorRecord> sensors;
   };
   [[nodiscard]] static Loaded load(const std::filesystem::path& site);
   [[nodiscard]] static Loaded load_mapping(const std::filesystem::path& site);
+  bool tick_mounting(Stamp now);
   void take(Loaded loaded);
   void look_for_site();
   void recall_pose();
@@ -110,6 +123,7 @@ class SiteRun {
   std::string missing_ = "the site is being loaded";
   std::shared_ptr<WallWatch> watch_;
   std::unique_ptr<TransportRun> run_;
+  std::shared_ptr<MountingRun> mounting_;
   // of the ticks' thread alone:
   std::shared_ptr<SiteKeeper> keeper_;
   PoseRecall recall_{std::nullopt};

@@ -120,6 +120,7 @@ void SocketLink::set_sensors(const std::vector<mapping::SensorRecord>& sensors) 
   const std::vector<mapping::SensorRecord> site = sensors.empty() ? std::vector{reference_lidar()} : sensors;
   const auto wanted = addressed(site, options_);
   if (wanted == sensors_) return;
+  const std::scoped_lock changing(drivers_mutex_);
   drivers_.clear();  // their threads end here: nothing of the old ones comes later
   sensors_.clear();
   {
@@ -161,6 +162,7 @@ void SocketLink::send(const CycleOutput& output) {
 }
 
 std::string SocketLink::problem() const {
+  const std::scoped_lock lock(drivers_mutex_);
   if (const auto drive = drive_->problem(); !drive.empty()) return "drive: " + drive;
   const auto lidars = std::ranges::count_if(drivers_, [](const auto& l) { return !l->has_field; });
   for (const auto& lidar : drivers_) {
@@ -178,7 +180,8 @@ std::uint16_t SocketLink::lidar_port() const {
   return 0;
 }
 
-std::vector<SocketLink::LidarState> SocketLink::lidars() const {
+std::vector<LidarState> SocketLink::lidars() const {
+  const std::scoped_lock lock(drivers_mutex_);
   std::vector<LidarState> all;
   for (const auto& lidar : drivers_)
     all.push_back({lidar->sensor, lidar->driver->place(), lidar->driver->health()});

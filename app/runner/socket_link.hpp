@@ -49,13 +49,7 @@ class SocketLink final : public VehicleLink {
   /// Of the first lidar that is heard by UDP; 0 where there is none.
   [[nodiscard]] std::uint16_t lidar_port() const;
 
-  /// A lidar as it is now.
-  struct LidarState {
-    mapping::SensorRecord sensor;
-    std::string place;
-    sensors::LidarHealth health;
-  };
-  [[nodiscard]] std::vector<LidarState> lidars() const;
+  [[nodiscard]] std::vector<LidarState> lidars() const override;
 
  private:
   struct OpenLidar;
@@ -71,6 +65,7 @@ class SocketLink final : public VehicleLink {
   std::vector<std::int64_t> firings_us_;
   std::vector<sensors::RawPacket> packets_;
   std::vector<mapping::SensorRecord> sensors_;       ///< that are open
+  mutable std::mutex drivers_mutex_;                 ///< held while others ask, and while drivers come and go
   std::unique_ptr<control::DriveLink> drive_;        ///< last: their threads use all of the above
   std::vector<std::unique_ptr<OpenLidar>> drivers_;  ///< the vehicle's, then a scanner that only stops it
 };

@@ -44,6 +44,17 @@ void add_setup_routes(Router& router, ApiContext& context) {
              Work::Worker);
   router.add("GET", "/api/devices", Role::Viewer,
              answering([&](const Request&) { return list_of(vehicle.found_devices()); }), Work::Worker);
+  router.add("POST", "/api/devices/search", Role::Integrator,
+             answering([&](const Request&) { return list_of(vehicle.search_devices()); }), Work::Worker);
+  router.add("GET", "/api/devices/views", Role::Viewer,
+             answering([&](const Request&) { return list_of(vehicle.lidar_views()); }), Work::Worker);
+  router.add("GET", "/api/mounting", Role::Viewer,
+             answering([&](const Request&) { return to_wire(vehicle.mounting()); }));
+  router.add(
+      "POST", "/api/mounting", Role::Integrator,
+      [&](const Request&) { return answer(vehicle.measure_mounting()); }, Work::Worker);
+  router.add("DELETE", "/api/mounting", Role::Operator,
+             [&](const Request&) { return answer(vehicle.stop_measuring()); });
   router.add("GET", "/api/locate", Role::Viewer,
              answering([&](const Request&) { return to_wire(vehicle.locate()); }));
   router.add("POST", "/api/locate/search", Role::Operator,

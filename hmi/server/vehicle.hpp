@@ -43,6 +43,38 @@ struct FoundDevice {
   std::optional<mapping::SensorRecord> sensor;  ///< what to enter below sensors; nothing for a drive
 };
 
+/// What one lidar sees now, from above.
+struct LidarView {
+  std::string name;
+  std::string type;
+  std::string place;  ///< where it is listened to
+  double rate_hz = 0.0;
+  double silence_s = 0.0;            ///< since its last good data
+  long long lost = 0;                ///< packets or telegrams that never came, since the start
+  long long refused = 0;             ///< that came damaged, or of another device
+  Notice state;                      ///< heard, silent, or what is wrong with it
+  std::vector<Point2<Base>> points;  ///< of its newest sweep, thinned; laid by its mounting as it is saved
+};
+
+/// How one lidar was typed and how it was found to be mounted.
+struct MountingRow {
+  mapping::SensorRecord typed;
+  mapping::SensorRecord found;  ///< what was not found is as typed
+  std::string known;            ///< all, yaw (place as typed), nothing
+  bool height_known = false;
+  double sigma_m = 0.0, sigma_deg = 0.0;
+  double residual_m = 0.0;  ///< of walls put together from all sweeps
+  double tilt_deg = 0.0;    ///< of a lidar that sees the floor
+  Notice lack;              ///< why not all was found
+};
+/// A measurement of the mountings.
+struct MountingState {
+  std::string state = "idle";  ///< idle, driving, computing, done, stopped
+  double progress = 0.0;       ///< of the drive, 0 to 1
+  Notice notice;               ///< why it stands or was given up
+  std::vector<MountingRow> rows;
+};
+
 /// A place where the vehicle may stand.
 struct PlaceView {
   Transform2<Map, Base> map_from_base;
@@ -228,6 +260,15 @@ class Vehicle {
   [[nodiscard]] virtual BrakingView braking() const { return {}; }
 
   [[nodiscard]] virtual std::vector<FoundDevice> found_devices() const = 0;
+  /// Listens everywhere for devices that the site does not use yet; takes some seconds.
+  [[nodiscard]] virtual std::vector<FoundDevice> search_devices() const { return {}; }
+  [[nodiscard]] virtual std::vector<LidarView> lidar_views() const { return {}; }
+  /// Measures how the lidars are mounted: the vehicle drives a metre forward, once around and back.
+  virtual Reply measure_mounting() {
+    return Reply::refused("not-possible", "this vehicle does not measure its mountings");
+  }
+  virtual Reply stop_measuring() { return Reply::done(); }
+  [[nodiscard]] virtual MountingState mounting() const { return {}; }
   [[nodiscard]] virtual std::vector<EventView> events(std::size_t newest) const = 0;
   [[nodiscard]] virtual StatisticsView statistics() const = 0;
   /// What is known of every piece of wall; changes slowly, so that asking every few seconds is plenty.

@@ -42,6 +42,8 @@ std::vector<mapping::SensorRecord> sensors_from(const json& wire,
         sensors.back().address = old.address;
         sensors.back().settings = old.settings;
       }
+    if (const auto address = s.find("address"); address != s.end())
+      sensors.back().address = one_line(address->get<std::string>());
   }
   return sensors;
 }

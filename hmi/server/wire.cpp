@@ -156,8 +156,10 @@ json to_wire(const WallView& wall) {
 }
 
 json to_wire(const mapping::SensorRecord& s) {
-  return {{"name", s.name}, {"type", s.type}, {"x_m", s.x_m},
-          {"y_m", s.y_m},   {"z_m", s.z_m},   {"yaw_deg", s.yaw_deg}};
+  json wire{{"name", s.name}, {"type", s.type}, {"x_m", s.x_m},
+            {"y_m", s.y_m},   {"z_m", s.z_m},   {"yaw_deg", s.yaw_deg}};
+  if (!s.address.empty()) wire["address"] = s.address;
+  return wire;
 }
 
 json to_wire(const FoundDevice& device) {
@@ -167,6 +169,41 @@ json to_wire(const FoundDevice& device) {
           {"heard", device.heard},
           {"detail", to_wire(device.detail)},
           {"sensor", device.sensor ? to_wire(*device.sensor) : json(nullptr)}};
+}
+
+json to_wire(const LidarView& lidar) {
+  json points = json::array();
+  for (const auto& p : lidar.points) {
+    points.push_back(std::round(p.x_m * 100.0) / 100.0);
+    points.push_back(std::round(p.y_m * 100.0) / 100.0);
+  }
+  return {{"name", lidar.name},
+          {"type", lidar.type},
+          {"place", lidar.place},
+          {"rate_hz", rounded(lidar.rate_hz)},
+          {"silence_s", rounded(lidar.silence_s)},
+          {"lost", lidar.lost},
+          {"refused", lidar.refused},
+          {"state", to_wire(lidar.state)},
+          {"points", points}};
+}
+
+json to_wire(const MountingState& mounting) {
+  json rows = json::array();
+  for (const auto& row : mounting.rows)
+    rows.push_back({{"typed", to_wire(row.typed)},
+                    {"found", to_wire(row.found)},
+                    {"known", row.known},
+                    {"height_known", row.height_known},
+                    {"sigma_m", row.sigma_m},
+                    {"sigma_deg", row.sigma_deg},
+                    {"residual_m", row.residual_m},
+                    {"tilt_deg", row.tilt_deg},
+                    {"lack", to_wire(row.lack)}});
+  return {{"state", mounting.state},
+          {"progress", rounded(mounting.progress)},
+          {"notice", to_wire(mounting.notice)},
+          {"rows", rows}};
 }
 
 std::string dump(const json& value) {

@@ -20,6 +20,8 @@ namespace madori::hmi {
 [[nodiscard]] nlohmann::json to_wire(const WallView& wall);
 [[nodiscard]] nlohmann::json to_wire(const mapping::SensorRecord& sensor);
 [[nodiscard]] nlohmann::json to_wire(const FoundDevice& device);
+[[nodiscard]] nlohmann::json to_wire(const LidarView& lidar);
+[[nodiscard]] nlohmann::json to_wire(const MountingState& mounting);
 
 /// Text with broken UTF-8 replaced, as JSON wants it.
 [[nodiscard]] std::string dump(const nlohmann::json& value);

@@ -32,6 +32,15 @@ struct SensorView {
   [[nodiscard]] bool sees(const Point2<Base>& place, double low_m, double high_m) const;
 };
 
+/// The narrowest standing body that must be seen: a leg (test body of IEC 61496-3).
+inline constexpr double kLegM = 0.07;
+/// How far before the vehicle's front this lidar is sure to see a leg straight ahead; 0 where it looks
+/// elsewhere.
+[[nodiscard]] inline double sure_ahead_m(const LidarModel& lidar, double front_m) {
+  if (!SensorView::of(lidar).looks_at(0.0)) return 0.0;
+  return std::fmax(0.0, lidar.mounting.x_m + lidar.sure_range_m(kLegM) - front_m);
+}
+
 struct SightOptions {
   double memory_s = 1.5;    ///< what was seen longer ago is forgotten
   double apart_s = 0.15;    ///< between two scans that are kept

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 
 #include "core/result.hpp"
 #include "sensors/lidar/lidar.hpp"
@@ -24,7 +25,11 @@ double LidarSettings::number_or(const std::string& key, double otherwise, double
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error == std::errc() && end == text.data() + text.size() && number >= low && number <= high)
     return number;
-  const auto round = [](double v) { return std::to_string(static_cast<long long>(v)); };
+  const auto round = [](double v) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.10g", v);
+    return std::string(digits);
+  };
   throw Error("sensor " + name, key + ": \"" + text + "\" is no number that it can be",
               "choose one from " + round(low) + " to " + round(high));
 }

@@ -25,8 +25,9 @@ std::string problem_of(const ScanData& data) {
 Client::Client(const ClientOptions& options, Sink sink)
     : options_(options),
       sink_(std::move(sink)),
-      dialogue_(start_dialogue(options.with_rssi)),
-      splitter_(options.dialect) {
+      dialogue_(start_dialogue(options.with_rssi, options.poll_every > Duration(0))),
+      splitter_(options.dialect),
+      clock_(options.poll_every > Duration(0)) {
   io::LinkEvents events;
   events.opened = [this] { opened(); };
   events.bytes = [this](std::span<const std::uint8_t> bytes, Stamp received) { receive(bytes, received); };
@@ -38,6 +39,23 @@ Client::Client(const ClientOptions& options, Sink sink)
   link_ = io::StreamLink::tcp(options.host, options.port, std::move(events),
                               {.reopen_after = options.reconnect_after, .silence = options.silence});
   link_->start();
+  if (is_polled()) poller_ = std::jthread([this](const std::stop_token& stop) { poll(stop); });
+}
+
+Client::~Client() = default;
+
+/// Asks at the times that the period gives; an answer that does not come is a matter of the link's silence.
+void Client::poll(const std::stop_token& stop) {
+  const Bytes question = encode(options_.dialect, poll_message());
+  while (!stop.stop_requested()) {
+    bool measures = false;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait_for(lock, stop, options_.poll_every, [] { return false; });
+      measures = state_ == ClientState::Measuring;
+    }
+    if (measures && !stop.stop_requested()) link_->write(question);
+  }
 }
 
 void Client::opened() {
@@ -47,6 +65,8 @@ void Client::opened() {
     ++counters_.connections;
   }
   splitter_.clear();
+  any_head_ = false;
+  skipped_before_ = splitter_.skipped_bytes();
   clock_.reset();
   step_ = 0;
   send_next();
@@ -61,13 +81,22 @@ void Client::receive(std::span<const std::uint8_t> bytes, Stamp received) {
   while (const auto payload = splitter_.next()) {
     const auto head = head_of(*payload);
     if (!head) continue;
-    if (head->name == "LMDscandata" && head->kind == "sSN")
+    any_head_ = true;
+    if (head->name == "LMDscandata" && (head->kind == "sSN" || (is_polled() && head->kind == "sRA")))
       take_scan(*payload, received);
     else
       take_reply(*head);
   }
+  if (speaks_other())
+    link_->drop(std::string("what answers there does not speak CoLa ") +
+                (options_.dialect == Dialect::A ? "A" : "B") + ": check the address, and cola: in site.yaml");
   const std::lock_guard lock(mutex_);
   counters_.damaged = splitter_.damaged();
+}
+
+bool Client::speaks_other() const {
+  constexpr std::uint64_t kNoise = 32;
+  return !any_head_ && splitter_.skipped_bytes() - skipped_before_ > kNoise;
 }
 
 void Client::take_reply(const Head& head) {

@@ -159,28 +159,33 @@ std::optional<std::uint32_t> first_argument(Dialect dialect, const Head& head, i
   return value;
 }
 
-std::vector<Message> start_dialogue(bool with_rssi) {
+Message poll_message() {
+  return {"sRN", "LMDscandata", {}};
+}
+
+std::vector<Message> start_dialogue(bool with_rssi, bool polled) {
   const Argument rssi{with_rssi ? 1U : 0U, 1};
   const Argument rssi_16_bit{with_rssi ? 0U : 1U, 1};
   const Argument off{0, 1};
-  return {{"sMN", "SetAccessMode", {{0x03, 1, false, 2}, {0xF4724744, 4}}},
-          {"sWN",
-           "LMDscandatacfg",
-           {{0x01, 1, false, 2},
-            {0x00, 1, false, 2},
-            rssi,
-            rssi_16_bit,
-            off,
-            {0, 1, false, 2},
-            {0, 1, false, 2},
-            off,
-            off,
-            off,
-            off,
-            {1, 2, true}}},
-          {"sMN", "LMCstartmeas", {}},
-          {"sMN", "Run", {}},
-          {"sEN", "LMDscandata", {{1, 1}}}};
+  std::vector<Message> dialogue{{"sMN", "SetAccessMode", {{0x03, 1, false, 2}, {0xF4724744, 4}}},
+                                {"sWN",
+                                 "LMDscandatacfg",
+                                 {{0x01, 1, false, 2},
+                                  {0x00, 1, false, 2},
+                                  rssi,
+                                  rssi_16_bit,
+                                  off,
+                                  {0, 1, false, 2},
+                                  {0, 1, false, 2},
+                                  off,
+                                  off,
+                                  off,
+                                  off,
+                                  {1, 2, true}}},
+                                {"sMN", "LMCstartmeas", {}},
+                                {"sMN", "Run", {}}};
+  if (!polled) dialogue.push_back({"sEN", "LMDscandata", {{1, 1}}});
+  return dialogue;
 }
 
 }  // namespace madori::sensors::lms1xx

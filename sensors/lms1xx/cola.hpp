@@ -79,7 +79,9 @@ struct Head {
 /// The first argument of an answer: `sAN Run 1` gives 1. Nothing when it has none.
 [[nodiscard]] std::optional<std::uint32_t> first_argument(Dialect dialect, const Head& head, int bytes = 1);
 
-/// What a PC sends so that scans flow, in order.
-[[nodiscard]] std::vector<Message> start_dialogue(bool with_rssi);
+/// Asks for the newest scan, once.
+[[nodiscard]] Message poll_message();
+/// What a PC sends so that scans flow, in order; `polled`: so that they can be asked for one by one.
+[[nodiscard]] std::vector<Message> start_dialogue(bool with_rssi, bool polled = false);
 
 }  // namespace madori::sensors::lms1xx

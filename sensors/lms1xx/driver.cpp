@@ -1,5 +1,7 @@
 #include "sensors/lms1xx/driver.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <mutex>
 #include <utility>
@@ -20,13 +22,19 @@ Dialect dialect_of(const LidarSettings& settings) {
   throw Error("sensor " + settings.name, "cola: \"" + found->second + "\" is not known", "write A or B");
 }
 
+/// How often a scan is asked for; 0: the scanner sends them by itself.
+double poll_hz_of(const LidarSettings& settings) {
+  return settings.values.contains("poll_hz") ? settings.number_or("poll_hz", 0.0, 0.3, 25.0) : 0.0;
+}
+
 /// LMS111 by its data sheet: 270 deg at 50 Hz and 0.5 deg, or 25 Hz and 0.25 deg.
 LidarModel model(const LidarSettings& settings) {
-  settings.refuse_others({"cola", "rate_hz"});
+  settings.refuse_others({"cola", "poll_hz", "rate_hz"});
   const double rate_hz = settings.number_or("rate_hz", 50.0, 25.0, 50.0);
   if (rate_hz != 25.0 && rate_hz != 50.0)
     throw Error("sensor " + settings.name, "measures at no such rate", "write rate_hz: 25 or rate_hz: 50");
   (void)dialect_of(settings);
+  const double poll_hz = poll_hz_of(settings);
   LidarModel m;
   m.name = settings.name;
   m.type = "lms1xx";
@@ -36,7 +44,7 @@ LidarModel model(const LidarSettings& settings) {
   m.to_rad = to_rad(135.0);
   m.step_rad = to_rad(rate_hz / 100.0);
   m.min_elevation_rad = m.max_elevation_rad = m.ring_step_rad = 0.0;
-  m.period_s = 1.0 / rate_hz;
+  m.period_s = 1.0 / (poll_hz > 0.0 ? poll_hz : rate_hz);
   m.range_max_m = 20.0;
   m.sigma_m = 0.015;
   m.bias_m = 0.03;
@@ -71,8 +79,10 @@ class Decoder final : public LidarDecoder {
   Decoder(const LidarSettings& settings, SweepSink sink)
       : model_(model(settings)),
         dialect_(dialect_of(settings)),
+        poll_every_us_(polled(settings) ? std::llround(model_.period_s * 1e6) : 0),
         sink_(std::move(sink)),
-        splitter_(dialect_) {}
+        splitter_(dialect_),
+        clock_(polled(settings)) {}
 
   void push(std::span<const std::uint8_t> bytes, Stamp received) override {
     splitter_.push(bytes);
@@ -87,10 +97,21 @@ class Decoder final : public LidarDecoder {
   }
 
  private:
+  static bool polled(const LidarSettings& settings) { return poll_hz_of(settings) > 0.0; }
+  /// Where nobody asks (bytes of a stream that is played): as often as one would be asked for.
+  bool is_asked_for(const ScanData& data) {
+    constexpr std::int32_t kLateUs = 5'000;
+    const auto since_us = static_cast<std::int32_t>(data.scan_time_us - taken_us_);
+    if (poll_every_us_ > 0 && any_ && since_us >= 0 && since_us + kLateUs < poll_every_us_) return false;
+    taken_us_ = data.scan_time_us;
+    any_ = true;
+    return true;
+  }
   void take(std::span<const std::uint8_t> payload, Stamp received) {
     const auto data = decode_scan(dialect_, payload);
     auto scan = data ? to_laser_scan(data.value()) : Result<LaserScan>::failure(data.reason());
     if (!scan || !differs(scan.value(), model_).empty()) return void(++refused_);
+    if (!is_asked_for(data.value())) return;
     ++sweeps_;
     LidarSweep sweep{std::move(scan).value(), data.value().scan_time_us, ""};
     std::get<LaserScan>(sweep.seen).stamp = clock_.stamp_of(data.value(), received);
@@ -99,9 +120,12 @@ class Decoder final : public LidarDecoder {
 
   LidarModel model_;
   Dialect dialect_;
+  std::int64_t poll_every_us_;
   SweepSink sink_;
   Splitter splitter_;
   ScanClock clock_;
+  std::uint32_t taken_us_ = 0;  ///< the device's time of the last scan
+  bool any_ = false;
   std::uint64_t sweeps_ = 0, refused_ = 0;
 };
 
@@ -120,7 +144,8 @@ class Driver final : public LidarDriver {
                        ""};
     const std::scoped_lock lock(mutex_);
     if (health.problem.empty()) health.problem = differs_;
-    if (health.problem.empty() && health.silence > kSilent) health.problem = "no scans come from " + place();
+    if (health.problem.empty() && health.silence > silent_after())
+      health.problem = "no scans come from " + place();
     return health;
   }
   [[nodiscard]] std::string place() const override {
@@ -129,7 +154,9 @@ class Driver final : public LidarDriver {
   [[nodiscard]] std::uint16_t port() const override { return where_.port; }
 
  private:
-  static constexpr Duration kSilent = std::chrono::seconds(1);
+  [[nodiscard]] Duration silent_after() const {
+    return std::max<Duration>(std::chrono::seconds(1), duration_from_seconds(2.5 * model_.period_s));
+  }
 
   ClientOptions options(const LidarSettings& settings) {
     ClientOptions options;
@@ -137,6 +164,8 @@ class Driver final : public LidarDriver {
     where_ = host_and_port(settings.address, {options.host, options.dialect == Dialect::A ? kPortA : kPortB});
     options.host = where_.host;
     options.port = where_.port;
+    options.silence = silent_after();
+    if (poll_hz_of(settings) > 0.0) options.poll_every = duration_from_seconds(model_.period_s);
     return options;
   }
   void take(const LaserScan& scan, const ScanData& data) {

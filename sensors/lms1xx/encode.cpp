@@ -1,5 +1,6 @@
 #include "sensors/lms1xx/encode.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 
@@ -92,6 +93,17 @@ Bytes encode(Dialect dialect, const ScanData& data) {
   else
     write_scan(TextWriter(payload), data);
   return frame(dialect, payload);
+}
+
+Bytes as_answer(Dialect dialect, std::span<const std::uint8_t> telegram) {
+  constexpr std::string_view kAnswer = "sRA";
+  Splitter splitter(dialect);
+  splitter.push(telegram);
+  const auto payload = splitter.next();
+  if (!payload || payload->size() < kAnswer.size()) return {};
+  Bytes answer(payload->begin(), payload->end());
+  std::copy(kAnswer.begin(), kAnswer.end(), answer.begin());
+  return frame(dialect, answer);
 }
 
 }  // namespace madori::sensors::lms1xx

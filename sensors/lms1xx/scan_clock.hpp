@@ -9,6 +9,9 @@ namespace madori::sensors::lms1xx {
 /// Puts the beginnings of scans on the program's clock, and counts the telegrams between that never came.
 class ScanClock {
  public:
+  /// Of scans that are asked for one by one those between were never meant to come.
+  explicit ScanClock(bool polled = false) : polled_(polled) {}
+
   /// Of a telegram that was complete at `received`: when its first beam was fired.
   [[nodiscard]] Stamp stamp_of(const ScanData& data, Stamp received) {
     const auto step_us =
@@ -17,7 +20,7 @@ class ScanClock {
     transmit_us_ = any_ && step_us >= 0 ? transmit_us_ + step_us : data.transmit_time_us;
     clock_.observe(transmit_us_, received);
     const auto missed = static_cast<std::uint16_t>(data.telegram_counter - last_ - 1U);
-    if (any_ && missed < 0x8000U) lost_ += missed;
+    if (any_ && !polled_ && missed < 0x8000U) lost_ += missed;
     last_ = data.telegram_counter;
     any_ = true;
     return clock_.stamp_of(transmit_us_ -
@@ -30,6 +33,7 @@ class ScanClock {
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
 
  private:
+  bool polled_;
   DeviceClock clock_;
   std::int64_t transmit_us_ = 0;  ///< unwrapped
   std::uint16_t last_ = 0;

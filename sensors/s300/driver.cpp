@@ -9,6 +9,8 @@
 namespace madori::sensors::s300 {
 namespace {
 
+constexpr std::size_t kValues = 541;  // of 270 deg in steps of 0.5 deg
+
 unsigned baud_of(const LidarSettings& settings) {
   return static_cast<unsigned>(settings.number_or("baud", kBitsPerSecond, 1'200.0, 4'000'000.0));
 }
@@ -54,12 +56,13 @@ class Decoder final : public LidarDecoder {
   }
   [[nodiscard]] LidarCounters counters() const override {
     const auto& c = stream_.counters();
-    return {sweeps_, c.lost, c.damaged};
+    return {sweeps_, c.lost, c.damaged + refused_};
   }
 
  private:
   void take(const Telegram& telegram) {
     if (telegram.content != Content::Distances) return;
+    if (telegram.values.size() != kValues) return void(++refused_);
     ++sweeps_;
     LidarSweep sweep{to_laser_scan(telegram), telegram.scan_number, stop_of(fields_of(telegram))};
     std::get<LaserScan>(sweep.seen).stamp = clock_.stamp_of(telegram, received_);
@@ -70,7 +73,7 @@ class Decoder final : public LidarDecoder {
   ScanClock clock_;
   Stamp received_{};
   Stream stream_;
-  std::uint64_t sweeps_ = 0;
+  std::uint64_t sweeps_ = 0, refused_ = 0;
 };
 
 class Driver final : public LidarDriver {
@@ -78,7 +81,10 @@ class Driver final : public LidarDriver {
   Driver(const LidarSettings& settings, SweepSink sink, const BytesTap& /*tap*/)
       : device_(settings.address.empty() ? row().address : settings.address),
         sink_(std::move(sink)),
-        receiver_({.device = device_, .baud = baud_of(settings), .stale_after = stale_after(settings)},
+        receiver_({.device = device_,
+                   .values = kValues,
+                   .baud = baud_of(settings),
+                   .stale_after = stale_after(settings)},
                   [this](const LaserScan& scan, const Fields& fields) {
                     LidarSweep sweep{scan, 0, stop_of(fields)};
                     sink_(sweep);

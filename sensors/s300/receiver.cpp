@@ -1,5 +1,7 @@
 #include "sensors/s300/receiver.hpp"
 
+#include <algorithm>
+
 #include "core/clock.hpp"
 
 namespace madori::sensors::s300 {
@@ -14,6 +16,7 @@ Receiver::Receiver(const ReceiverOptions& options, Sink sink)
     received_ = received;
     stream_.push(bytes);
     const std::lock_guard lock(mutex_);
+    bytes_at_ = received;
     counters_ = stream_.counters();
   };
   events.closed = [this](const std::string&) {
@@ -21,7 +24,8 @@ Receiver::Receiver(const ReceiverOptions& options, Sink sink)
     any_ = false;
     clock_.reset();
   };
-  link_ = io::StreamLink::serial(options.device, options.baud, std::move(events));
+  const Duration silence = std::max<Duration>(std::chrono::seconds(2), 2 * options.stale_after);
+  link_ = io::StreamLink::serial(options.device, options.baud, std::move(events), {.silence = silence});
   link_->start();
 }
 
@@ -35,14 +39,25 @@ void Receiver::take(const Telegram& telegram) {
     fields_ = fields;
     heard_ = clock_now();
     any_ = true;
+    other_values_ = telegram.values.size() == options_.values ? 0 : telegram.values.size();
+    if (other_values_ > 0) return;
   }
   if (sink_) sink_(scan, fields);
 }
 
+bool Receiver::is_silent() const {
+  return !any_ || clock_now() - heard_ > options_.stale_after;
+}
+
 std::string Receiver::stop_reason() const {
   const std::lock_guard lock(mutex_);
-  if (!any_ || clock_now() - heard_ > options_.stale_after)
-    return "the safety scanner on " + options_.device + " is silent";
+  if (is_silent() && clock_now() - bytes_at_ < options_.stale_after)
+    return "bytes come on " + options_.device +
+           ", but no telegram of a safety scanner: check which device it is, and its baud rate";
+  if (is_silent()) return "the safety scanner on " + options_.device + " is silent";
+  if (other_values_ > 0)
+    return "the safety scanner sends " + std::to_string(other_values_) + " distances instead of " +
+           std::to_string(options_.values) + ": configure its whole field of view";
   if (fields_.lockout) return "the safety scanner is locked out: reset it";
   if (fields_.standby) return "the safety scanner is in standby";
   return fields_.protective ? "something stands in the protective field" : "";

@@ -13,7 +13,8 @@
 namespace madori::sensors::s300 {
 
 struct ReceiverOptions {
-  std::string device;  ///< /dev/ttyUSB1, or a pseudo-terminal
+  std::string device;        ///< /dev/ttyUSB1, or a pseudo-terminal
+  std::size_t values = 541;  ///< distances of a scan; one with others is of a changed field of view
   unsigned baud = 500'000;
   Duration stale_after = std::chrono::milliseconds(200);  ///< five scans
 };
@@ -35,6 +36,7 @@ class Receiver {
 
  private:
   void take(const Telegram& telegram);
+  [[nodiscard]] bool is_silent() const;
 
   ReceiverOptions options_;
   Sink sink_;
@@ -45,6 +47,8 @@ class Receiver {
   Fields fields_;
   StreamCounters counters_;
   Stamp heard_{};
+  Stamp bytes_at_{};              ///< when anything came
+  std::size_t other_values_ = 0;  ///< of the last scan, where that was refused
   bool any_ = false;
   std::unique_ptr<io::StreamLink> link_;  ///< last: its thread uses all of the above
 };

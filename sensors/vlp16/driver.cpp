@@ -76,6 +76,8 @@ class Driver final : public LidarDriver {
       health.problem = "a " + foreign + " sends here, not a VLP-16";
     else if (const auto other = receiver_.stranger(); !other.empty())
       health.problem = other + " sends to its port too and is ignored: switch that one off";
+    else if (health.silence > std::chrono::seconds(1) && receiver_.hears_others())
+      health.problem = "what sends to " + place() + " is no VLP-16: check its address and its kind";
     else if (health.silence > std::chrono::seconds(1))
       health.problem = "no packets on " + place();
     return health;

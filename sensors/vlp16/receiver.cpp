@@ -15,6 +15,7 @@ Receiver::Receiver(const ReceiverOptions& options, FrameSink sink, Tap tap)
     const std::lock_guard lock(mutex_);
     counters_ = assembler_.counters();
     foreign_sensor_ = assembler_.foreign_sensor();
+    if (bytes.size() != kDataBytes) refused_at_ = received;
     if (verdict != PushVerdict::Taken) return;
     pin_.good(sender, received);
     heard_ = received;
@@ -43,6 +44,11 @@ std::string Receiver::stranger() const {
   const std::lock_guard lock(mutex_);
   const auto other = pin_.stranger(clock_now());
   return other ? other->text() : "";
+}
+
+bool Receiver::hears_others() const {
+  const std::lock_guard lock(mutex_);
+  return clock_now() - refused_at_ < std::chrono::seconds(1);
 }
 
 AssemblerCounters Receiver::counters() const {

@@ -34,6 +34,8 @@ class Receiver {
   [[nodiscard]] std::optional<PositionPacket> position() const;
   /// Since the last data packet that was taken; a large number before the first.
   [[nodiscard]] Duration silence() const;
+  /// Packets come to the data port that are no VLP-16's.
+  [[nodiscard]] bool hears_others() const;
   [[nodiscard]] std::uint16_t data_port() const { return data_->port(); }
   [[nodiscard]] std::uint16_t position_port() const { return position_receiver_->port(); }
 
@@ -48,6 +50,7 @@ class Receiver {
   std::string foreign_sensor_;
   std::optional<PositionPacket> position_;
   Stamp heard_{};
+  Stamp refused_at_{};  ///< the last packet that was of another length or make
   std::unique_ptr<io::UdpReceiver> data_, position_receiver_;  ///< last: their threads use all of the above
 };
 

@@ -21,11 +21,12 @@ using Code = boost::system::error_code;
 constexpr std::size_t kMostWaiting = 64;  ///< telegrams for a client that does not read
 
 using sensors::lms1xx::Dialect;
+using Telegram = std::vector<std::uint8_t>;
 
 class LmsSession : public std::enable_shared_from_this<LmsSession> {
  public:
-  LmsSession(tcp::socket socket, sensors::lms1xx::Dialect dialect)
-      : socket_(std::move(socket)), dialogue_(dialect) {
+  LmsSession(tcp::socket socket, sensors::lms1xx::Dialect dialect, std::shared_ptr<const Telegram> newest)
+      : socket_(std::move(socket)), dialogue_(dialect), newest_(std::move(newest)) {
     Code ignored;
     socket_.set_option(tcp::no_delay(true), ignored);
   }
@@ -43,13 +44,13 @@ class LmsSession : public std::enable_shared_from_this<LmsSession> {
 
  private:
   void read() {
-    socket_.async_read_some(asio::buffer(buffer_),
-                            [self = shared_from_this()](Code error, std::size_t count) {
-                              if (error) return self->close();
-                              const auto answers = self->dialogue_.receive({self->buffer_.data(), count});
-                              if (!answers.empty()) self->send(answers);
-                              self->read();
-                            });
+    socket_.async_read_some(
+        asio::buffer(buffer_), [self = shared_from_this()](Code error, std::size_t count) {
+          if (error) return self->close();
+          const auto answers = self->dialogue_.receive({self->buffer_.data(), count}, *self->newest_);
+          if (!answers.empty()) self->send(answers);
+          self->read();
+        });
   }
   void write() {
     asio::async_write(socket_, asio::buffer(waiting_.front()),
@@ -66,6 +67,7 @@ class LmsSession : public std::enable_shared_from_this<LmsSession> {
 
   tcp::socket socket_;
   LmsDialogue dialogue_;
+  std::shared_ptr<const Telegram> newest_;  ///< of the scanner
   std::array<std::uint8_t, 2048> buffer_{};
   std::deque<std::vector<std::uint8_t>> waiting_;
 };
@@ -82,6 +84,7 @@ class LmsPort {
   }
 
   void send(const std::vector<std::uint8_t>& bytes) {
+    *newest_ = bytes;
     std::erase_if(sessions_, [](const auto& s) { return !s->open(); });
     for (const auto& session : sessions_) {
       if (!session->wants_scans()) continue;
@@ -94,7 +97,7 @@ class LmsPort {
   void accept() {
     acceptor_.async_accept([this](Code error, tcp::socket socket) {
       if (error) return;
-      sessions_.push_back(std::make_shared<LmsSession>(std::move(socket), dialect_));
+      sessions_.push_back(std::make_shared<LmsSession>(std::move(socket), dialect_, newest_));
       sessions_.back()->start();
       ++counters_.lms_clients;
       accept();
@@ -104,6 +107,7 @@ class LmsPort {
   tcp::acceptor acceptor_;
   Dialect dialect_;
   HubCounters& counters_;
+  std::shared_ptr<Telegram> newest_ = std::make_shared<Telegram>();
   std::vector<std::shared_ptr<LmsSession>> sessions_;
 };
 

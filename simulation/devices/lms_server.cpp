@@ -1,5 +1,7 @@
 #include "simulation/devices/lms_server.hpp"
 
+#include "sensors/lms1xx/encode.hpp"
+
 namespace madori::simulation {
 namespace {
 
@@ -10,19 +12,21 @@ constexpr std::uint32_t kAccessDenied = 5;
 
 }  // namespace
 
-std::vector<std::uint8_t> LmsDialogue::receive(std::span<const std::uint8_t> bytes) {
+std::vector<std::uint8_t> LmsDialogue::receive(std::span<const std::uint8_t> bytes,
+                                               std::span<const std::uint8_t> newest) {
   splitter_.push(bytes);
   std::vector<std::uint8_t> out;
   while (const auto payload = splitter_.next()) {
     const auto head = lms1xx::head_of(*payload);
     if (!head) continue;
-    const auto reply = answer(*head);
+    const auto reply = answer(*head, newest);
     out.insert(out.end(), reply.begin(), reply.end());
   }
   return out;
 }
 
-std::vector<std::uint8_t> LmsDialogue::answer(const lms1xx::Head& head) {
+std::vector<std::uint8_t> LmsDialogue::answer(const lms1xx::Head& head,
+                                              std::span<const std::uint8_t> newest) {
   const auto reply = [&](const char* kind, std::vector<lms1xx::Argument> arguments = {}) {
     return lms1xx::encode(dialect_, {kind, std::string(head.name), std::move(arguments)});
   };
@@ -46,6 +50,8 @@ std::vector<std::uint8_t> LmsDialogue::answer(const lms1xx::Head& head) {
     subscribed_ = lms1xx::first_argument(dialect_, head).value_or(0) == 1;
     return reply("sEA", {{subscribed_ ? 1U : 0U, 1}});
   }
+  if (head.kind == "sRN" && head.name == "LMDscandata" && measuring_ && !newest.empty())
+    return lms1xx::as_answer(dialect_, newest);
   return refuse(kUnknownCommand);
 }
 

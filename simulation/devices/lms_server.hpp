@@ -14,13 +14,16 @@ class LmsDialogue {
  public:
   explicit LmsDialogue(sensors::lms1xx::Dialect dialect) : dialect_(dialect), splitter_(dialect) {}
 
-  /// Bytes from the client; returns the answers, ready for the wire.
-  [[nodiscard]] std::vector<std::uint8_t> receive(std::span<const std::uint8_t> bytes);
+  /// Bytes from the client; returns the answers, ready for the wire. `newest`: the telegram of the newest
+  /// scan, which is what a client gets that asks for one.
+  [[nodiscard]] std::vector<std::uint8_t> receive(std::span<const std::uint8_t> bytes,
+                                                  std::span<const std::uint8_t> newest = {});
   /// True after `sEN LMDscandata 1`, as long as the device measures.
   [[nodiscard]] bool wants_scans() const { return subscribed_ && measuring_; }
 
  private:
-  [[nodiscard]] std::vector<std::uint8_t> answer(const sensors::lms1xx::Head& head);
+  [[nodiscard]] std::vector<std::uint8_t> answer(const sensors::lms1xx::Head& head,
+                                                 std::span<const std::uint8_t> newest);
 
   sensors::lms1xx::Dialect dialect_;
   sensors::lms1xx::Splitter splitter_;

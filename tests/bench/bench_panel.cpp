@@ -17,7 +17,9 @@
 #include <thread>
 #include <vector>
 
+#include "app/lidars.hpp"
 #include "app/panel/live_copy.hpp"
+#include "app/panel/reference_lidar.hpp"
 #include "core/clock.hpp"
 #include "hmi/server/api.hpp"
 #include "hmi/server/server.hpp"
@@ -89,7 +91,7 @@ struct Panel {
       // Lent, not copied: the cycle has its scan anyway.
       auto& lent = clouds[static_cast<std::size_t>(step / kStepsAScan) % clouds.size()];
       if (step % kStepsAScan == 0) input.clouds.push_back(std::move(lent));
-      vehicle.copy.show_setup(input, "");
+      vehicle.copy.show_setup(input, {app::lidar_model(app::reference_lidar())}, "");
       if (!input.clouds.empty()) lent = std::move(input.clouds.front());
     }
     return (process_cpu_s() - cpu) / std::chrono::duration<double>(Clock::now() - begin).count();

@@ -159,7 +159,7 @@ class ToyVehicle {
   PointCloud<Lidar> cloud(Stamp now) {
     const PointCloud<Base> base = lidar.scan(rolling.pose(), now, random_);
     PointCloud<Lidar> result{now, base.points};
-    for (CloudPoint& p : result.points) p.z_m -= static_cast<float>(config.lidars.front().mounting.z_m);
+    for (CloudPoint& p : result.points) p.z_m -= static_cast<float>(lidar.height_m);
     return result;
   }
   void answer(std::uint32_t micros) {

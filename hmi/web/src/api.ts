@@ -90,6 +90,11 @@ export const api = {
   restoreVersion: (number: number) => post(`/api/site/versions/${number}/restore`),
 
   devices: () => get<wire.FoundDevice[]>("/api/devices"),
+  searchDevices: () => post<wire.FoundDevice[]>("/api/devices/search"),
+  lidarViews: () => get<wire.LidarView[]>("/api/devices/views"),
+  mounting: () => get<wire.MountingState>("/api/mounting"),
+  measureMounting: () => post("/api/mounting"),
+  stopMeasuring: () => request("DELETE", "/api/mounting"),
   saveVehicle: (edit: wire.VehicleEdit) => put<wire.Saved>("/api/site/vehicle", edit),
   braking: () => get<wire.Braking>("/api/vehicle/braking"),
   startBraking: (how: wire.BrakingStart) => post("/api/vehicle/braking", how),

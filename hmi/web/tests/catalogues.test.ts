@@ -15,7 +15,7 @@ const files = sources(new URL("../src", import.meta.url).pathname).filter((file)
 
 /** The beginnings of keys that are put together in the code: `state.${state}`. */
 const composed = () => files.flatMap((file) => [...readFileSync(file, "utf8").matchAll(/`([a-z_.]+\.)\$\{/g)].map(([, prefix]) => prefix ?? ""));
-const fromTheVehicle = ["error.", "cause.", "remedy.", "finding.", "reason.", "order.", "device-", "scale-", "event.", "saved.", "braking."];
+const fromTheVehicle = ["error.", "cause.", "remedy.", "finding.", "reason.", "order.", "device-", "scale-", "event.", "saved.", "braking.", "mounting.", "view."];
 
 /** What the vehicle's own code can say: the codes in its C++ tables and refusals, as the panel's keys. */
 function saidByTheVehicle(): string[] {
@@ -35,6 +35,7 @@ function saidByTheVehicle(): string[] {
     ...found(readFileSync(join(root, "localization/health/reasons.hpp"), "utf8"), /Reason k\w+\{\s*"([\w-]+)"/g, "reason"),
     ...found(readFileSync(join(root, "app/braking/braking_test.cpp"), "utf8"), /CatalogueEntry\{"([\w-]+)"/g, "braking"),
     ...found(panel, /(?:Response::error|refused)\((?:\d+,\s*)?"([\w-]+)"/g, "error"),
+    ...found(readFileSync(join(root, "app/mounting/mounting_words.hpp"), "utf8"), /CatalogueEntry k\w+\{\s*"([\w-]+)"/g, "mounting"),
     ...found(readFileSync(join(root, "mapping/site/site_versions.cpp"), "utf8"), /\badd\("([\w-]+)"\)/g, "saved"),
   ];
 }

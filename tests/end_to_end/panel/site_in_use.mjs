@@ -12,7 +12,7 @@ const { madori, page, data } = given;
 const kAnswers = {
   "/api/session": "Session", "/api/setup": "Setup", "/api/site": "Site", "/api/site/walls": "Walls", "/api/site/walls/seen": "WallPiece[]",
   "/api/site/routes": "Routes", "/api/site/routes/csv": "RoutesCsv", "/api/site/tiles": "TileInfo", "/api/site/tiles/sources": "TileSourceInfo[]",
-  "/api/devices": "FoundDevice[]", "/api/vehicle/braking": "Braking", "/api/locate": "Locate", "/api/orders": "Order[]", "/api/orders/history": "Order[]", "/api/events": "Event[]",
+  "/api/devices": "FoundDevice[]", "/api/devices/views": "LidarView[]", "/api/mounting": "MountingState", "/api/vehicle/braking": "Braking", "/api/locate": "Locate", "/api/orders": "Order[]", "/api/orders/history": "Order[]", "/api/events": "Event[]",
   "/api/statistics": "Statistics", "/api/recordings": "Recording[]", "/api/job": "Job",
 };
 

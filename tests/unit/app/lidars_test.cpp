@@ -71,9 +71,22 @@ TEST(Lidars, WhatCannotBeIsRefusedInOneSentence) {
   second.name = "rear";
   EXPECT_NE(refusal_of({kFront, second}).find("two sensors have the address 192.168.0.1:2112"),
             std::string::npos);
+  auto alike = kTop;
+  alike.name = "other";
+  alike.address = ":2368";
+  EXPECT_NE(refusal_of({kTop, alike}).find("two sensors have the address"), std::string::npos)
+      << "one port, written in another way";
+  alike.address = ":2369";
+  EXPECT_EQ(refusal_of({kTop, alike}), "");
   auto slow = kFront;
   slow.settings["rate_hz"] = "30";
   EXPECT_NE(refusal_of({slow}).find("measures at no such rate"), std::string::npos);
+  auto rare = kFront;
+  rare.settings["poll_hz"] = "0.2";
+  EXPECT_NE(refusal_of({rare}).find("choose one from 0.3 to 25"), std::string::npos) << refusal_of({rare});
+  rare.settings["poll_hz"] = "0.3";
+  EXPECT_EQ(refusal_of({rare}), "");
+  EXPECT_NEAR(lidar_model(rare).period_s, 3.33, 0.01);
   auto odd = kLeft;
   odd.settings["colour"] = "yellow";
   EXPECT_NE(refusal_of({odd}).find("the setting \"colour\" is not known - it knows: baud, every"),

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/lidars.hpp"
+#include "app/panel/reference_lidar.hpp"
 #include "tests/unit/app/corridor_vehicle.hpp"
 
 namespace madori::app {
@@ -40,7 +42,7 @@ TEST(LiveCopy, WhileTheSiteIsSetUpTheLidarIsBlamedOnlyWhenItIsSilent) {
   const auto vehicle = test::corridor_vehicle();
   LiveCopy copy;
   vehicle->on_step = [&](const CycleInput& input, const CycleOutput&, const CycleState&) {
-    copy.show_setup(input, "");
+    copy.show_setup(input, {lidar_model(reference_lidar())}, "");
   };
   vehicle->run_until([] { return false; }, 0.6);
   EXPECT_EQ(copy.locate().state, "setting-up");

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/mounting/mounting_log.hpp"
 #include "app/recording/input_text.hpp"
 #include "app/recording/recorder.hpp"
 #include "app/recording/replay.hpp"
@@ -102,6 +103,26 @@ TEST(Recording, AReplayedRunGivesTheSameCommandsBitForBit) {
   other.pursuit.look_ahead_s = 0.9;
   EXPECT_GT(replay(folder.path() / "run", other, std::make_unique<WheelPose>()).different, 10U)
       << "a replay with other settings must show";
+}
+
+TEST(Recording, HandsOutWhatReachedTheCycle) {
+  const test::TemporaryFolder folder;
+  RecorderOptions options;
+  options.max_waiting = 1'000'000;
+  options.segment_s = 8.0;
+  record_run(folder.path() / "run", options);
+  std::size_t clouds = 0, steps = 0;
+  MountingLog log(config().odometry.wheels);
+  look_at_inputs(folder.path() / "run", config(), [&](const CycleInput& input) {
+    clouds += input.clouds.size();
+    ++steps;
+    log.add(input);
+  });
+  EXPECT_GT(steps, 500U);
+  EXPECT_GT(clouds, steps / 6);
+  const localization::WheelPath path(log.drive().wheels, config().odometry.wheels);
+  EXPECT_NEAR(path.driven_m(), 12.0, 1.0) << "the wheels as the calibration of the mountings takes them";
+  EXPECT_GT(log.drive().sweeps.size(), 40U);
 }
 
 TEST(Recording, TheSizeLimitHoldsAndStopsAreKept) {

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
 #include <thread>
 
 #include "app/panel/reference_lidar.hpp"
+#include "app/simulated/factory_link.hpp"
 #include "app/statistics/work_meter.hpp"
 #include "mapping/drawing/import_drawing.hpp"
+#include "tests/support/small_hall.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::app {
@@ -141,6 +145,49 @@ TEST(Statistics, SumsSurviveARestart) {
   EXPECT_EQ(sums.causes.at("no-order").count, 2);
   ASSERT_TRUE(store.since());
   EXPECT_NEAR(to_seconds(*store.since() - now), 0.0, 1e-3);
+}
+
+/// Drives for the measurement alone: nothing is complete but the vehicle step.
+TEST(SiteRunMounting, IsMeasuredBeforeTheSiteCanBeDrivenAndStopsWhenTold) {
+  constexpr Duration kStep = std::chrono::milliseconds(20);
+  const test::TemporaryFolder folder;
+  mapping::ImportOptions import;
+  import.drawing = fs::path(MADORI_SOURCE_DIR) / "data/sample_factory/factory.dxf";
+  import.site = folder.path() / "site";
+  mapping::import_drawing(import);
+  mapping::Site site = mapping::load_site(import.site);
+  site.sensors = {{"front", "lms1xx", 0.6, 0.1, 0.25, 10.0}};
+  mapping::save_site(import.site, site);
+  auto setup = test::small_hall();
+  setup.sensors = {{"front", "lms1xx", 0.7, 0.0, 0.25, 0.0}};
+  setup.scenario.lms1xx.noise_m = 0.012;
+  const auto factory = std::make_shared<simulation::Factory>(setup);
+  SiteRun run(import.site, std::make_unique<FactoryLink>(factory, WheelGeometry{}, kStep), {});
+  const auto tick_until = [&](MountingView::State state) {
+    while (run.mounting().state != state) {  // the test's own limit ends this
+      run.tick(factory->now() + kStep);
+      std::this_thread::yield();
+    }
+  };
+  EXPECT_EQ(run.mounting().state, MountingView::State::Idle);
+  run.measure_mounting();
+  tick_until(MountingView::State::Done);
+  EXPECT_FALSE(run.view()) << "there are no routes";
+  const auto findings = run.mounting().findings;
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings.front().measured.known, localization::MountingKnown::All);
+  EXPECT_NEAR(findings.front().found.x_m, 0.7, 0.01);
+  EXPECT_NEAR(findings.front().found.y_m, 0.0, 0.01);
+  EXPECT_NEAR(findings.front().found.yaw_deg, 0.0, 0.3);
+  EXPECT_TRUE(factory->collisions().empty());
+
+  run.measure_mounting();
+  for (int i = 0; i < 150; ++i) run.tick(factory->now() + kStep);
+  EXPECT_GT(factory->truth().linear_mps, 0.1);
+  run.stop_measuring();
+  tick_until(MountingView::State::Stopped);
+  for (int i = 0; i < 100; ++i) run.tick(factory->now() + kStep);
+  EXPECT_LT(std::abs(factory->truth().linear_mps), 0.01);
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ TEST(LidarSilence, ADirectionAheadThatWasSeenAndIsNoLongerIsMissing) {
     const auto see = [&](double from_deg, double to_deg, double at_s) {
       note_heard(state.lidars_heard[0], all_around(from_deg, to_deg), config.lidars[0],
                  stamp_from_seconds(at_s));
-      return heard_all(state, config);
+      return heard_all(state, config, stamp_from_seconds(at_s));
     };
     EXPECT_EQ(see(10.0, 40.0, 1.0), stamp_from_seconds(1.0)) << "never seen: the vehicle's own mast";
     EXPECT_EQ(see(0.0, -1.0, 2.0), stamp_from_seconds(2.0));
@@ -151,16 +151,71 @@ TEST(LidarSilence, OneOfTwoMayBeSilentWhereTheOtherSeesTheWayAhead) {
   const auto front = test::planar_lidar({0.7, 0.0, 0.2, 0.0});
   const auto rear = test::planar_lidar({-0.1, 0.0, 0.2, kPi});
   config.lidars = {front, front};
-  EXPECT_EQ(heard_all(heard_at(config, rolling, {1.0, 9.0}), config), stamp_from_seconds(9.0));
+  EXPECT_EQ(heard_all(heard_at(config, rolling, {1.0, 9.0}), config, stamp_from_seconds(10.0)),
+            stamp_from_seconds(9.0));
   config.lidars = {front, rear};
-  EXPECT_EQ(heard_all(heard_at(config, rolling, {1.0, 9.0}), config), stamp_from_seconds(1.0))
+  EXPECT_EQ(heard_all(heard_at(config, rolling, {1.0, 9.0}), config, stamp_from_seconds(10.0)),
+            stamp_from_seconds(1.0))
       << "the way ahead is unseen";
-  EXPECT_EQ(heard_all(heard_at(config, rolling, {9.0, 1.0}), config), stamp_from_seconds(9.0));
-  EXPECT_EQ(heard_all(heard_at(config, rolling, {std::nullopt, 9.0}), config), std::nullopt);
+  EXPECT_EQ(heard_all(heard_at(config, rolling, {9.0, 1.0}), config, stamp_from_seconds(10.0)),
+            stamp_from_seconds(9.0));
+  EXPECT_EQ(heard_all(heard_at(config, rolling, {std::nullopt, 9.0}), config, stamp_from_seconds(10.0)),
+            std::nullopt);
   config.lidars = {test::spinning_lidar({0.3, 0.0, 1.2, 0.0}), front};
-  EXPECT_EQ(heard_all(heard_at(config, rolling, {9.0, 1.0}), config), stamp_from_seconds(9.0));
-  EXPECT_EQ(heard_all(heard_at(config, rolling, {1.0, 9.0}), config), stamp_from_seconds(1.0))
+  EXPECT_EQ(heard_all(heard_at(config, rolling, {9.0, 1.0}), config, stamp_from_seconds(10.0)),
+            stamp_from_seconds(9.0));
+  EXPECT_EQ(heard_all(heard_at(config, rolling, {1.0, 9.0}), config, stamp_from_seconds(10.0)),
+            stamp_from_seconds(1.0))
       << "by the 3D lidar the vehicle knows its place";
+}
+
+TEST(LidarSilence, EachHasThePatienceOfItsRate) {
+  const test::RollingVehicle rolling({});
+  CycleConfig config;
+  auto slow = test::planar_lidar({0.7, 0.0, 0.2, 0.0});
+  slow.period_s = 1.0 / 0.3;
+  config.lidars = {slow};
+  EXPECT_NEAR(patience_s(config, 0), 8.33, 0.01);
+  const auto silent_at = [&](double now_s) {
+    const Stamp now = stamp_from_seconds(now_s);
+    return is_silent(heard_all(heard_at(config, rolling, {1.0}), config, now), now, config.lidar_silent_s);
+  };
+  EXPECT_FALSE(silent_at(9.0));
+  EXPECT_TRUE(silent_at(9.5));
+  config.lidars = {test::spinning_lidar({0.3, 0.0, 1.2, 0.0}), slow};
+  const Stamp now = stamp_from_seconds(5.0);
+  EXPECT_TRUE(
+      is_silent(heard_all(heard_at(config, rolling, {4.0, 4.9}), config, now), now, config.lidar_silent_s))
+      << "a slow one gives a fast one no patience";
+}
+
+TEST(LidarSilence, OneOfTwoIsNamedAndTheOtherAllowsItsOwnSpeed) {
+  const auto routes = planning::parse_routes("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,0,0\n1,60,0\n").graph;
+  auto config = test::toy_config(routes);
+  auto coarse = test::planar_lidar({0.7, 0.0, 0.9, 0.0}, 2.0);  // a leg is sure to 1.2 m
+  coarse.name = "coarse";
+  config.lidars.push_back(coarse);
+  config.lidars.front() = test::planar_lidar({0.7, 0.0, 0.9, 0.0}, 0.25);
+  config.lidars.front().name = "fine";
+  config.sure_range_m = sure_ahead_m(config.lidars, 0.8);
+  const test::RollingVehicle rolling({});
+  const auto state = heard_at(config, rolling, {9.9, 9.9});
+  const Stamp now = stamp_from_seconds(10.0);
+  EXPECT_NEAR(sure_range_m(state, now, config), 3.1, 0.1);
+  const auto one = heard_at(config, rolling, {5.0, 9.9});
+  EXPECT_NEAR(sure_range_m(one, now, config), 1.17, 0.1);
+  EXPECT_EQ(silent_lidars(one, now, config), "fine");
+  EXPECT_EQ(silent_lidars(heard_at(config, rolling, {5.0, 5.0}), now, config), "fine, coarse") << "both";
+  CycleState told = heard_at(config, rolling, {5.0, 9.9});
+  told.lidar_heard = stamp_from_seconds(9.9);
+  CycleInput input;
+  input.now = now;
+  CycleOutput output;
+  say_missed_lidars(told, input, config, output);
+  say_missed_lidars(told, input, config, output);
+  ASSERT_EQ(output.events.size(), 1U) << "said once";
+  EXPECT_EQ(output.events.front(),
+            "lidar fine is silent: the vehicle goes on with the others, as fast as they allow");
 }
 
 TEST(HeightUnseen, AVehicleThatSeesOnePlaneAsksBeforeADoorAndGoesOnWhenTold) {

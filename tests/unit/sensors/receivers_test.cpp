@@ -6,7 +6,9 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ip/udp.hpp>
 #include <boost/asio/write.hpp>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "core/result.hpp"
 #include "sensors/lms1xx/client.hpp"
@@ -213,6 +215,49 @@ TEST(Lms1xxClient, SaysWhatTheScannerRefuses) {
   lms1xx::Client client({.host = "127.0.0.1", .port = scanner.port()}, [](const auto&, const auto&) {});
   EXPECT_TRUE(
       eventually([&] { return client.problem().find("refuses SetAccessMode") != std::string::npos; }));
+}
+
+TEST(Lms1xxClient, SaysThatSomebodyElseAnswers) {
+  asio::io_context context;
+  tcp::acceptor acceptor(context, tcp::endpoint(asio::ip::address_v4::loopback(), 0));
+  std::jthread other([&] {
+    boost::system::error_code problem;
+    tcp::socket socket(context);
+    acceptor.accept(socket, problem);
+    asio::write(socket, asio::buffer(std::string(200, 'x')), problem);
+    std::array<char, 64> rest{};
+    while (!problem) socket.read_some(asio::buffer(rest), problem);
+  });
+  lms1xx::Client client({.host = "127.0.0.1",
+                         .port = acceptor.local_endpoint().port(),
+                         .reconnect_after = std::chrono::seconds(20)},
+                        [](const auto&, const auto&) {});
+  EXPECT_TRUE(eventually([&] { return client.problem().find("does not speak CoLa B") != std::string::npos; }))
+      << client.problem();
+}
+
+TEST(S300Receiver, SaysThatAnotherDeviceOrAnotherFieldOfViewIsThere) {
+  test::PseudoTerminal cable;
+  std::atomic<int> scans = 0;
+  s300::Receiver receiver({.device = cable.name(), .stale_after = std::chrono::milliseconds(150)},
+                          [&](const LaserScan&, const s300::Fields&) { ++scans; });
+  EXPECT_TRUE(eventually([&] {
+    cable.write(std::vector<std::uint8_t>(60, 0x55));
+    return receiver.stop_reason().find("no telegram of a safety scanner") != std::string::npos;
+  })) << receiver.stop_reason();
+  s300::Telegram telegram;
+  const auto sends = [&](std::size_t values, const char* words) {
+    telegram.values.assign(values, 500);
+    return eventually([&] {
+      ++telegram.scan_number;
+      cable.write(s300::encode(telegram));
+      return receiver.stop_reason().find(words) != std::string::npos;
+    });
+  };
+  telegram.values.assign(541, 500);
+  EXPECT_TRUE(sends(541, "")) << receiver.stop_reason();
+  EXPECT_TRUE(eventually([&] { return scans > 0; }));
+  EXPECT_TRUE(sends(361, "sends 361 distances instead of 541")) << receiver.stop_reason();
 }
 
 TEST(S300Receiver, StopsTheVehicleOnTheFieldAndOnSilence) {

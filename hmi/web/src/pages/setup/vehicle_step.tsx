@@ -11,6 +11,9 @@ import { Stale } from "../../ui/stale";
 import { Tool } from "../../ui/tool";
 import { EditBar } from "../../ui/edit_bar";
 import { BrakingCard } from "./braking_card";
+import { attempt } from "../../ui/toast";
+import { LidarViews } from "./lidar_views";
+import { MountingCard } from "./mounting_card";
 import { useEdit } from "./use_edit";
 
 type Plan = Pick<Site, "vehicle" | "sensors" | "route_metric">;
@@ -34,6 +37,12 @@ function Found({ plan, use }: { plan: Plan; use: (sensor: SensorInfo) => void })
   const t = useText();
   const { value, age_s } = usePolled(api.devices, 1000);
   const devices = useStore(live.newest)?.live.devices ?? [];
+  const [searched, setSearched] = useState<FoundDevice[] | "searching" | null>(null);
+  const search = () => {
+    setSearched("searching");
+    void attempt(async () => setSearched(await api.searchDevices())).then((worked) => worked || setSearched(null));
+  };
+  const fresh = Array.isArray(searched) ? searched.filter(({ sensor }) => !sensor || !plan.sensors.some(({ name }) => name === sensor.name)) : [];
   const used = (device: FoundDevice) => plan.sensors.some((sensor) => sensor.type === device.type);
   return (
     <section class="grow">
@@ -57,7 +66,17 @@ function Found({ plan, use }: { plan: Plan; use: (sensor: SensorInfo) => void })
             </li>
           );
         })}
+        {fresh.map((device) => (
+          <li key={device.type + device.address}>
+            <Icon name="good" />
+            <span><strong>{t(`device.${device.type}` as TextKey)}</strong> {t("vehicle.heard")}<small>{device.address}</small></span>
+            {device.sensor && <Tool icon="plus" label={t("vehicle.use")} primary onClick={() => device.sensor && use(device.sensor)} />}
+          </li>
+        ))}
       </ul>
+      {searched === "searching" && <p role="status">{t("vehicle.searching")}</p>}
+      {Array.isArray(searched) && fresh.length === 0 && <p role="status">{t("vehicle.search_none")}</p>}
+      <div class="buttons"><Tool icon="search" label={t("vehicle.search")} disabled={searched === "searching"} onClick={search} /></div>
     </section>
   );
 }
@@ -111,6 +130,11 @@ export function VehicleStep({ site, next }: { site: Site; next: () => void }) {
   const plan = edit.value;
   const setSensor = (at: number, next: SensorInfo | null) =>
     edit.change({ ...plan, sensors: plan.sensors.flatMap((sensor, i) => (i !== at ? [sensor] : next ? [next] : [])) });
+  /** What was not found is as typed; who was not measured stays as it is. */
+  const takeOver = (found: SensorInfo[]) => {
+    edit.change({ ...plan, sensors: plan.sensors.map((sensor) => ({ ...sensor, ...found.find(({ name }) => name === sensor.name) })) });
+    setMore(true);
+  };
   return (
     <div class="columns">
       <div class="grow">
@@ -121,6 +145,8 @@ export function VehicleStep({ site, next }: { site: Site; next: () => void }) {
             void edit.save();
           }} />
         )}
+        <LidarViews vehicle={plan.vehicle} />
+        {plan.sensors.length > 0 && <MountingCard saved={!edit.unsaved} take={takeOver} />}
         {more && (
           <>
             <Shape vehicle={plan.vehicle} change={(vehicle) => edit.change({ ...plan, vehicle })} />
