@@ -25,8 +25,13 @@ Transform2<Odom, Base> wheels_at(const std::vector<ReckonedPose>& wheels, Stamp 
   return before->odom_from_base * Transform2<Base, Base>(f * step.x_m(), f * step.y_m(), f * step.yaw_rad());
 }
 
-/// The scans' poses, and the wheels' way between them laid on these; no way between scans where the vehicle was
-/// carried from the one to the other.
+bool carried_between(const localization::FinishedMap& map, Stamp after, Stamp until) {
+  return std::any_of(map.carried.begin(), map.carried.end(),
+                     [&](Stamp s) { return after < s && s <= until; });
+}
+
+/// The scans' poses, and the wheels' way between them laid on these; no way between scans where the vehicle
+/// was carried from the one to the other.
 std::vector<MomentPose> with_wheels(const localization::FinishedMap& map,
                                     const std::vector<ReckonedPose>& wheels) {
   const auto by_stamp = [](const auto& a, const auto& b) { return a.stamp < b.stamp; };
@@ -43,7 +48,7 @@ std::vector<MomentPose> with_wheels(const localization::FinishedMap& map,
     anchors.clear();
   };
   for (const MomentPose& scan : scans) {
-    if (std::find(map.carried.begin(), map.carried.end(), scan.stamp) != map.carried.end()) {
+    if (carried_between(map, anchors.empty() ? Stamp::min() : way.back().stamp, scan.stamp)) {
       lay();
       while (next != wheels.end() && next->stamp < scan.stamp) ++next;
     }
@@ -51,7 +56,9 @@ std::vector<MomentPose> with_wheels(const localization::FinishedMap& map,
     anchors.push_back({way.size(), scan.map_from_base});
     way.push_back({scan.stamp, wheels_at(wheels, scan.stamp)});
   }
-  way.insert(way.end(), next, wheels.end());
+  for (; next != wheels.end(); ++next)
+    if (!carried_between(map, way.empty() ? Stamp::min() : way.back().stamp, next->stamp))
+      way.push_back(*next);
   lay();
   return all;
 }

@@ -94,7 +94,8 @@ void map_log(const MapArguments& arguments) {
                                    {"finish_s", run.finish_s}});
   std::FILE* out = arguments.json_file == "-" ? stderr : stdout;
   if (run.map.lost_scans > 0)
-    std::fprintf(out, "%d scans lie nowhere in the map: drive the places again that they show\n", run.map.lost_scans);
+    std::fprintf(out, "%d scans lie nowhere in the map: drive the places again that they show\n",
+                 run.map.lost_scans);
   std::fprintf(out,
                "%d scans, %d loops closed: %zu walls, %.0f m; the log starts at \"%.3f %.3f %.2f\" (for "
                "localize --initial)\n%s written; look at import.png there\n",
@@ -117,7 +118,8 @@ void add_map(CLI::App& app) {
   command->add_option("--method", arguments->method, "how: graph, slow-lidar, or rbpf")
       ->check(CLI::IsMember({"graph", "slow-lidar", "rbpf"}))
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "of the particles; for --method rbpf")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "of the particles; for --method rbpf")
+      ->capture_default_str();
   command->add_flag("--force", arguments->force, "replace an existing site's walls and drawing");
   command->add_option("--trajectory", arguments->trajectory, "TUM file of the poses as they were known");
   command->add_option("--final", arguments->at_last, "TUM file of the poses after all loops");

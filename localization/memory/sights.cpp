@@ -11,7 +11,8 @@ namespace {
 constexpr double kGapRad = 0.045;  // beams this near to each other leave no gap between them,
 constexpr double kGapM = 0.15;     // nor do points of one surface
 constexpr double kMarginM = 0.15;  // a surface is passed by this much nearer or farther,
-constexpr double kMarginShare = 0.03;  // and by this share of its distance: slanted walls, the heading's error
+constexpr double kMarginShare =
+    0.03;  // and by this share of its distance: slanted walls, the heading's error
 
 double turn_of(double dx, double dy) {
   const double turn = std::atan2(dy, dx) / (2.0 * kPi);

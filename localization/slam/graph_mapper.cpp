@@ -81,7 +81,7 @@ void GraphMapper::remember(const SurfaceScan& scan) {
 /// A joint is judged when some keyframes stand on either side of it.
 void GraphMapper::judge_joints(std::size_t until) {
   for (; judged_ < until; ++judged_)
-    if (is_false_joint(map_.memory, judged_, joints_)) cut(judged_);
+    if (is_false_joint(map_.memory, judged_, off_wheels_at_[judged_], joints_)) cut(judged_);
 }
 
 void GraphMapper::cut(std::size_t first) {
@@ -124,8 +124,8 @@ void GraphMapper::close_loops(bool at_end) {
   note_piece();
 }
 
-/// Pieces are brought to each other before the graph is solved; a loop that is far from closed pulls little at
-/// first if it is to pull like all others at last.
+/// Pieces are brought to each other before the graph is solved; a loop that is far from closed pulls little
+/// at first if it is to pull like all others at last.
 void GraphMapper::tie(const std::vector<RelativeFactor>& loops) {
   Memory& memory = map_.memory;
   const std::vector<std::size_t> of = memory.pieces();
@@ -188,10 +188,9 @@ int GraphMapper::keep_largest_piece() {
   std::map<std::size_t, std::size_t> sizes;
   for (const std::size_t piece : of) ++sizes[piece];
   if (sizes.size() == 1) return 0;
-  const std::size_t largest =
-      std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
-        return a.second < b.second;
-      })->first;
+  const std::size_t largest = std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
+                                return a.second < b.second;
+                              })->first;
   std::vector<std::size_t> scan_of;
   std::vector<ReckonedPose> reckoned;
   std::vector<std::shared_ptr<const SurfaceScan>> scans;
@@ -236,9 +235,9 @@ FinishedMap GraphMapper::finish() {
   if (map_.memory.empty()) return finished;
   judge_joints(map_.memory.size());
   close_loops(true);
-  finished.lost_scans = keep_largest_piece();
   for (std::size_t k = 0; k < scan_of_.size(); ++k)
     if (map_.memory.keyframes()[k].cut) finished.carried.push_back(scans_[scan_of_[k]]->stamp);
+  finished.lost_scans = keep_largest_piece();
   finished.memory = final_fit(map_.memory, options_.memory);
   finished.scans = laid_pieces(finished.memory);
   fit_scans(finished.memory, scan_of_, scans_, finished.scans);

@@ -56,7 +56,7 @@ class GraphMapper final : public Mapper {
   std::vector<std::shared_ptr<const SurfaceScan>> scans_;  ///< all, for the last look
   std::vector<std::size_t> scan_of_;                       ///< the scan that each keyframe is
   JointOptions joints_;
-  double off_wheels_ = 0.0;            ///< sigmas squared that scans led off the wheels, since the newest keyframe
+  double off_wheels_ = 0.0;  ///< sigmas squared that scans led off the wheels, since the newest keyframe
   std::vector<double> off_wheels_at_;  ///< on the way to each keyframe
   LoopFinder finder_;
   int cuts_ = 0;

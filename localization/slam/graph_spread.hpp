@@ -23,8 +23,8 @@ class GraphSpread {
   [[nodiscard]] const std::optional<Eigen::Matrix3d>& at(std::size_t keyframe) const {
     return spread_[keyframe];
   }
-  /// Sigmas squared by which `motion` (of `keyframe` seen from `from`, known to `covariance`) is off the graph;
-  /// zero where the graph says nothing of it. Chi-squared of three degrees where both are right.
+  /// Sigmas squared by which `motion` (of `keyframe` seen from `from`, known to `covariance`) is off the
+  /// graph; zero where the graph says nothing of it. Chi-squared of three degrees where both are right.
   [[nodiscard]] double chi_squared(std::size_t keyframe, const Transform2<Base, Base>& motion,
                                    const Eigen::Matrix3d& covariance) const;
 

@@ -7,10 +7,10 @@
 namespace madori::localization {
 namespace {
 
-constexpr double kSigmaM = 0.08;      // of one residual, as in LocalMap: neighbours share their errors
+constexpr double kSigmaM = 0.08;        // of one residual, as in LocalMap: neighbours share their errors
 constexpr double kLikelySigmaM = 0.05;  // of a point from its surface
-// What a point is worth that lies on no surface: looked through, never looked at; and the share of points that
-// are anything (people, glass).
+// What a point is worth that lies on no surface: looked through, never looked at; and the share of points
+// that are anything (people, glass).
 constexpr double kInFree = 0.05;
 constexpr double kInUnknown = 0.3;
 
@@ -54,8 +54,7 @@ GridMatch match_to_grid(const SurfaceScan& scan, const SurfaceGrid& map, const P
       hessian += weight * j * j.transpose();
       gradient += weight * r * j;
     }
-    const Eigen::Vector3d step =
-        -(hessian + 1e-6 * Eigen::Matrix3d::Identity()).ldlt().solve(gradient);
+    const Eigen::Vector3d step = -(hessian + 1e-6 * Eigen::Matrix3d::Identity()).ldlt().solve(gradient);
     match.map_from_base = {pose.x_m() + step[0], pose.y_m() + step[1], pose.yaw_rad() + step[2]};
     match.information = hessian;
     const auto points = static_cast<double>(std::max<std::size_t>(scan.points.size(), 1));

@@ -20,7 +20,8 @@ struct GridMatch {
 };
 
 /// Gauss-Newton on the distances to the surfaces, robust (Geman-McClure), leaning on the prior.
-[[nodiscard]] GridMatch match_to_grid(const SurfaceScan& scan, const SurfaceGrid& map, const PosePrior& prior);
+[[nodiscard]] GridMatch match_to_grid(const SurfaceScan& scan, const SurfaceGrid& map,
+                                      const PosePrior& prior);
 
 /// Logarithm of the likelihood of a scan at a pose: p(z | m, x). Neighbouring beams share their errors: all
 /// points together count as `beams` that are independent.

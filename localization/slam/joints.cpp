@@ -22,13 +22,14 @@ SightCount joint_sights(const Memory& memory, std::size_t k, const JointOptions&
   return sum;
 }
 
-bool is_false_joint(const Memory& memory, std::size_t k, const JointOptions& options) {
+bool is_false_joint(const Memory& memory, std::size_t k, double off_wheels, const JointOptions& options) {
   const auto& keyframes = memory.keyframes();
   if (k == 0 || keyframes[k].cut || keyframes[k].agreement > options.least_agreement) return false;
   const SightCount sights = joint_sights(memory, k, options);
-  if (sights.both() < options.least_seen || sights.contradiction() < options.most_through) return false;
-  const bool is_followed = k + 1 < memory.size() && !keyframes[k + 1].cut &&
-                           keyframes[k + 1].agreement < options.least_agreement;
+  const double most = off_wheels > options.off_wheels ? options.most_through_off : options.most_through;
+  if (sights.both() < options.least_seen || sights.contradiction() < most) return false;
+  const bool is_followed =
+      k + 1 < memory.size() && !keyframes[k + 1].cut && keyframes[k + 1].agreement < options.least_agreement;
   return !is_followed || joint_sights(memory, k + 1, options).contradiction() < sights.contradiction();
 }
 

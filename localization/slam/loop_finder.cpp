@@ -15,6 +15,17 @@ double between_m(const Memory& memory, std::size_t a, std::size_t b) {
   return std::abs(memory.keyframes()[a].path_m - memory.keyframes()[b].path_m);
 }
 
+struct Span {
+  double low = 1e12;
+  double high = -1e12;
+
+  void add(double v) {
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  [[nodiscard]] double length() const { return high - low; }
+};
+
 std::size_t from_of(const RelativeFactor& f) {
   return static_cast<std::size_t>(f.from);
 }
@@ -75,9 +86,9 @@ void LoopFinder::seek(const Memory& memory, std::size_t newest) {
   std::optional<GraphSpread> spread;
   for (const Candidate& c : candidates(memory, newest)) {
     if (!spread) spread.emplace(newest, memory.poses(), memory.factors());
-    const auto match = match_stretches(
-        memory, stretch_around(memory.keyframes(), c.keyframe, options_.stretch), here, c.motion,
-        options_.stretch);
+    const auto match =
+        match_stretches(memory, stretch_around(memory.keyframes(), c.keyframe, options_.stretch), here,
+                        c.motion, options_.stretch);
     if (!match) continue;
     const RelativeFactor back = reversed(match->factor);
     if (spread->chi_squared(c.keyframe, back.motion, back.information.inverse()) > options_.most_sigmas2)
@@ -118,11 +129,10 @@ bool LoopFinder::agree(const Memory& memory, const RelativeFactor& a, const Rela
   const auto& poses = memory.poses();
   const auto by_b = (poses[from_of(a)].inverse() * poses[from_of(b)]) * b.motion *
                     (poses[to_of(b)].inverse() * poses[to_of(a)]);
-  const double driven_m =
-      between_m(memory, from_of(a), from_of(b)) + between_m(memory, to_of(a), to_of(b));
+  const double driven_m = between_m(memory, from_of(a), from_of(b)) + between_m(memory, to_of(a), to_of(b));
   const Transform2<Base, Base> off = a.motion.inverse() * by_b;
-  const double m2 = 2.0 * options_.match_sigma_m * options_.match_sigma_m +
-                    options_.drift_m * options_.drift_m * driven_m;
+  const double m2 =
+      2.0 * options_.match_sigma_m * options_.match_sigma_m + options_.drift_m * options_.drift_m * driven_m;
   const double rad2 = 2.0 * options_.match_sigma_rad * options_.match_sigma_rad +
                       options_.drift_rad * options_.drift_rad * driven_m;
   const double lever2 = rad2 * driven_m * driven_m / 4.0;
@@ -135,7 +145,7 @@ bool LoopFinder::agree(const Memory& memory, const RelativeFactor& a, const Rela
 std::vector<RelativeFactor> LoopFinder::believed(const Memory& memory, const RelativeFactor& newest) const {
   std::vector<RelativeFactor> with;
   std::size_t against = 0;
-  double low_m = 1e12, high_m = -1e12;
+  Span here, there;
   for (const RelativeFactor& f : likely_) {
     if (!comparable(memory, f, newest)) {
       against += between_m(memory, to_of(f), to_of(newest)) < options_.comparable_m;
@@ -146,14 +156,16 @@ std::vector<RelativeFactor> LoopFinder::believed(const Memory& memory, const Rel
       continue;
     }
     with.push_back(f);
-    low_m = std::min(low_m, memory.keyframes()[to_of(f)].path_m);
-    high_m = std::max(high_m, memory.keyframes()[to_of(f)].path_m);
+    here.add(memory.keyframes()[to_of(f)].path_m);
+    there.add(memory.keyframes()[from_of(f)].path_m);
   }
   const std::vector<std::size_t> pieces = memory.pieces();
   const bool apart = pieces[from_of(newest)] != pieces[to_of(newest)];
   if (with.size() < options_.together || 2 * against >= with.size()) return {};
-  if (high_m - low_m < (apart ? options_.span_apart_m : options_.span_m)) return {};
-  if (apart && !fit_all_over(memory, pieces, newest)) return {};
+  if (here.length() < options_.span_m) return {};
+  if (apart && (std::min(here.length(), there.length()) < options_.span_apart_m ||
+                !fit_all_over(memory, pieces, newest)))
+    return {};
   return with;
 }
 
@@ -196,8 +208,8 @@ std::vector<std::vector<RelativeFactor>> LoopFinder::look(const Memory& memory, 
   const auto& keyframes = memory.keyframes();
   while (views_.size() < memory.size() && (at_end || is_complete(memory, views_.size()))) {
     const std::size_t k = views_.size();
-    views_.push_back(
-        place_view(stretch_scan(memory, stretch_around(keyframes, k, options_.stretch), options_.stretch.spacing_m)));
+    views_.push_back(place_view(
+        stretch_scan(memory, stretch_around(keyframes, k, options_.stretch), options_.stretch.spacing_m)));
     if (keyframes[k].path_m - sought_path_m_ < options_.every_m && !keyframes[k].cut) continue;
     sought_path_m_ = keyframes[k].path_m;
     const std::size_t before = likely_.size();

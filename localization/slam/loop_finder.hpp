@@ -25,7 +25,7 @@ struct LoopFinderOptions {
   double most_sigmas2 = 16.3;      ///< chi-squared of three, one right loop in a thousand is refused
   std::size_t together = 3;        ///< loops that must lead to the same place, and what must have been driven
   double span_m = 1.0;             ///< from the first to the last of them, within a piece;
-  double span_apart_m = 3.0;       ///< between pieces, of which the graph knows nothing,
+  double span_apart_m = 4.0;       ///< between pieces, of which the graph knows nothing, on either side,
   double around_m = 12.0;          ///< and all that they saw of each other so far around the loop,
   double near_m = 6.0;             ///< keyframes so near to each other,
   double most_through_all = 0.15;  ///< may contradict to this share
@@ -48,9 +48,9 @@ class LoopFinder {
   /// of them. Returns the loops to be closed: each inner list leads from one piece to one.
   [[nodiscard]] std::vector<std::vector<RelativeFactor>> look(const Memory& memory, bool at_end);
 
-  /// A drive was cut before `keyframe`, `motion` being what led there: the stretches on both sides will be laid
-  /// on each other once, in a wide window, when they are complete. It may have been no more than a scan that
-  /// was matched wrongly.
+  /// A drive was cut before `keyframe`, `motion` being what led there: the stretches on both sides will be
+  /// laid on each other once, in a wide window, when they are complete. It may have been no more than a scan
+  /// that was matched wrongly.
   void note_cut(std::size_t keyframe, const Transform2<Base, Base>& motion) {
     cuts_.emplace_back(keyframe, motion);
   }
@@ -70,7 +70,8 @@ class LoopFinder {
                                   const RelativeFactor& loop) const;
   [[nodiscard]] bool comparable(const Memory& memory, const RelativeFactor& a, const RelativeFactor& b) const;
   [[nodiscard]] bool agree(const Memory& memory, const RelativeFactor& a, const RelativeFactor& b) const;
-  [[nodiscard]] std::vector<RelativeFactor> believed(const Memory& memory, const RelativeFactor& newest) const;
+  [[nodiscard]] std::vector<RelativeFactor> believed(const Memory& memory,
+                                                     const RelativeFactor& newest) const;
 
   LoopFinderOptions options_;
   std::vector<PlaceView> views_;        ///< one a keyframe, of those whose surroundings are complete

@@ -20,7 +20,7 @@ inline constexpr std::uint8_t kNoView = 255;
 
 struct ViewDifference {
   double difference = 1.0;  ///< 0 alike, 1 nothing in common
-  int shift = 0;  ///< section i of the one is section i + shift of the other: the turn in sections
+  int shift = 0;            ///< section i of the one is section i + shift of the other: the turn in sections
   [[nodiscard]] double turn_rad() const;
 };
 

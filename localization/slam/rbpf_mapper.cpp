@@ -52,9 +52,8 @@ RbpfMapper::RbpfMapper(const RbpfOptions& options)
 }
 
 std::size_t RbpfMapper::best() const {
-  const auto most = std::max_element(particles_.begin(), particles_.end(), [](const auto& a, const auto& b) {
-    return a.log_sum < b.log_sum;
-  });
+  const auto most = std::max_element(particles_.begin(), particles_.end(),
+                                     [](const auto& a, const auto& b) { return a.log_sum < b.log_sum; });
   return static_cast<std::size_t>(most - particles_.begin());
 }
 
@@ -149,8 +148,8 @@ void RbpfMapper::extend(Particle& particle, const SurfaceScan& scan, const PoseP
                         match.map_from_base.yaw_rad() + da * options_.sample_rad);
           const Eigen::Vector3d e = difference(at, prior.map_from_base);
           offs[n] = difference(at, match.map_from_base);
-          log_tau[n++] = log_likelihood(scan, particle.map, at, options_.beams) -
-                         0.5 * e.dot(prior.information * e);
+          log_tau[n++] =
+              log_likelihood(scan, particle.map, at, options_.beams) - 0.5 * e.dot(prior.information * e);
         }
       }
     }
@@ -253,8 +252,8 @@ FinishedMap RbpfMapper::finish() {
   std::vector<WayAnchor> anchors;
   for (std::size_t k = 0; k < scan_of_.size(); ++k) anchors.push_back({scan_of_[k], poses[k]});
   finished.scans = laid_way(reckoned_, anchors);
-  finished.memory = Memory(options_.front.memory, front_.memory.keyframes(), std::move(poses),
-                           front_.memory.factors(), 0);
+  finished.memory =
+      Memory(options_.front.memory, front_.memory.keyframes(), std::move(poses), front_.memory.factors(), 0);
   return finished;
 }
 

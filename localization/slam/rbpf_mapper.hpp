@@ -16,14 +16,14 @@
 namespace madori::localization {
 
 struct RbpfOptions {
-  LocalizerOptions front;     ///< how the motion from keyframe to keyframe is measured
+  LocalizerOptions front;  ///< how the motion from keyframe to keyframe is measured
   std::size_t particles = 30;
   double resample_below = 0.5;  ///< of the particles, that their weights must be worth
   double beams = 12.0;          ///< independent ones, that a scan is worth
   double sample_m = 0.03;       ///< K = 27 poses around the best one, so far apart,
   double sample_rad = 0.01;     ///< are weighed
-  double least_inliers = 0.3;   ///< of a scan, that must lie on a particle's own map: else the motion is drawn
-  double motion_m = 0.02;       ///< error of a keyframe's motion beside its own word, a root-metre
+  double least_inliers = 0.3;  ///< of a scan, that must lie on a particle's own map: else the motion is drawn
+  double motion_m = 0.02;      ///< error of a keyframe's motion beside its own word, a root-metre
   double motion_rad = 0.006;
   std::uint32_t seed = 1;
 };

@@ -42,7 +42,8 @@ Stretch stretch_around(const std::vector<Keyframe>& keyframes, std::size_t middl
   Stretch s{middle, middle, middle};
   const auto belongs = [&](std::size_t k, std::size_t away) {
     const double path_m = std::abs(keyframes[k].path_m - keyframes[middle].path_m);
-    return away <= options.least_keyframes || (away <= options.half_keyframes && path_m <= options.half_path_m);
+    return away <= options.least_keyframes ||
+           (away <= options.half_keyframes && path_m <= options.half_path_m);
   };
   while (s.first > 0 && !keyframes[s.first].cut && belongs(s.first - 1, middle - s.first + 1)) --s.first;
   while (s.last + 1 < keyframes.size() && !keyframes[s.last + 1].cut &&
@@ -118,9 +119,9 @@ std::optional<StretchMatch> match_stretches(const Memory& memory, const Stretch&
   const SightCount sights = stretch_sights(memory, from, to, motion, options.witnesses);
   if (sights.both() < options.least_seen || sights.contradiction() > options.most_through)
     return std::nullopt;
-  return StretchMatch{{static_cast<int>(from.middle), static_cast<int>(to.middle), motion,
-                       information, true},
-                      sights, match.inlier_share};
+  return StretchMatch{{static_cast<int>(from.middle), static_cast<int>(to.middle), motion, information, true},
+                      sights,
+                      match.inlier_share};
 }
 
 }  // namespace madori::localization

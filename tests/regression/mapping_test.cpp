@@ -9,7 +9,8 @@
 #include "app/mapping_run.hpp"
 #include "app/trajectory_score.hpp"
 #include "localization/slam/graph_mapper.hpp"
-#include "sensors/carmen/reader.hpp"
+#include "localization/slam/rbpf_mapper.hpp"
+#include "tests/support/cut_log.hpp"
 #include "tests/support/lidar_models.hpp"
 
 namespace madori::app {
@@ -17,32 +18,36 @@ namespace {
 
 const std::filesystem::path kLogs = std::filesystem::path(MADORI_SHARED_DATA) / "lidar2d";
 
-/// A log of which only every n-th scan arrives; the wheels are all there.
-class EveryNth final : public sensors::LogReader {
+std::vector<sensors::LogRecord> log_records(const std::string& log, int every) {
+  return test::records_of(kLogs / log / (log + ".log"), every);
+}
+
+/// Records as they are.
+class Records final : public sensors::LogReader {
  public:
-  EveryNth(const std::filesystem::path& file, int n) : log_(file), n_(n) {}
+  explicit Records(std::vector<sensors::LogRecord> records) : records_(std::move(records)) {}
   std::optional<sensors::LogRecord> next() override {
-    while (auto record = log_.next()) {
-      const auto* scan = std::get_if<sensors::ScanRecord>(&*record);
-      if (scan == nullptr || scans_++ % n_ == 0) return record;
-      if (scan->odom_from_base) return OdometryReading{scan->scan.stamp, *scan->odom_from_base};
-    }
-    return std::nullopt;
+    if (next_ == records_.size()) return std::nullopt;
+    return records_[next_++];
   }
 
  private:
-  sensors::carmen::CarmenReader log_;
-  int n_;
-  int scans_ = 0;
+  std::vector<sensors::LogRecord> records_;
+  std::size_t next_ = 0;
 };
 
-std::vector<StampedPose> final_way(const std::string& log, int every) {
-  EveryNth reader(kLogs / log / (log + ".log"), every);
-  localization::GraphMapper mapper;
-  const MappingRun run = run_mapper(reader, test::planar_lidar({0.0, 0.0, 0.3, 0.0}), mapper);
+std::vector<StampedPose> way_of(sensors::LogReader& log, localization::Mapper& mapper, MappingRun& run) {
+  run = run_mapper(log, test::planar_lidar({0.0, 0.0, 0.3, 0.0}), mapper);
   std::vector<StampedPose> way;
   for (const auto& pose : run.at_last) way.push_back({pose.stamp, pose.map_from_base});
   return way;
+}
+
+std::vector<StampedPose> final_way(const std::string& log, int every) {
+  Records reader(log_records(log, every));
+  localization::GraphMapper mapper;
+  MappingRun run;
+  return way_of(reader, mapper, run);
 }
 
 /// A log, which scans of it, and the most that the mean of its relations may be off.

@@ -81,10 +81,10 @@ class CutLog final : public sensors::LogReader {
 
   void append(const std::vector<sensors::LogRecord>& records, std::size_t begin, std::size_t end) {
     std::optional<Transform2<Odom, Odom>> by;
-    const Duration shift = records_.empty() ? -sensors::stamp_of(records[begin]).time_since_epoch()
-                                            : sensors::stamp_of(records_.back()) +
-                                                  std::chrono::milliseconds(200) -
-                                                  sensors::stamp_of(records[begin]);
+    const Duration shift = records_.empty()
+                               ? -sensors::stamp_of(records[begin]).time_since_epoch()
+                               : sensors::stamp_of(records_.back()) + std::chrono::milliseconds(200) -
+                                     sensors::stamp_of(records[begin]);
     for (std::size_t i = begin; i < end; ++i) {
       sensors::LogRecord record = records[i];
       const Stamp was = sensors::stamp_of(record);

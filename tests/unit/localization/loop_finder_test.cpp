@@ -19,7 +19,8 @@ namespace {
 using Pose = Transform2<Map, Base>;
 
 SurfaceScan scan_at(const mapping::Walls& walls, const Pose& pose, std::mt19937& engine) {
-  const ScanPoints points = scan_points(test::simulate_scan(walls, pose, test::full_turn(360, 30.0), engine), {});
+  const ScanPoints points =
+      scan_points(test::simulate_scan(walls, pose, test::full_turn(360, 30.0), engine), {});
   return make_surface_scan({}, {}, weighty_points(points));
 }
 
@@ -58,8 +59,7 @@ TEST(PlaceViews, TellTheTurnAndThePlace) {
   const ViewDifference same = compare_views(place_view(scan_at(walls, turned, engine)), old);
   EXPECT_NEAR(same.turn_rad(), 10.0 * 2.0 * kPi / 64.0, 2.0 * kPi / 64.0);
   EXPECT_LT(same.difference, 0.15);
-  EXPECT_GT(compare_views(place_view(scan_at(walls, other, engine)), old).difference,
-            same.difference + 0.15);
+  EXPECT_GT(compare_views(place_view(scan_at(walls, other, engine)), old).difference, same.difference + 0.15);
 }
 
 /// Along a chain the Dijkstra projection is exact: what chaining the factors gives.
@@ -155,8 +155,7 @@ TEST(GraphMapper, TiesThePiecesOfAVehicleThatWasCarriedAway) {
   const Mapped result = mapped(drive);
   EXPECT_EQ(result.map.lost_scans, 0);
   ASSERT_EQ(result.map.carried.size(), 1U);
-  EXPECT_LT(std::abs(to_seconds(result.map.carried.front() -
-                                drive.moments[drive.starts[1]].odometry.stamp)),
+  EXPECT_LT(std::abs(to_seconds(result.map.carried.front() - drive.moments[drive.starts[1]].odometry.stamp)),
             0.7);  // a scan comes every 0.3 s
   EXPECT_LT(result.worst_m, 0.08);
 }

@@ -15,7 +15,8 @@ namespace {
 using Pose = Transform2<Map, Base>;
 
 SurfaceScan scan_at(const mapping::Walls& walls, const Pose& pose, std::mt19937& engine) {
-  const ScanPoints points = scan_points(test::simulate_scan(walls, pose, test::full_turn(360, 30.0), engine), {});
+  const ScanPoints points =
+      scan_points(test::simulate_scan(walls, pose, test::full_turn(360, 30.0), engine), {});
   return make_surface_scan({}, {}, weighty_points(points));
 }
 
