@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace madori::localization {
+namespace {
+
+/// A scan that lies on less than this of what was seen before is where it is by the wheels' word alone.
+constexpr double kUnmatched = 0.35;
+
+}  // namespace
 
 SightCount joint_sights(const Memory& memory, std::size_t k, const JointOptions& options) {
   SightCount sum;
@@ -26,7 +32,8 @@ bool is_false_joint(const Memory& memory, std::size_t k, double off_wheels, cons
   const auto& keyframes = memory.keyframes();
   if (k == 0 || keyframes[k].cut || keyframes[k].agreement > options.least_agreement) return false;
   const SightCount sights = joint_sights(memory, k, options);
-  const double most = off_wheels > options.off_wheels ? options.most_through_off : options.most_through;
+  const bool is_doubted = off_wheels > options.off_wheels || keyframes[k].agreement < kUnmatched;
+  const double most = is_doubted ? options.most_through_off : options.most_through;
   if (sights.both() < options.least_seen || sights.contradiction() < most) return false;
   const bool is_followed =
       k + 1 < memory.size() && !keyframes[k + 1].cut && keyframes[k + 1].agreement < options.least_agreement;
