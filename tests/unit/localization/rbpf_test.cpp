@@ -45,10 +45,10 @@ TEST(SurfaceGrid, CopiesShareUntilOneChanges) {
   first.add(scan_at(walls, {6.0, 1.2, 0.0}, engine), {6.0, 1.2, 0.0});
   const SurfaceGrid kept = first;
   SurfaceGrid::Surface before, after;
-  const SurfacePoint wall{6.0, 0.02, 0.0, 1.0}, beside{6.0, -0.05, 0.0, 1.0};
+  const SurfacePoint wall{6.0, 0.02, 0.0, 1.0}, beside{6.0, -0.15, 0.0, 1.0};
   ASSERT_TRUE(kept.nearest(wall, 1, before));
   ASSERT_FALSE(kept.nearest(beside, 0, after));
-  for (int i = 0; i < 5; ++i) first.add(scan_at(walls, {6.0, 1.2, 0.0}, engine), {6.0, 1.15, 0.0});
+  for (int i = 0; i < 5; ++i) first.add(scan_at(walls, {6.0, 1.2, 0.0}, engine), {6.0, 1.05, 0.0});
   EXPECT_TRUE(first.nearest(beside, 0, after));
   EXPECT_FALSE(kept.nearest(beside, 0, after));
   ASSERT_TRUE(kept.nearest(wall, 1, after));
