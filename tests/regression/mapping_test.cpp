@@ -9,7 +9,6 @@
 #include "app/mapping_run.hpp"
 #include "app/trajectory_score.hpp"
 #include "localization/slam/graph_mapper.hpp"
-#include "localization/slam/rbpf_mapper.hpp"
 #include "tests/support/cut_log.hpp"
 #include "tests/support/lidar_models.hpp"
 
@@ -130,15 +129,6 @@ TEST(CarriedAway, TenTimesOnIntelIsNotJoinedWrongly) {
   EXPECT_GE(run.map.carried.size(), 10U);
   EXPECT_LT(run.map.lost_scans, 400);
   EXPECT_LT(relations_off_m(way), 0.08);
-}
-
-// Measured: 0.0744 m.
-TEST(Rbpf, KeepsTheRelationsOfIntel) {
-  if (!std::filesystem::exists(kLogs / "intel" / "intel.relations")) GTEST_SKIP() << "no log in " << kLogs;
-  Records log(log_records("intel", 1));
-  localization::RbpfMapper mapper;
-  MappingRun run;
-  EXPECT_LT(relations_off_m(way_of(log, mapper, run)), 0.08);
 }
 
 }  // namespace
