@@ -25,20 +25,42 @@ Transform2<Odom, Base> wheels_at(const std::vector<ReckonedPose>& wheels, Stamp 
   return before->odom_from_base * Transform2<Base, Base>(f * step.x_m(), f * step.y_m(), f * step.yaw_rad());
 }
 
-/// The scans' poses, and the wheels' way between them laid on these.
-std::vector<MomentPose> with_wheels(std::vector<MomentPose> scans, const std::vector<ReckonedPose>& wheels) {
+bool carried_between(const localization::FinishedMap& map, Stamp after, Stamp until) {
+  return std::any_of(map.carried.begin(), map.carried.end(),
+                     [&](Stamp s) { return after < s && s <= until; });
+}
+
+/// The scans' poses, and the wheels' way between them laid on these; no way between scans where the vehicle
+/// was carried from the one to the other.
+std::vector<MomentPose> with_wheels(const localization::FinishedMap& map,
+                                    const std::vector<ReckonedPose>& wheels) {
   const auto by_stamp = [](const auto& a, const auto& b) { return a.stamp < b.stamp; };
+  std::vector<MomentPose> scans = map.scans;
   std::stable_sort(scans.begin(), scans.end(), by_stamp);
+  std::vector<MomentPose> all;
   std::vector<ReckonedPose> way;
   std::vector<localization::WayAnchor> anchors;
   auto next = wheels.begin();
+  const auto lay = [&] {
+    const auto laid = localization::laid_way(way, anchors);
+    all.insert(all.end(), laid.begin(), laid.end());
+    way.clear();
+    anchors.clear();
+  };
   for (const MomentPose& scan : scans) {
+    if (carried_between(map, anchors.empty() ? Stamp::min() : way.back().stamp, scan.stamp)) {
+      lay();
+      while (next != wheels.end() && next->stamp < scan.stamp) ++next;
+    }
     for (; next != wheels.end() && next->stamp <= scan.stamp; ++next) way.push_back(*next);
     anchors.push_back({way.size(), scan.map_from_base});
     way.push_back({scan.stamp, wheels_at(wheels, scan.stamp)});
   }
-  way.insert(way.end(), next, wheels.end());
-  return localization::laid_way(way, anchors);
+  for (; next != wheels.end(); ++next)
+    if (!carried_between(map, way.empty() ? Stamp::min() : way.back().stamp, next->stamp))
+      way.push_back(*next);
+  lay();
+  return all;
 }
 
 }  // namespace
@@ -59,7 +81,7 @@ MappingRun run_mapper(sensors::LogReader& log, const LidarModel& lidar, localiza
   const auto before = std::chrono::steady_clock::now();
   run.map = mapper.finish();
   run.finish_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-  run.at_last = with_wheels(run.map.scans, wheels);
+  run.at_last = with_wheels(run.map, wheels);
   return run;
 }
 

@@ -13,6 +13,7 @@
 #include "core/median.hpp"
 #include "core/result.hpp"
 #include "localization/slam/graph_mapper.hpp"
+#include "localization/slam/rbpf_mapper.hpp"
 #include "localization/slam/slow_lidar_mapper.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "sensors/open_log.hpp"
@@ -26,6 +27,7 @@ struct MapArguments {
   std::filesystem::path out;
   std::string name;
   std::string method = "graph";
+  std::uint32_t seed = 1;
   std::string trajectory;
   std::string at_last;
   std::string plot;
@@ -37,8 +39,13 @@ nlohmann::json pose_json(const Transform2<Map, Base>& pose) {
   return {{"x_m", pose.x_m()}, {"y_m", pose.y_m()}, {"yaw_deg", to_deg(pose.yaw_rad())}};
 }
 
-std::unique_ptr<localization::Mapper> make_mapper(const std::string& method) {
+std::unique_ptr<localization::Mapper> make_mapper(const std::string& method, std::uint32_t seed) {
   if (method == "slow-lidar") return std::make_unique<localization::SlowLidarMapper>();
+  if (method == "rbpf") {
+    localization::RbpfOptions options;
+    options.seed = seed;
+    return std::make_unique<localization::RbpfMapper>(options);
+  }
   return std::make_unique<localization::GraphMapper>();
 }
 
@@ -57,7 +64,7 @@ void map_log(const MapArguments& arguments) {
     throw Error(arguments.out.string(), "is a site already",
                 "choose another --out, or give --force to replace it");
   }
-  const std::unique_ptr<localization::Mapper> mapper = make_mapper(arguments.method);
+  const std::unique_ptr<localization::Mapper> mapper = make_mapper(arguments.method, arguments.seed);
   const auto log = sensors::open_log(arguments.log, log_options({}, arguments.wheels));
   const MappingRun run = run_mapper(*log, log_lidar({}), *mapper);
   const localization::Memory& memory = run.map.memory;
@@ -81,10 +88,15 @@ void map_log(const MapArguments& arguments) {
                                    {"wall_length_m", length_m},
                                    {"start", pose_json(start)},
                                    {"lost_scans", run.map.lost_scans},
+                                   {"carried", run.map.carried.size()},
                                    {"scan_ms_median", percentile_of(run.played.scan_ms, 0.5)},
                                    {"scan_ms_p99", percentile_of(run.played.scan_ms, 0.99)},
                                    {"finish_s", run.finish_s}});
-  std::fprintf(arguments.json_file == "-" ? stderr : stdout,
+  std::FILE* out = arguments.json_file == "-" ? stderr : stdout;
+  if (run.map.lost_scans > 0)
+    std::fprintf(out, "%d scans lie nowhere in the map: drive the places again that they show\n",
+                 run.map.lost_scans);
+  std::fprintf(out,
                "%d scans, %d loops closed: %zu walls, %.0f m; the log starts at \"%.3f %.3f %.2f\" (for "
                "localize --initial)\n%s written; look at import.png there\n",
                run.played.scans, memory.loops(), mapped.walls.size(), length_m, start.x_m(), start.y_m(),
@@ -103,8 +115,10 @@ void add_map(CLI::App& app) {
       ->check(CLI::ExistingFile);
   command->add_option("--out", arguments->out, "site folder to write")->required();
   command->add_option("--name", arguments->name, "of the site; the log's where not given");
-  command->add_option("--method", arguments->method, "how: graph, or slow-lidar")
-      ->check(CLI::IsMember({"graph", "slow-lidar"}))
+  command->add_option("--method", arguments->method, "how: graph, slow-lidar, or rbpf")
+      ->check(CLI::IsMember({"graph", "slow-lidar", "rbpf"}))
+      ->capture_default_str();
+  command->add_option("--seed", arguments->seed, "of the particles; for --method rbpf")
       ->capture_default_str();
   command->add_flag("--force", arguments->force, "replace an existing site's walls and drawing");
   command->add_option("--trajectory", arguments->trajectory, "TUM file of the poses as they were known");

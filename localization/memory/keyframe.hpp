@@ -15,6 +15,7 @@ struct Keyframe {
   double path_m = 0.0;       ///< driven since the start
   bool after_break = false;  ///< the motion from its forerunner may be wrong
   double agreement = 1.0;    ///< MeasuredMotion::agreement from its forerunner
+  bool cut = false;          ///< no motion leads here from its forerunner: the vehicle was carried here
 };
 
 /// A motion with its information, in the axes of the pose it starts from.

@@ -24,7 +24,8 @@ Memory::Memory(const MemoryOptions& options, std::vector<Keyframe> keyframes,
 
 std::size_t Memory::window_begin(std::size_t newest) const {
   std::size_t begin = newest + 1;
-  while (begin > 0 && static_cast<int>(newest + 1 - begin) < options_.window_keyframes &&
+  while (begin > 0 && (begin > newest || !keyframes_[begin].cut) &&
+         static_cast<int>(newest + 1 - begin) < options_.window_keyframes &&
          keyframes_[newest].path_m - keyframes_[begin - 1].path_m < options_.window_path_m) {
     --begin;
   }
@@ -122,6 +123,57 @@ void Memory::make_room() {
   for (const auto& scan : room_.spare) scan->points.reserve(most + most / 4);
 }
 
+void Memory::cut(std::size_t first) {
+  const int begin = static_cast<int>(first);
+  std::erase_if(factors_, [&](const RelativeFactor& f) { return (f.from < begin) != (f.to < begin); });
+  keyframes_[first].cut = keyframes_[first].after_break = true;
+  looked_back_ = std::min(looked_back_, first);
+  room_.has_recent = false;
+}
+
+void Memory::tie(const std::vector<RelativeFactor>& loops) {
+  for (const RelativeFactor& f : loops) {
+    const auto older = static_cast<std::size_t>(std::min(f.from, f.to));
+    const auto newer = static_cast<std::size_t>(std::max(f.from, f.to));
+    for (std::size_t k = older + 1; k <= newer; ++k)  // what was sought among its own alone
+      if (keyframes_[k].cut) looked_back_ = std::min(looked_back_, k);
+    factors_.push_back(f);
+  }
+  loops_ += static_cast<int>(loops.size());
+}
+
+std::vector<std::size_t> Memory::pieces() const {
+  std::vector<std::size_t> of(size());
+  for (std::size_t k = 0; k < size(); ++k) of[k] = k;
+  const auto root = [&of](std::size_t k) {
+    while (of[k] != k) k = of[k] = of[of[k]];
+    return k;
+  };
+  for (const RelativeFactor& f : factors_) {
+    const std::size_t a = root(static_cast<std::size_t>(f.from));
+    const std::size_t b = root(static_cast<std::size_t>(f.to));
+    of[std::max(a, b)] = std::min(a, b);
+  }
+  for (std::size_t k = 0; k < size(); ++k) of[k] = root(k);
+  return of;
+}
+
+void Memory::move_piece(const Transform2<Map, Map>& by, std::size_t piece) {
+  const std::vector<std::size_t> of = pieces();
+  for (std::size_t k = 0; k < size(); ++k)
+    if (of[k] == piece) poses_[k] = by * poses_[k];
+  room_.has_recent = false;
+}
+
+void Memory::keep_piece(std::size_t piece) {
+  std::vector<char> gone;
+  for (const std::size_t of : pieces()) gone.push_back(of == piece ? 0 : 1);
+  std::erase_if(factors_, [&](const RelativeFactor& f) { return gone[static_cast<std::size_t>(f.from)] != 0; });
+  compact(gone, keyframes_, poses_, factors_);
+  looked_back_ = size();
+  room_.has_recent = false;
+}
+
 void Memory::forget_broken_end() {
   std::size_t end = size();
   while (end > 0 && keyframes_[end - 1].after_break) --end;
@@ -155,7 +207,7 @@ void Memory::put_behind(Memory earlier) {
   *this = std::move(earlier);
 }
 
-int Memory::close_loops() {
+int Memory::close_loops(const LoopCheck& is_right) {
   int closed = 0;
   for (; looked_back_ < size(); ++looked_back_) {
     const Keyframe& keyframe = keyframes_[looked_back_];
@@ -165,7 +217,7 @@ int Memory::close_loops() {
     for (const LoopCandidate& candidate :
          loop_candidates(poses_, looked_back_, window_begin(looked_back_), options_)) {
       const auto loop = match_loop(keyframes_, poses_, looked_back_, candidate, open_m, options_);
-      if (!loop) continue;
+      if (!loop || (is_right && !is_right(*this, *loop))) continue;
       factors_.push_back(*loop);
       ++here;
     }
@@ -177,6 +229,13 @@ int Memory::close_loops() {
   }
   loops_ += closed;
   return closed;
+}
+
+int Memory::forget_loops(const LoopCheck& is_wrong) {
+  const auto forgotten = static_cast<int>(
+      std::erase_if(factors_, [&](const RelativeFactor& f) { return f.loop && is_wrong(*this, f); }));
+  loops_ -= forgotten;
+  return forgotten;
 }
 
 /// The recent ones stay: they are matched against.
@@ -221,9 +280,9 @@ Transform2<Map, Map> Memory::take_in(Memory& other, std::size_t known) {
   return by;
 }
 
-bool Memory::optimise(const std::vector<UnaryFactor>& unary) {
+bool Memory::optimise(const std::vector<UnaryFactor>& unary, const GraphOptions& options) {
   room_.has_recent = false;
-  return optimise_graph(poses_, factors_, unary);
+  return optimise_graph(poses_, factors_, unary, options);
 }
 
 double Memory::loops_against(const Transform2<Map, Map>& by, std::size_t first) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -45,14 +46,29 @@ class Memory {
   /// The same where the poses' difference is what was measured, with its information (axes of the newest).
   void add(const SurfaceScan& scan, double path_m, const Transform2<Map, Base>& map_from_base,
            const Eigen::Matrix3d& motion_information);
+  /// The vehicle was carried to where keyframe `first` is: nothing leads there from those before it, and what
+  /// follows is a piece of its own. Loops across the cut are forgotten, and sought anew once it is tied.
+  void cut(std::size_t first);
+  /// Ties two keyframes each; they may lie in different pieces.
+  void tie(const std::vector<RelativeFactor>& loops);
+  /// For every keyframe the first one of its piece: the keyframes that motions and loops lead to.
+  [[nodiscard]] std::vector<std::size_t> pieces() const;
+  /// Moves a piece rigidly, by its number from pieces().
+  void move_piece(const Transform2<Map, Map>& by, std::size_t piece);
+  /// Forgets all other pieces.
+  void keep_piece(std::size_t piece);
   /// Forgets the newest keyframes to which the chain of motions is broken: they lie anywhere.
   void forget_broken_end();
   /// What an earlier drive remembered, in the same frame, comes before all of this; the two are tied by
   /// nothing but the loops that will be found.
   void put_behind(Memory earlier);
-  /// Looks for old keyframes near those added since the last time and ties them. Returns how many loops were
-  /// closed.
-  int close_loops();
+  /// Says whether a loop that was found is to be closed.
+  using LoopCheck = std::function<bool(const Memory&, const RelativeFactor&)>;
+  /// Looks for old keyframes near those added since the last time and ties them, where `is_right` has nothing
+  /// against it. Returns how many loops were closed.
+  int close_loops(const LoopCheck& is_right = {});
+  /// Forgets loops that turned out wrong. Returns how many.
+  int forget_loops(const LoopCheck& is_wrong);
   /// No loops are looked for behind the keyframes so far: something else holds them in their places.
   void skip_loops() {
     looked_back_ = size();
@@ -64,7 +80,7 @@ class Memory {
   /// What the memory takes, about.
   [[nodiscard]] std::size_t bytes() const;
   /// Solves the graph with the drawing's pulls.
-  bool optimise(const std::vector<UnaryFactor>& unary);
+  bool optimise(const std::vector<UnaryFactor>& unary, const GraphOptions& options = {});
   /// Nats by which the loops closed across `first` speak against such a move (Cauchy, as in the graph).
   [[nodiscard]] double loops_against(const Transform2<Map, Map>& by, std::size_t first) const;
   /// Moves the keyframes from `first` on rigidly.

@@ -11,6 +11,9 @@ namespace {
 
 constexpr std::string_view kMagic = "MADORIMM";
 constexpr std::uint32_t kVersion = 1;
+/// Of a keyframe; a cut is a break, too.
+constexpr unsigned kAfterBreak = 1;
+constexpr unsigned kCut = 2;
 
 using Writer = ByteWriter;
 using Reader = ByteReader;
@@ -79,7 +82,7 @@ std::string memory_bytes(const Memory& memory, std::uint64_t walls) {
     const Keyframe& keyframe = memory.keyframes()[i];
     out.put(memory.poses()[i]);
     out.put(keyframe.path_m);
-    out.put(static_cast<std::uint8_t>(keyframe.after_break ? 1 : 0));
+    out.put(static_cast<std::uint8_t>((keyframe.after_break ? kAfterBreak : 0) | (keyframe.cut ? kCut : 0)));
     put_scan(out, *keyframe.scan);
   }
   out.put(static_cast<std::uint32_t>(memory.factors().size()));
@@ -104,7 +107,9 @@ Result<Memory> parse_memory(std::string_view bytes, std::uint64_t walls, const M
   for (std::size_t i = 0; i < keyframes.size() && in.ok(); ++i) {
     poses[i] = in.transform<Map, Base>();
     keyframes[i].path_m = in.get<double>();
-    keyframes[i].after_break = in.get<std::uint8_t>() != 0;
+    const auto marks = in.get<std::uint8_t>();
+    keyframes[i].after_break = marks != 0;
+    keyframes[i].cut = (marks & kCut) != 0;
     keyframes[i].scan = std::make_shared<const SurfaceScan>(get_scan(in));
   }
   std::vector<RelativeFactor> factors(in.count(1));

@@ -53,22 +53,14 @@ std::size_t BinCounter::count(const Particles& particles, const KldOptions& opti
 void resample(const Particles& in, std::size_t count, double offset, Particles& out) {
   out.origin = in.origin;
   out.resize(count);
-  double sum = 0.0;
-  for (const float w : in.weight) sum += w;
-  const double per_weight = static_cast<double>(count) / sum;
   const float weight = 1.0F / static_cast<float>(count);
-  double reached = 0.0;
   std::size_t taken = 0;
-  for (std::size_t i = 0; i < in.size() && taken < count; ++i) {
-    reached += in.weight[i] * per_weight;
-    const bool last = i + 1 == in.size();  // takes what rounding left over
-    for (; taken < count && (last || static_cast<double>(taken) + offset < reached); ++taken) {
-      out.x_m[taken] = in.x_m[i];
-      out.y_m[taken] = in.y_m[i];
-      out.yaw_rad[taken] = in.yaw_rad[i];
-      out.weight[taken] = weight;
-    }
-  }
+  draw_systematically(in.weight, count, offset, [&](std::size_t i) {
+    out.x_m[taken] = in.x_m[i];
+    out.y_m[taken] = in.y_m[i];
+    out.yaw_rad[taken] = in.yaw_rad[i];
+    out.weight[taken++] = weight;
+  });
 }
 
 }  // namespace madori::localization

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,22 @@ class BinCounter {
   std::vector<std::uint64_t> table_;  ///< open addressing; keys carry the round, so that it needs no clearing
   std::uint64_t round_ = 0;
 };
+
+/// Low-variance (systematic) resampling (Probabilistic Robotics, table 4.4): calls `take(i)` `count` times, i
+/// floor or ceil of count * weight times, ascending. Precondition as below.
+template <class Weights, class Take>
+void draw_systematically(const Weights& weights, std::size_t count, double offset, Take&& take) {
+  double sum = 0.0;
+  for (const auto w : weights) sum += w;
+  const double per_weight = static_cast<double>(count) / sum;
+  double reached = 0.0;
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < weights.size() && taken < count; ++i) {
+    reached += weights[i] * per_weight;
+    const bool last = i + 1 == weights.size();  // takes what rounding left over
+    for (; taken < count && (last || static_cast<double>(taken) + offset < reached); ++taken) take(i);
+  }
+}
 
 /// Low-variance (systematic) resampling into `out`, `count` particles of equal weight (Probabilistic
 /// Robotics, table 4.4): particle i is taken floor or ceil of count * weight times, and count * weight times

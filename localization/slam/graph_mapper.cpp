@@ -1,5 +1,6 @@
 #include "localization/slam/graph_mapper.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,6 +11,17 @@
 #include "localization/slam/final_fit.hpp"
 
 namespace madori::localization {
+namespace {
+
+/// By how much a motion that was measured otherwise is off the wheels' word.
+double sigmas_squared(const OdometryStep& step, const Transform2<Base, Base>& motion) {
+  const Eigen::Vector3d e(motion.x_m() - step.motion.x_m(), motion.y_m() - step.motion.y_m(),
+                          wrap_angle(motion.yaw_rad() - step.motion.yaw_rad()));
+  return e.dot(with_floor(step.covariance).inverse() * e);
+}
+
+}  // namespace
+
 GraphMapper::GraphMapper(const LocalizerOptions& options) : options_(options), model_(options.odometry) {
   map_.memory = Memory(options.memory);
 }
@@ -17,9 +29,9 @@ GraphMapper::GraphMapper(const LocalizerOptions& options) : options_(options), m
 PoseEstimate GraphMapper::estimate(Stamp stamp) const {
   PoseEstimate estimate;
   estimate.stamp = stamp;
-  estimate.map_from_base = anchor_ * since_scan_.motion;
+  estimate.map_from_base = shown_from_memory_ * anchor_ * since_scan_.motion;
   estimate.covariance = covariance_ + in_map_axes(since_scan_.covariance, anchor_.yaw_rad());
-  estimate.health.state = state_;
+  estimate.health.state = is_apart_ ? LocalizationState::Lost : state_;
   return estimate;
 }
 
@@ -41,6 +53,7 @@ void GraphMapper::follow(const SurfaceScan& scan, const OdometryStep& step) {
   if (recent.inlier_share > options_.lost_inliers) {
     motion = anchor_.inverse() * recent.map_from_base;
     since_keyframe_.add_matched(motion, recent.information, recent.inlier_share);
+    off_wheels_ = std::max(off_wheels_, sigmas_squared(step, motion));
     model_.learn(step, motion, 0.02, 0.005);
   } else {
     since_keyframe_.add_unmatched(step.motion, recent.inlier_share);
@@ -62,15 +75,88 @@ void GraphMapper::remember(const SurfaceScan& scan) {
       scan, since_keyframe_.path_m(), anchor_,
       map_.memory.empty() ? MeasuredMotion{} : since_keyframe_.measured(map_.memory.poses().back()));
   since_keyframe_ = {};
+  off_wheels_at_.push_back(std::exchange(off_wheels_, 0.0));
   scan_of_.push_back(reckoned_.size() - 1);
 }
 
-void GraphMapper::close_loops() {
+/// A joint is judged when some keyframes stand on either side of it.
+void GraphMapper::judge_joints(std::size_t until) {
+  for (; judged_ < until; ++judged_)
+    if (is_false_joint(map_.memory, judged_, off_wheels_at_[judged_], joints_)) cut(judged_);
+}
+
+void GraphMapper::cut(std::size_t first) {
+  constexpr double kApartM = 10000.0;
+  Memory& memory = map_.memory;
+  const std::size_t piece = memory.pieces().back();
+  const Transform2<Map, Map> by(kApartM * static_cast<double>(++cuts_), 0.0, 0.0);
+  finder_.note_cut(first, memory.poses()[first - 1].inverse() * memory.poses()[first]);
+  memory.cut(first);
+  memory.move(by, first);
+  anchor_ = by * anchor_;
+  shown_from_piece_[first] = shown_from_piece_[piece] * by.inverse();
+  note_piece();
+}
+
+void GraphMapper::note_piece() {
+  const std::vector<std::size_t> of = map_.memory.pieces();
+  std::map<std::size_t, std::size_t> sizes;
+  for (const std::size_t piece : of) ++sizes[piece];
+  const auto largest = std::max_element(sizes.begin(), sizes.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  is_apart_ = of.back() != largest->first;
+  shown_from_memory_ = shown_from_piece_[of.back()];
+}
+
+void GraphMapper::close_loops(bool at_end) {
   Memory& memory = map_.memory;
   const Transform2<Map, Base> newest = memory.poses().back();
-  if (memory.close_loops() == 0) return;
-  memory.optimise({});
+  bool changed = memory.close_loops([this](const Memory& m, const RelativeFactor& loop) {
+    constexpr double kMostThrough = 0.2;
+    return is_seen_alike(m, loop, kMostThrough, finder_.options().stretch);
+  }) > 0;
+  if (changed) memory.optimise({});
+  for (auto groups = finder_.look(memory, at_end); !groups.empty(); groups = finder_.look(memory, at_end)) {
+    for (const auto& loops : groups) tie(loops);
+    changed = true;
+  }
+  if (!changed) return;
   anchor_ = memory.poses().back() * newest.inverse() * anchor_;
+  note_piece();
+}
+
+/// Pieces are brought to each other before the graph is solved; a loop that is far from closed pulls little
+/// at first if it is to pull like all others at last.
+void GraphMapper::tie(const std::vector<RelativeFactor>& loops) {
+  Memory& memory = map_.memory;
+  const std::vector<std::size_t> of = memory.pieces();
+  const auto from = static_cast<std::size_t>(loops.front().from);
+  const auto to = static_cast<std::size_t>(loops.front().to);
+  if (of[from] != of[to]) {
+    const Transform2<Map, Base> there = memory.poses()[from] * loops.front().motion;
+    const Transform2<Map, Map> by = there * memory.poses()[to].inverse();
+    if (of[from] < of[to]) {
+      memory.move_piece(by, of[to]);
+    } else {
+      memory.move_piece(by.inverse(), of[from]);
+    }
+  }
+  memory.tie(loops);
+  for (const double loss : {100.0, 10.0, GraphOptions().loop_loss}) {
+    GraphOptions options;
+    options.loop_loss = loss;
+    options.max_iterations = 20;
+    memory.optimise({}, options);
+  }
+}
+
+/// Does the scan, where it was matched, contradict what was seen last?
+bool GraphMapper::sees_through_newest(const SurfaceScan& scan) const {
+  const Transform2<Base, Base> motion = anchor_.inverse() * map_.memory.poses().back();
+  const SurfaceScan& newest = *map_.memory.keyframes().back().scan;
+  SightCount sights = SightRing(scan).of(newest, motion);
+  sights += SightRing(newest).of(scan, motion.inverse());
+  return sights.both() >= joints_.least_seen && sights.contradiction() > joints_.most_through;
 }
 
 PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
@@ -84,9 +170,10 @@ PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const P
     follow(scan, track_.between(anchor_stamp_, stamp, model_));
     const Transform2<Base, Base> moved = memory.poses().back().inverse() * anchor_;
     if (std::hypot(moved.x_m(), moved.y_m()) > options_.keyframe_m ||
-        std::abs(moved.yaw_rad()) > options_.keyframe_rad) {
+        std::abs(moved.yaw_rad()) > options_.keyframe_rad || sees_through_newest(scan)) {
       remember(scan);
-      close_loops();
+      if (memory.size() > joints_.keyframes) judge_joints(memory.size() - joints_.keyframes + 1);
+      close_loops(false);
     }
   }
   scans_.push_back(std::make_shared<const SurfaceScan>(std::move(scan)));
@@ -113,14 +200,65 @@ bool GraphMapper::lies_on_earlier(std::size_t end) const {
          distance_m(match.map_from_base.translation(), here.translation()) < kSamePlaceM;
 }
 
+/// What nothing ties to the largest piece is forgotten. Returns how many scans that were.
+int GraphMapper::keep_largest_piece() {
+  Memory& memory = map_.memory;
+  const std::vector<std::size_t> of = memory.pieces();
+  std::map<std::size_t, std::size_t> sizes;
+  for (const std::size_t piece : of) ++sizes[piece];
+  if (sizes.size() == 1) return 0;
+  const std::size_t largest = std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
+                                return a.second < b.second;
+                              })->first;
+  std::vector<std::size_t> scan_of;
+  std::vector<ReckonedPose> reckoned;
+  std::vector<std::shared_ptr<const SurfaceScan>> scans;
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    if (of[k] != largest) continue;
+    scan_of.push_back(scans.size());
+    const std::size_t end = k + 1 < of.size() ? scan_of_[k + 1] : scans_.size();
+    for (std::size_t i = scan_of_[k]; i < end; ++i) {
+      reckoned.push_back(reckoned_[i]);
+      scans.push_back(scans_[i]);
+    }
+  }
+  const auto lost = static_cast<int>(scans_.size() - scans.size());
+  memory.keep_piece(largest);
+  scan_of_ = std::move(scan_of);
+  reckoned_ = std::move(reckoned);
+  scans_ = std::move(scans);
+  return lost;
+}
+
+/// The way of every drive between two cuts laid on its keyframes.
+std::vector<MomentPose> GraphMapper::laid_pieces(const Memory& memory) const {
+  std::vector<MomentPose> laid;
+  for (std::size_t begin = 0; begin < scan_of_.size();) {
+    std::size_t end = begin + 1;
+    while (end < scan_of_.size() && !memory.keyframes()[end].cut) ++end;
+    const std::size_t first = scan_of_[begin];
+    const std::size_t last = end < scan_of_.size() ? scan_of_[end] : reckoned_.size();
+    const std::vector<ReckonedPose> way(reckoned_.begin() + static_cast<std::ptrdiff_t>(first),
+                                        reckoned_.begin() + static_cast<std::ptrdiff_t>(last));
+    std::vector<WayAnchor> anchors;
+    for (std::size_t k = begin; k < end; ++k) anchors.push_back({scan_of_[k] - first, memory.poses()[k]});
+    const std::vector<MomentPose> piece = laid_way(way, anchors);
+    laid.insert(laid.end(), piece.begin(), piece.end());
+    begin = end;
+  }
+  return laid;
+}
+
 FinishedMap GraphMapper::finish() {
   FinishedMap finished;
   if (map_.memory.empty()) return finished;
-  finished.memory = final_fit(map_.memory, options_.memory);
-  std::vector<WayAnchor> anchors;
+  judge_joints(map_.memory.size());
+  close_loops(true);
   for (std::size_t k = 0; k < scan_of_.size(); ++k)
-    anchors.push_back({scan_of_[k], finished.memory.poses()[k]});
-  finished.scans = laid_way(reckoned_, anchors);
+    if (map_.memory.keyframes()[k].cut) finished.carried.push_back(scans_[scan_of_[k]]->stamp);
+  finished.lost_scans = keep_largest_piece();
+  finished.memory = final_fit(map_.memory, options_.memory);
+  finished.scans = laid_pieces(finished.memory);
   fit_scans(finished.memory, scan_of_, scans_, finished.scans);
   return finished;
 }

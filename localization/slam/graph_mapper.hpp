@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -7,13 +8,18 @@
 #include "localization/localizer/map_state.hpp"
 #include "localization/localizer/options.hpp"
 #include "localization/motion_model/odometry_track.hpp"
+#include "localization/slam/joints.hpp"
 #include "localization/slam/laid_way.hpp"
+#include "localization/slam/loop_finder.hpp"
 #include "localization/slam/mapper.hpp"
 
 namespace madori::localization {
 
 /// Pose graph of keyframes: each scan is matched to the recent ones, loops are closed as they are driven, and
 /// at the end every keyframe is matched once more to all those that saw the same surfaces.
+///
+/// A vehicle that was carried away starts a piece of its own; pieces are tied when places are found again by
+/// what they look like. What is never tied to the largest piece is no part of the map.
 class GraphMapper final : public Mapper {
  public:
   explicit GraphMapper(const LocalizerOptions& options = {});
@@ -31,7 +37,14 @@ class GraphMapper final : public Mapper {
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
   void follow(const SurfaceScan& scan, const OdometryStep& step);
   void remember(const SurfaceScan& scan);
-  void close_loops();
+  void judge_joints(std::size_t until);
+  void cut(std::size_t first);
+  void close_loops(bool at_end);
+  void tie(const std::vector<RelativeFactor>& loops);
+  void note_piece();
+  [[nodiscard]] bool sees_through_newest(const SurfaceScan& scan) const;
+  [[nodiscard]] int keep_largest_piece();
+  [[nodiscard]] std::vector<MomentPose> laid_pieces(const Memory& memory) const;
 
   LocalizerOptions options_;
   OdometryModel model_;
@@ -47,6 +60,17 @@ class GraphMapper final : public Mapper {
   std::vector<ReckonedPose> reckoned_;  ///< one a scan, by the scans' own motions: no loop moves it
   std::vector<std::shared_ptr<const SurfaceScan>> scans_;  ///< all, for the last look
   std::vector<std::size_t> scan_of_;                       ///< the scan that each keyframe is
+  JointOptions joints_;
+  double off_wheels_ = 0.0;  ///< sigmas squared that scans led off the wheels, since the newest keyframe
+  std::vector<double> off_wheels_at_;  ///< on the way to each keyframe
+  LoopFinder finder_;
+  int cuts_ = 0;
+  std::size_t judged_ = 1;  ///< joints before this keyframe
+  /// Pieces that nothing ties lie far apart in the memory, by their first keyframes; answers are given where
+  /// the wheels led.
+  std::map<std::size_t, Transform2<Map, Map>> shown_from_piece_;
+  Transform2<Map, Map> shown_from_memory_;
+  bool is_apart_ = false;  ///< the vehicle is in another piece than the largest
 };
 
 }  // namespace madori::localization

@@ -20,6 +20,8 @@ struct FinishedMap {
   Memory memory;                  ///< what was seen, and where from
   std::vector<MomentPose> scans;  ///< the pose at every scan that lies in the map, in the order of the log
   int lost_scans = 0;             ///< scans that lie nowhere in it
+  std::vector<Stamp>
+      carried;  ///< of scans to which no motion leads from the one before: the vehicle was carried
 };
 
 /// Builds a map from a drive: simultaneous localization and mapping. Map frame: the first pose is its origin.

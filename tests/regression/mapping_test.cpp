@@ -9,7 +9,7 @@
 #include "app/mapping_run.hpp"
 #include "app/trajectory_score.hpp"
 #include "localization/slam/graph_mapper.hpp"
-#include "sensors/carmen/reader.hpp"
+#include "tests/support/cut_log.hpp"
 #include "tests/support/lidar_models.hpp"
 
 namespace madori::app {
@@ -17,32 +17,36 @@ namespace {
 
 const std::filesystem::path kLogs = std::filesystem::path(MADORI_SHARED_DATA) / "lidar2d";
 
-/// A log of which only every n-th scan arrives; the wheels are all there.
-class EveryNth final : public sensors::LogReader {
+std::vector<sensors::LogRecord> log_records(const std::string& log, int every) {
+  return test::records_of(kLogs / log / (log + ".log"), every);
+}
+
+/// Records as they are.
+class Records final : public sensors::LogReader {
  public:
-  EveryNth(const std::filesystem::path& file, int n) : log_(file), n_(n) {}
+  explicit Records(std::vector<sensors::LogRecord> records) : records_(std::move(records)) {}
   std::optional<sensors::LogRecord> next() override {
-    while (auto record = log_.next()) {
-      const auto* scan = std::get_if<sensors::ScanRecord>(&*record);
-      if (scan == nullptr || scans_++ % n_ == 0) return record;
-      if (scan->odom_from_base) return OdometryReading{scan->scan.stamp, *scan->odom_from_base};
-    }
-    return std::nullopt;
+    if (next_ == records_.size()) return std::nullopt;
+    return records_[next_++];
   }
 
  private:
-  sensors::carmen::CarmenReader log_;
-  int n_;
-  int scans_ = 0;
+  std::vector<sensors::LogRecord> records_;
+  std::size_t next_ = 0;
 };
 
-std::vector<StampedPose> final_way(const std::string& log, int every) {
-  EveryNth reader(kLogs / log / (log + ".log"), every);
-  localization::GraphMapper mapper;
-  const MappingRun run = run_mapper(reader, test::planar_lidar({0.0, 0.0, 0.3, 0.0}), mapper);
+std::vector<StampedPose> way_of(sensors::LogReader& log, localization::Mapper& mapper, MappingRun& run) {
+  run = run_mapper(log, test::planar_lidar({0.0, 0.0, 0.3, 0.0}), mapper);
   std::vector<StampedPose> way;
   for (const auto& pose : run.at_last) way.push_back({pose.stamp, pose.map_from_base});
   return way;
+}
+
+std::vector<StampedPose> final_way(const std::string& log, int every) {
+  Records reader(log_records(log, every));
+  localization::GraphMapper mapper;
+  MappingRun run;
+  return way_of(reader, mapper, run);
 }
 
 /// A log, which scans of it, and the most that the mean of its relations may be off.
@@ -66,10 +70,11 @@ TEST_P(MappedLog, KeepsTheRelations) {
   EXPECT_LT(score["translation_m"]["mean"].get<double>(), most_m);
 }
 
-// Measured: 0.0398, 0.0421, 0.0649, 0.0723 m; GMapping's poses score 0.050 and 0.079 m at full rate.
+// Measured: 0.0398, 0.0421, 0.0502, 0.0650, 0.0727 m; GMapping's poses score 0.050 and 0.079 m at full rate.
 INSTANTIATE_TEST_SUITE_P(Freiburg, MappedLog,
                          testing::Values(Drive{"fr079", 1, 0.0405}, Drive{"fr079", 2, 0.044},
-                                         Drive{"intel", 1, 0.067}, Drive{"intel", 2, 0.08}));
+                                         Drive{"fr079", 5, 0.055}, Drive{"intel", 1, 0.067},
+                                         Drive{"intel", 2, 0.08}));
 
 /// Laid on the truth: least squares over the positions at the truth's stamps.
 void align(std::vector<StampedPose>& way, const std::vector<StampedPose>& truth) {
@@ -97,14 +102,33 @@ void align(std::vector<StampedPose>& way, const std::vector<StampedPose>& truth)
   for (StampedPose& pose : way) pose.map_from_base = by * pose.map_from_base;
 }
 
-// Measured: mean 0.21 m; 2.0 m before the last look was there.
+// Measured: mean 0.108 m, largest 0.32 m; 0.21 m before loops were sought over the whole memory.
 TEST(MappedAces, StandsWithinDecimetresOfTheReference) {
   const auto reference = kLogs / "aces" / "reference.tum";
   if (!std::filesystem::exists(reference)) GTEST_SKIP() << "no log at " << reference;
   const std::vector<StampedPose> truth = load_tum(reference);
   std::vector<StampedPose> way = final_way("aces", 1);
   align(way, truth);
-  EXPECT_LT(score_against_truth(way, truth)["position_m"]["mean"].get<double>(), 0.3);
+  EXPECT_LT(score_against_truth(way, truth)["position_m"]["mean"].get<double>(), 0.13);
+}
+
+double relations_off_m(const std::vector<StampedPose>& way) {
+  const auto relations = load_relations(kLogs / "intel" / "intel.relations");
+  return score_against_relations(way, relations)["translation_m"]["mean"].get<double>();
+}
+
+// Measured: 0.0736 m, 573 of 910 scans in the map. The order of the pieces is one that thresholds were chosen
+// on.
+TEST(CarriedAway, TenTimesOnIntelIsNotJoinedWrongly) {
+  if (!std::filesystem::exists(kLogs / "intel" / "intel.relations")) GTEST_SKIP() << "no log in " << kLogs;
+  test::CutLog log(log_records("intel", 1), 10, 1);
+  localization::GraphMapper mapper;
+  MappingRun run;
+  std::vector<StampedPose> way = way_of(log, mapper, run);
+  for (StampedPose& pose : way) pose.stamp = log.recorded(pose.stamp);
+  EXPECT_GE(run.map.carried.size(), 10U);
+  EXPECT_LT(run.map.lost_scans, 400);
+  EXPECT_LT(relations_off_m(way), 0.08);
 }
 
 }  // namespace

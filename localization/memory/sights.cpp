@@ -1,0 +1,77 @@
+#include "localization/memory/sights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.hpp"
+
+namespace madori::localization {
+namespace {
+
+constexpr double kGapRad = 0.045;  // beams this near to each other leave no gap between them,
+constexpr double kGapM = 0.15;     // nor do points of one surface
+constexpr double kMarginM = 0.15;  // a surface is passed by this much nearer or farther,
+constexpr double kMarginShare =
+    0.03;  // and by this share of its distance: slanted walls, the heading's error
+
+double turn_of(double dx, double dy) {
+  const double turn = std::atan2(dy, dx) / (2.0 * kPi);
+  return turn < 0.0 ? turn + 1.0 : turn;
+}
+
+}  // namespace
+
+void SightRing::mark(std::size_t bin, double range_m) {
+  Bin& b = bins_[bin % kBins];
+  const auto r = static_cast<float>(range_m);
+  b.near_m = b.far_m < 0.0F ? r : std::min(b.near_m, r);
+  b.far_m = std::max(b.far_m, r);
+}
+
+SightRing::SightRing(const SurfaceScan& scan) : sensor_(scan.sensor), bins_(kBins) {
+  double last_turn = 0.0, last_range = -1.0;
+  for (const SurfacePoint& p : scan.points) {  // sorted by bearing
+    const double dx = p.x_m - sensor_.x_m, dy = p.y_m - sensor_.y_m;
+    const double turn = turn_of(dx, dy), range = std::hypot(dx, dy);
+    const auto at = static_cast<std::size_t>(turn * kBins);
+    mark(at, range);
+    const double gap = (turn - last_turn) * 2.0 * kPi;
+    if (last_range >= 0.0 && gap > 0.0 && (gap < kGapRad || gap * range < kGapM)) {
+      for (auto k = static_cast<std::size_t>(last_turn * kBins) + 1; k < at; ++k) {
+        mark(k, range);
+        mark(k, last_range);
+      }
+    }
+    last_turn = turn;
+    last_range = range;
+  }
+}
+
+SightCount SightRing::of(const SurfaceScan& other, const Transform2<Base, Base>& here_from_there) const {
+  SightCount count;
+  for (const SurfacePoint& p : other.points) {
+    const Point2<Base> q = here_from_there * Point2<Base>{p.x_m, p.y_m};
+    const double dx = q.x_m - sensor_.x_m, dy = q.y_m - sensor_.y_m;
+    const double distance = std::hypot(dx, dy);
+    const auto at = static_cast<std::size_t>(turn_of(dx, dy) * kBins);
+    const Bin& b = bins_[at % kBins];
+    const Bin& left = bins_[(at + 1) % kBins];
+    const Bin& right = bins_[(at + kBins - 1) % kBins];
+    if (b.far_m < 0.0F) continue;
+    float near = b.near_m, far = b.far_m;
+    for (const Bin* beside : {&left, &right}) {
+      if (beside->far_m < 0.0F) continue;
+      near = std::min(near, beside->near_m);
+      far = std::max(far, beside->far_m);
+    }
+    const double margin = kMarginM + kMarginShare * distance;
+    if (distance < near - margin) {
+      ++count.through;
+    } else if (distance < far + margin) {
+      ++count.agree;
+    }
+  }
+  return count;
+}
+
+}  // namespace madori::localization

@@ -1,0 +1,260 @@
+#include "localization/slam/rbpf_mapper.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "localization/localizer/pose_covariance.hpp"
+#include "localization/localizer/scan_matcher.hpp"
+#include "localization/particle_filter/motion_kernel.hpp"
+#include "localization/particle_filter/resampling.hpp"
+
+namespace madori::localization {
+namespace {
+
+using Pose = Transform2<Map, Base>;
+
+Eigen::Vector3d difference(const Pose& a, const Pose& b) {
+  return {a.x_m() - b.x_m(), a.y_m() - b.y_m(), wrap_angle(a.yaw_rad() - b.yaw_rad())};
+}
+
+/// Of the motion between keyframes, axes of the one it starts from.
+Eigen::Matrix3d covariance_of(const MeasuredMotion& motion, double path_m, const RbpfOptions& options) {
+  const double metres = std::min(std::max(path_m, 0.1), 10.0);
+  const Eigen::Vector3d grown(options.motion_m * options.motion_m * metres,
+                              options.motion_m * options.motion_m * metres,
+                              options.motion_rad * options.motion_rad * metres);
+  return (motion.information + 1e-3 * Eigen::Matrix3d::Identity()).inverse() +
+         Eigen::Matrix3d(grown.asDiagonal());
+}
+
+MotionStep step_of(const Transform2<Base, Base>& motion, const Eigen::Matrix3d& covariance,
+                   std::mt19937& engine) {
+  const Eigen::Matrix3d l = covariance.llt().matrixL();
+  MotionStep step;
+  step.mean = {static_cast<float>(motion.x_m()), static_cast<float>(motion.y_m()),
+               static_cast<float>(motion.yaw_rad())};
+  step.lower = {static_cast<float>(l(0, 0)), static_cast<float>(l(1, 0)), static_cast<float>(l(1, 1)),
+                static_cast<float>(l(2, 0)), static_cast<float>(l(2, 1)), static_cast<float>(l(2, 2))};
+  step.key1 = static_cast<std::uint32_t>(engine());
+  step.key2 = static_cast<std::uint32_t>(engine());
+  return step;
+}
+
+}  // namespace
+
+RbpfMapper::RbpfMapper(const RbpfOptions& options)
+    : options_(options), model_(options.front.odometry), engine_(options.seed) {
+  front_.memory = Memory(options.front.memory);
+}
+
+std::size_t RbpfMapper::best() const {
+  const auto most = std::max_element(particles_.begin(), particles_.end(),
+                                     [](const auto& a, const auto& b) { return a.log_sum < b.log_sum; });
+  return static_cast<std::size_t>(most - particles_.begin());
+}
+
+std::vector<double> RbpfMapper::weights() const {
+  double most = -INFINITY, sum = 0.0;
+  for (const Particle& p : particles_) most = std::max(most, p.log_weight);
+  std::vector<double> w;
+  for (const Particle& p : particles_) w.push_back(std::exp(p.log_weight - most));
+  for (const double v : w) sum += v;
+  for (double& v : w) v /= sum;
+  return w;
+}
+
+double RbpfMapper::effective_particles() const {
+  double squares = 0.0;
+  for (const double w : weights()) squares += w * w;
+  return squares > 0.0 ? 1.0 / squares : 0.0;
+}
+
+PoseEstimate RbpfMapper::estimate(Stamp stamp) const {
+  PoseEstimate estimate;
+  estimate.stamp = stamp;
+  estimate.health.state = is_lost_ ? LocalizationState::Degraded : LocalizationState::Localized;
+  if (particles_.empty()) return estimate;
+  const std::vector<double> w = weights();
+  const Pose here = particles_[best()].way->map_from_base;
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    const Eigen::Vector3d off = difference(particles_[i].way->map_from_base, here);
+    estimate.covariance += w[i] * off * off.transpose();
+  }
+  const auto since_keyframe = front_.memory.poses().back().inverse() * anchor_;
+  estimate.map_from_base = here * since_keyframe * since_scan_.motion;
+  estimate.covariance += in_map_axes(since_scan_.covariance, here.yaw_rad());
+  return estimate;
+}
+
+PoseEstimate RbpfMapper::on_odometry(const OdometryReading& reading) {
+  const OdometryReading before = track_.empty() ? reading : track_.newest();
+  if (track_.add(reading)) {
+    const Transform2<Base, Base> raw = before.odom_from_base.inverse() * reading.odom_from_base;
+    model_.extend(since_scan_, raw);
+    since_keyframe_.extend(raw, model_);
+  }
+  return estimate(reading.stamp);
+}
+
+/// The motion since the last scan by the keyframes driven last: the same for every particle.
+void RbpfMapper::follow(const SurfaceScan& scan, const OdometryStep& step) {
+  const LocalizerOptions& front = options_.front;
+  const double enough = std::min(front.sure_inliers, front.known_share * usual_inliers_);
+  const MatchResult recent = match_scan(scan, anchor_, step, enough, front_, front).recent;
+  usual_inliers_ += 0.05 * (recent.inlier_share - usual_inliers_);
+  Transform2<Base, Base> motion = step.motion;
+  is_lost_ = recent.inlier_share <= front.lost_inliers;
+  if (is_lost_) {
+    since_keyframe_.add_unmatched(step.motion, recent.inlier_share);
+  } else {
+    motion = anchor_.inverse() * recent.map_from_base;
+    since_keyframe_.add_matched(motion, recent.information, recent.inlier_share);
+    model_.learn(step, motion, 0.02, 0.005);
+  }
+  anchor_ = anchor_ * motion;
+  reckoned_.push_back({scan.stamp, reckoned_.back().odom_from_base * motion});
+}
+
+Pose RbpfMapper::sampled(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance) {
+  std::normal_distribution<double> normal;
+  const Eigen::Vector3d z(normal(engine_), normal(engine_), normal(engine_));
+  const Eigen::Matrix3d regular = covariance + 1e-10 * Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d x = mean + Eigen::Matrix3d(regular.llt().matrixL()) * z;
+  return {x[0], x[1], x[2]};
+}
+
+/// One particle: laid on its own map, else drawn from the motion; the K poses around the best one give where
+/// it goes and what it weighs.
+void RbpfMapper::extend(Particle& particle, const SurfaceScan& scan, const PosePrior& prior,
+                        const Pose& drawn) {
+  const GridMatch match = match_to_grid(scan, particle.map, prior);
+  Pose pose = drawn;
+  double log_eta = 0.0;
+  if (match.inlier_share < options_.least_inliers) {
+    log_eta = log_likelihood(scan, particle.map, drawn, options_.beams);
+  } else {
+    std::array<double, 27> log_tau{};
+    std::array<Eigen::Vector3d, 27> offs;
+    std::size_t n = 0;
+    for (const int dx : {0, -1, 1}) {
+      for (const int dy : {0, -1, 1}) {
+        for (const int da : {0, -1, 1}) {
+          const Pose at(match.map_from_base.x_m() + dx * options_.sample_m,
+                        match.map_from_base.y_m() + dy * options_.sample_m,
+                        match.map_from_base.yaw_rad() + da * options_.sample_rad);
+          const Eigen::Vector3d e = difference(at, prior.map_from_base);
+          offs[n] = difference(at, match.map_from_base);
+          log_tau[n++] =
+              log_likelihood(scan, particle.map, at, options_.beams) - 0.5 * e.dot(prior.information * e);
+        }
+      }
+    }
+    const double most = *std::max_element(log_tau.begin(), log_tau.end());
+    double eta = 0.0;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < n; ++i) eta += std::exp(log_tau[i] - most);
+    for (std::size_t i = 0; i < n; ++i) mean += std::exp(log_tau[i] - most) / eta * offs[i];
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < n; ++i)
+      covariance += std::exp(log_tau[i] - most) / eta * (offs[i] - mean) * (offs[i] - mean).transpose();
+    // No wider than what scan and motion know together: the steps between the K poses are coarser than that.
+    const Eigen::Matrix3d known = match.information.inverse();
+    if (known.trace() < covariance.trace()) covariance = known;
+    const Pose& m = match.map_from_base;
+    pose = sampled(Eigen::Vector3d(m.x_m(), m.y_m(), m.yaw_rad()) + mean, covariance);
+    log_eta = most + std::log(eta / 27.0);
+  }
+  particle.log_weight += log_eta;
+  particle.log_sum += log_eta;
+  particle.way = std::make_shared<const Moment>(Moment{pose, particle.way});
+  particle.map.add(scan, pose);
+}
+
+void RbpfMapper::propose(const SurfaceScan& scan, const MeasuredMotion& motion, double path_m) {
+  const Eigen::Matrix3d covariance = covariance_of(motion, path_m, options_);
+  Particles drawn;
+  drawn.origin = particles_.front().way->map_from_base.translation();
+  for (const Particle& p : particles_) drawn.add(p.way->map_from_base, 1.0);
+  move_particles(step_of(motion.motion, covariance, engine_), drawn.x_m.data(), drawn.y_m.data(),
+                 drawn.yaw_rad.data(), drawn.size());
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const Pose& before = particles_[i].way->map_from_base;
+    const PosePrior prior{before * motion.motion, in_map_axes(covariance, before.yaw_rad()).inverse()};
+    extend(particles_[i], scan, prior, drawn.pose(i));
+  }
+}
+
+void RbpfMapper::resample_where_needed() {
+  const auto count = particles_.size();
+  if (effective_particles() >= options_.resample_below * static_cast<double>(count)) return;
+  std::uniform_real_distribution<double> offset(0.0, 1.0);
+  std::vector<Particle> next;
+  next.reserve(count);
+  const std::vector<double> w = weights();
+  draw_systematically(w, count, offset(engine_), [&](std::size_t i) { next.push_back(particles_[i]); });
+  for (Particle& p : next) p.log_weight = 0.0;
+  particles_ = std::move(next);
+  ++resamplings_;
+}
+
+void RbpfMapper::remember(const SurfaceScan& scan) {
+  Memory& memory = front_.memory;
+  const double path_m = since_keyframe_.path_m();
+  const MeasuredMotion motion =
+      memory.empty() ? MeasuredMotion{} : since_keyframe_.measured(memory.poses().back());
+  if (memory.empty()) {
+    particles_.resize(std::max<std::size_t>(options_.particles, 1));
+    for (Particle& p : particles_) {
+      p.way = std::make_shared<const Moment>(Moment{anchor_, nullptr});
+      p.map.add(scan, anchor_);
+    }
+  } else {
+    propose(scan, motion, path_m);
+    resample_where_needed();
+  }
+  memory.add(scan, path_m, anchor_, motion);
+  since_keyframe_ = {};
+  scan_of_.push_back(reckoned_.size() - 1);
+}
+
+PoseEstimate RbpfMapper::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
+  const LocalizerOptions& front = options_.front;
+  const SurfaceScan scan = make_surface_scan(stamp, sensor, weighty_points(points), front.scan);
+  const Memory& memory = front_.memory;
+  if (memory.empty()) {
+    if (scan.points.empty()) return estimate(stamp);
+    reckoned_.push_back({stamp, {}});
+    remember(scan);
+  } else {
+    follow(scan, track_.between(anchor_stamp_, stamp, model_));
+    const Transform2<Base, Base> moved = memory.poses().back().inverse() * anchor_;
+    if (std::hypot(moved.x_m(), moved.y_m()) > front.keyframe_m ||
+        std::abs(moved.yaw_rad()) > front.keyframe_rad)
+      remember(scan);
+  }
+  anchor_stamp_ = stamp;
+  since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
+  return estimate(stamp);
+}
+
+/// The way of the particle that explains all of the drive best.
+FinishedMap RbpfMapper::finish() {
+  FinishedMap finished;
+  if (particles_.empty()) return finished;
+  std::vector<Pose> poses;
+  for (const Moment* m = particles_[best()].way.get(); m != nullptr; m = m->before.get())
+    poses.push_back(m->map_from_base);
+  std::reverse(poses.begin(), poses.end());
+  std::vector<WayAnchor> anchors;
+  for (std::size_t k = 0; k < scan_of_.size(); ++k) anchors.push_back({scan_of_[k], poses[k]});
+  finished.scans = laid_way(reckoned_, anchors);
+  finished.memory =
+      Memory(options_.front.memory, front_.memory.keyframes(), std::move(poses), front_.memory.factors(), 0);
+  return finished;
+}
+
+}  // namespace madori::localization
