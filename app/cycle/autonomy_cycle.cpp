@@ -55,8 +55,9 @@ void command_drive(CycleState& state, const VelocityCommand& wanted, const Cycle
                    const CycleConfig& config, CycleOutput& output) {
   const bool by_hand = state.mode == Mode::Manual;
   const bool may_move = (drives(state.mode) || by_hand) && !forbidding_rule(state, input, config, by_hand);
-  const double cap_mps = drives(state.mode) ? allowed_mps(state, input, config)
-                                            : config.check.braking.speed_within(sure_range_m(state, input.now, config));
+  const double cap_mps = drives(state.mode)
+                             ? allowed_mps(state, input, config)
+                             : config.check.braking.speed_within(sure_range_m(state, input.now, config));
   const auto limited = control::limit(
       state.limits, {.requested = wanted, .may_move = may_move, .speed_cap_mps = cap_mps, .step_s = step_s},
       config.limits);

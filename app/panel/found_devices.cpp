@@ -67,7 +67,8 @@ std::vector<hmi::FoundDevice> searched_devices(const SocketOptions& options,
       proposal->name = device.type + " " + std::to_string(found.size() + 1);
       if (device.address != row->address) proposal->address = device.address;
     }
-    found.push_back({device.type, device.address, true, heard_or_silent(true), proposal});
+    found.push_back(
+        {device.type, lidar_title(device.type), device.address, true, heard_or_silent(true), proposal});
   }
   return found;
 }

@@ -39,8 +39,8 @@ double rate_of(const std::deque<Stamp>& stamps, Stamp now) {
 hmi::DeviceStatus device(const std::string& name, const std::string& type, const std::optional<Stamp>& heard,
                          Stamp now, double rate_hz, double silent_s = kSilent_s) {
   const double age_s = heard ? to_seconds(now - *heard) : 1e6;
-  hmi::DeviceStatus status{
-      name, type, lidar_title(type), age_s < silent_s, std::min(age_s, 1e6), rate_hz, {}};
+  hmi::DeviceStatus status{name,    type, lidar_title(type), age_s < silent_s, std::min(age_s, 1e6),
+                           rate_hz, {}};
   if (!heard) status.detail = {"nothing-received", {}, "nothing received yet"};
   return status;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "app/lidars.hpp"
+#include "app/panel/found_devices.hpp"
 #include "app/panel/panel_vehicle.hpp"
 #include "app/panel/reference_lidar.hpp"
 #include "hmi/server/job.hpp"
@@ -82,9 +83,12 @@ std::shared_ptr<const std::string> PanelVehicle::mapping_points() const {
   return std::make_shared<const std::string>(hmi::scan_frame(points, {}));
 }
 
-std::vector<mapping::SensorRecord> PanelVehicle::lidar_kinds() const {
-  std::vector<mapping::SensorRecord> kinds;
-  for (const auto& row : sensors::lidar_rows()) kinds.push_back(usual_place(row));
+std::vector<hmi::FoundDevice> PanelVehicle::lidar_kinds() const {
+  std::vector<hmi::FoundDevice> kinds;
+  for (const auto& row : sensors::lidar_rows()) {
+    const mapping::SensorRecord usual = usual_place(row);
+    kinds.push_back({usual.type, lidar_title(usual.type), row.address, false, heard_or_silent(false), usual});
+  }
   return kinds;
 }
 

@@ -60,7 +60,7 @@ class PanelVehicle final : public hmi::Vehicle {
   [[nodiscard]] std::shared_ptr<const std::string> camera_jpeg() const override;
   [[nodiscard]] hmi::MappingView mapping() const override;
   [[nodiscard]] std::shared_ptr<const std::string> mapping_points() const override;
-  [[nodiscard]] std::vector<mapping::SensorRecord> lidar_kinds() const override;
+  [[nodiscard]] std::vector<hmi::FoundDevice> lidar_kinds() const override;
   hmi::Reply start_mapping(const mapping::VehicleRecord& vehicle,
                            const std::vector<mapping::SensorRecord>& sensors, bool anew) override;
   hmi::Reply drop_mapping() override;

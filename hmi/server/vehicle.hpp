@@ -280,7 +280,7 @@ class Vehicle {
   /// What was seen so far as a frame of scan_frame.hpp at the origin of the map; null while none is made.
   [[nodiscard]] virtual std::shared_ptr<const std::string> mapping_points() const { return nullptr; }
   /// One sensor of every kind of lidar, where it would be mounted by default.
-  [[nodiscard]] virtual std::vector<mapping::SensorRecord> lidar_kinds() const { return {}; }
+  [[nodiscard]] virtual std::vector<FoundDevice> lidar_kinds() const { return {}; }
   /// Begins a map by driving, or goes on with one; `anew`: what was driven is forgotten. Throws Error.
   virtual Reply start_mapping(const mapping::VehicleRecord& /*vehicle*/,
                               const std::vector<mapping::SensorRecord>& /*sensors*/, bool /*anew*/) {

@@ -183,7 +183,7 @@ PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const P
 }
 
 bool GraphMapper::lies_on_earlier(std::size_t end) const {
-  constexpr double kNearM = 6.0;
+  constexpr double kSameVisitM = 6.0;
   constexpr double kRadiusM = 40.0;
   constexpr double kInliers = 0.5;
   constexpr double kSamePlaceM = 0.15;
@@ -192,7 +192,7 @@ bool GraphMapper::lies_on_earlier(std::size_t end) const {
   const Transform2<Map, Base>& here = memory.poses().back();
   std::vector<LocalMap::Piece> pieces;
   for (std::size_t k = 0; k < end; ++k)
-    if (distance_m(memory.poses()[k].translation(), here.translation()) < kNearM)
+    if (distance_m(memory.poses()[k].translation(), here.translation()) < kSameVisitM)
       pieces.push_back({memory.keyframes()[k].scan.get(), memory.poses()[k]});
   const LocalMap map(pieces, here.translation(), kRadiusM);
   const MatchResult match = map.refine(*memory.keyframes().back().scan, here, {}, {}, MatchStart::Near);

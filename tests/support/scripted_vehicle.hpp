@@ -110,8 +110,9 @@ class ScriptedVehicle : public hmi::Vehicle {
     const std::scoped_lock lock(mutex_);
     return mapping_ == "mapping" ? std::make_shared<const std::string>("MDS2") : nullptr;
   }
-  [[nodiscard]] std::vector<mapping::SensorRecord> lidar_kinds() const override {
-    return {{"top", "vlp16", 0.3, 0.0, 1.2, 0.0}};
+  [[nodiscard]] std::vector<hmi::FoundDevice> lidar_kinds() const override {
+    return {
+        {"vlp16", "VLP-16", "2368", false, {}, mapping::SensorRecord{"top", "vlp16", 0.3, 0.0, 1.2, 0.0}}};
   }
   hmi::Reply start_mapping(const mapping::VehicleRecord& vehicle,
                            const std::vector<mapping::SensorRecord>& sensors, bool /*anew*/) override {

@@ -12,7 +12,8 @@ class MappingApiTest : public PanelTest {
  protected:
   [[nodiscard]] json start() const {
     const json now = get("/api/mapping");
-    return {{"vehicle", now["vehicle"]}, {"sensors", now["kinds"]}, {"anew", true}};
+    return {
+        {"vehicle", now["vehicle"]}, {"sensors", json::array({now["kinds"][0]["sensor"]})}, {"anew", true}};
   }
   static std::vector<planning::DrivenPose> corner() {
     std::vector<planning::DrivenPose> way;

@@ -2,7 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import { api } from "../../api";
 import type { Mapping, SensorInfo } from "../../api_types";
 import { useText } from "../../i18n";
-import type { TextKey } from "../../i18n/en";
+import { deviceName } from "../../notice_text";
 import { Icon } from "../../ui/icon";
 import { Question } from "../../ui/question";
 import { attempt } from "../../ui/toast";
@@ -59,7 +59,7 @@ export function MappingStart({ close }: { close: () => void }) {
       <div class="grow">
         <h2>{t("mapping.lidars")}</h2>
         <div class="buttons kinds">
-          {mapping.kinds.map((kind) => <Tool key={kind.type} icon="plus" label={t(`device.${kind.type}` as TextKey)} onClick={() => add(kind)} />)}
+          {mapping.kinds.map((kind) => <Tool key={kind.type} icon="plus" label={deviceName(t, kind)} onClick={() => kind.sensor && add(kind.sensor)} />)}
         </div>
         {setup.sensors.map((sensor, i) => <Mounted key={i} sensor={sensor} change={(next) => setSensor(i, next)} remove={() => setSensor(i, null)} />)}
         {more && <Shape vehicle={setup.vehicle} change={(vehicle) => setSetup({ ...setup, vehicle })} />}

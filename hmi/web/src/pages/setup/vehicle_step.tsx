@@ -69,7 +69,7 @@ function Found({ plan, use }: { plan: Plan; use: (sensor: SensorInfo) => void })
         {fresh.map((device) => (
           <li key={device.type + device.address}>
             <Icon name="good" />
-            <span><strong>{t(`device.${device.type}` as TextKey)}</strong> {t("vehicle.heard")}<small>{device.address}</small></span>
+            <span><strong>{deviceName(t, device)}</strong> {t("vehicle.heard")}<small>{device.address}</small></span>
             {device.sensor && <Tool icon="plus" label={t("vehicle.use")} primary onClick={() => device.sensor && use(device.sensor)} />}
           </li>
         ))}
