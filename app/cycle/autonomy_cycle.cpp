@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/cycle/recoveries.hpp"
@@ -68,8 +69,13 @@ void command_drive(CycleState& state, const VelocityCommand& wanted, const Cycle
   state.sent.add(input.now, obeys ? output.command : VelocityCommand{}, config.response);
 }
 
-/// Why it stands, where it does; said once.
-void say_why(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
+/// Why it stands, where it does; said once. Nobody reads faster than five times a second.
+void say_why(CycleState& state, const CycleInput& input, const CycleConfig& config, double step_s,
+             Mode before, CycleOutput& output) {
+  constexpr double kOftenS = 0.2;
+  const double now_s = to_seconds(input.now.time_since_epoch());
+  const bool again = std::floor(now_s / kOftenS) != std::floor((now_s - step_s) / kOftenS);
+  if (!again && state.mode == before) return;
   const Standstill now = standstill_of(state, input, config);
   state.standstill.remedy = now.remedy;  // it may change while the cause lasts
   if (now.cause == state.standstill.cause) return;
@@ -84,6 +90,7 @@ void say_why(CycleState& state, const CycleInput& input, const CycleConfig& conf
 StepResult step(CycleState state, const CycleInput& input, const CycleConfig& config) {
   CycleOutput output;
   const double step_s = state.previous ? to_seconds(input.now - *state.previous) : 0.0;
+  const Mode before = state.mode;
   if (!state.previous) state.begun = input.now;
   state.previous = input.now;
   if (step_s > config.gap_s) begin_gap(state, step_s, output);
@@ -101,7 +108,7 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   const VelocityCommand wanted = wanted_command(state, input, config);  // way, ahead -> progress, command
   const VelocityCommand safe = guarded(state, wanted, config);          // it leads into nothing
   command_drive(state, safe, input, step_s, config, output);            // always last
-  say_why(state, input, config, output);
+  say_why(state, input, config, step_s, before, output);
   return {std::move(state), std::move(output)};
 }
 

@@ -34,7 +34,7 @@ bool is_at_rest(const CycleState& state) {
 /// A look at the floor costs a millisecond: often until enough have agreed, then now and then.
 void look_at_floor(MountingWatch& watch, const PointCloud<Lidar>& cloud, const CycleConfig& config,
                    Stamp now) {
-  constexpr double kFirstS = 0.2, kLaterS = 2.0;
+  constexpr double kFirstS = 0.2, kLaterS = 10.0;
   if (cloud.lidar >= std::min(config.lidars.size(), MountingWatch::kLidars)) return;
   const LidarModel& lidar = config.lidars[cloud.lidar];
   auto& floor = watch.floors[cloud.lidar];

@@ -27,6 +27,7 @@ TrackedPath::TrackedPath(Path path, const SpeedLimits& limits) : path_(std::move
 
 void TrackedPath::find_pieces() {
   const auto& points = path_.points;
+  along_m_.reserve(points.size());
   std::size_t first = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double step_m = i == 0 ? 0.0 : distance_m(points[i - 1].position, points[i].position);

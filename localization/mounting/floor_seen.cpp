@@ -31,6 +31,7 @@ using Points = std::vector<Eigen::Vector3d>;
 Points looking_down(const PointCloud<Lidar>& cloud) {
   constexpr double kLeastSlope = 0.04;
   Points all;
+  all.reserve(cloud.points.size());
   for (const CloudPoint& p : cloud.points) {
     const Eigen::Vector3d at = Eigen::Vector3f(p.x_m, p.y_m, p.z_m).cast<double>();
     const double range = at.head<2>().norm();

@@ -53,6 +53,7 @@ Result<Route> find_route(const RouteGraph& routes, std::size_t from, std::size_t
   const Graph graph = boost_graph(routes, blocked);
   const auto parent = metric == RouteMetric::Hops ? breadth_first(graph, from) : shortest(graph, from);
   Route route;
+  route.nodes.reserve(routes.nodes().size());
   for (std::size_t at = to; at != from; at = parent[at]) {
     if (parent[at] == at)
       return Result<Route>::failure("no way leads from node " + std::to_string(routes.nodes()[from].id) +

@@ -117,7 +117,7 @@ const answers = {
   }),
   "/api/devices": () => [{ type: "made_up", title: "Made-up", address: "udp 2368", heard: true, detail: none, sensor: lidar }, { type: "drive", title: "", address: "/dev/ttyUSB0", heard: true, detail: none, sensor: null }, { type: "other", title: "Other", address: "/dev/ttyUSB1", heard: false, detail: none, sensor: null }],
   "/api/vehicle/braking": () => ({ running: false, stops_now: 0, stops_wanted: 3, way_m: 4.3, trouble: none, stops: [], verdict: null }),
-  "/api/devices/views": () => [{ name: "top", type: "vlp16", place: "UDP 2368", rate_hz: 10, silence_s: 0.05, lost: 3, refused: 0, state: { code: "heard", values: {}, text: "heard" }, points: Array.from({ length: 360 }, (_, i) => [6 * Math.cos(i / 57.3), Math.max(-4, Math.min(4, 6 * Math.sin(i / 57.3)))]).flat() }],
+  "/api/devices/views": () => [{ name: "top", type: "made_up", place: "UDP 2368", rate_hz: 10, silence_s: 0.05, lost: 3, refused: 0, state: { code: "heard", values: {}, text: "heard" }, points: Array.from({ length: 360 }, (_, i) => [6 * Math.cos(i / 57.3), Math.max(-4, Math.min(4, 6 * Math.sin(i / 57.3)))]).flat() }],
   "/api/mounting": () => ({ state: "done", progress: 1, notice: none, rows: [{ typed: lidar, found: { ...lidar, x_m: 0.312, y_m: -0.006, z_m: 1.214, yaw_deg: 1.37 }, known: "all", height_known: true, sigma_m: 0.002, sigma_deg: 0.1, residual_m: 0.005, tilt_deg: 0.3, lack: none }] }),
   "/api/locate": () => ({ state: "ambiguous", hypotheses: [{ ...poseAt(0), score: 0.91 }, { x: 14, y: 12, yaw: 1, score: 0.47 }] }),
   "/api/orders": () => [order(7, "running", [0, 3], 5), order(8, "queued", [4]), order(9, "queued", [3, 0])],

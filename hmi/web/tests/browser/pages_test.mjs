@@ -91,7 +91,7 @@ try {
     ...(await walk(browser, vehicle.address, kSizes[2], "ja", "light")),
   ];
   const site = await (await fetch(`${vehicle.address}api/site`)).json();
-  const sensors = ["vlp16", "lms1xx", "s300"].map((type) => ({ name: type, type, x_m: 0.3, y_m: 0, z_m: 1.2, yaw_deg: 0 }));
+  const sensors = ["made_up", "other", "third"].map((type) => ({ name: type, type, x_m: 0.3, y_m: 0, z_m: 1.2, yaw_deg: 0 }));
   vehicle.answer("/api/site", { ...site, drawing: null, scale: null, sensors: [] });
   vehicle.answer("/api/mapping", { state: "mapping", driven_m: 34, scans: 900, keyframes: 120, loops: 3, dropped: 0, problem: { code: "mapping-lost", values: {}, text: "x" }, revision: 1, walls: [[0, 0, 8, 0]], vehicle: site.vehicle, sensors: sensors.slice(0, 1), kinds: sensors.map((sensor) => ({ type: sensor.type, title: "Made-up", address: "", heard: false, detail: { code: "", values: {}, text: "" }, sensor })) });
   for (const [size, language, theme] of [[0, "en", "light"], [1, "ja", "dark"], [1, "de", "light"], [2, "de", "dark"]]) {
