@@ -122,17 +122,28 @@ double share_to_go(const CycleState& state, const VelocityCommand& wanted,
                                  config.check.vehicle, braking_once_obeyed(config), config.guard);
 }
 
+/// Whether the vehicle moves at least a little as it is wanted to. What is left of a command is no sign of
+/// that: before a wall it comes and goes.
+bool gets_on(const CycleState& state, const VelocityCommand& wanted) {
+  constexpr double kLittle = 0.12;
+  const auto moves = [](double is, double asked) {
+    return asked != 0.0 && std::abs(is) > kLittle * std::abs(asked);
+  };
+  return moves(state.odometry.linear_mps(), wanted.linear_mps) ||
+         moves(state.odometry.angular_radps(), wanted.angular_radps);
+}
+
 VelocityCommand guarded(CycleState& state, const VelocityCommand& wanted, const CycleConfig& config) {
   const bool looks = drives(state.mode) || (config.mapping && state.mode == Mode::Manual);
   if (!looks || wanted == VelocityCommand{}) {
     state.jog_held.reset();
     return wanted;
   }
-  constexpr double kNothingLeft = 0.12;
   const double share = share_to_go(state, wanted, obstacle_points(state), config);
-  if (share > kNothingLeft || state.mode != Mode::Manual)
+  constexpr double kNothingLeft = 0.12;
+  if (state.mode != Mode::Manual || gets_on(state, wanted))
     state.jog_held.reset();
-  else if (!state.jog_held)
+  else if (share < kNothingLeft && !state.jog_held)
     state.jog_held = state.previous;
   return {wanted.linear_mps * share, wanted.angular_radps * share};
 }

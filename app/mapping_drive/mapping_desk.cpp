@@ -253,7 +253,7 @@ void MappingDesk::tell(bool reading) {
 }
 
 void MappingDesk::draw_picture() {
-  const localization::Memory& memory = mapper_.memory();
+  const localization::Memory memory = mapper_.shown();
   const auto now = Clock::now();
   const double since_s = std::chrono::duration<double>(now - drawn_at_).count();
   const bool same = memory.size() == drawn_keyframes_ && memory.loops() == drawn_loops_;

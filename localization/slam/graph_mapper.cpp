@@ -182,6 +182,12 @@ PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const P
   return estimate(stamp);
 }
 
+Memory GraphMapper::shown() const {
+  Memory memory = map_.memory;
+  for (const auto& [piece, by] : shown_from_piece_) memory.move_piece(by, piece);
+  return memory;
+}
+
 bool GraphMapper::lies_on_earlier(std::size_t end) const {
   constexpr double kSameVisitM = 6.0;
   constexpr double kRadiusM = 40.0;
@@ -189,6 +195,9 @@ bool GraphMapper::lies_on_earlier(std::size_t end) const {
   constexpr double kSamePlaceM = 0.15;
   const Memory& memory = map_.memory;
   if (memory.size() <= end) return false;
+  const auto& keyframes = memory.keyframes();
+  const auto since = keyframes.begin() + static_cast<std::ptrdiff_t>(end);
+  if (std::any_of(since, keyframes.end(), [](const auto& k) { return k.cut; })) return !is_apart_;
   const Transform2<Map, Base>& here = memory.poses().back();
   std::vector<LocalMap::Piece> pieces;
   for (std::size_t k = 0; k < end; ++k)

@@ -30,7 +30,10 @@ class GraphMapper final : public Mapper {
   [[nodiscard]] FinishedMap finish() override;
   /// What was seen so far, and where from.
   [[nodiscard]] const Memory& memory() const { return map_.memory; }
-  /// Whether the newest keyframe lies on what those before keyframe `end` saw: the drive is tied to them.
+  /// The same where answers are given: a piece that nothing ties lies where the wheels led.
+  [[nodiscard]] Memory shown() const;
+  /// Whether the newest keyframe lies on what those before keyframe `end` saw: the drive is tied to them. After
+  /// a cut: whether it is of the largest piece.
   [[nodiscard]] bool lies_on_earlier(std::size_t end) const;
 
  private:

@@ -69,7 +69,7 @@ class MappingDriveTest : public testing::Test {
   }
   void tick() {
     run_->tick(factory_->now() + 20ms);
-    while (run_->mapping() && run_->mapping()->progress().waiting > 5) std::this_thread::sleep_for(1ms);
+    while (run_->mapping() && run_->mapping()->progress().waiting > 0) std::this_thread::sleep_for(1ms);
   }
   void jog(const VelocityCommand& velocity) {
     if (run_->view() && run_->view()->mode != Mode::Manual) run_->say({OperatorWord::ManualOn, {}, {}});
@@ -260,6 +260,8 @@ TEST_F(MappingDriveTest, WhatFitsNothingIsToldUntilTheMapGoesOn) {
   EXPECT_TRUE(run_->mapping()->progress().lost);  // it has seen the other room by now, but that is no tie
   factory_->set_pose(known);
   jog_for(4.0, {0.0, -0.4});
+  EXPECT_TRUE(run_->mapping()->progress().lost);  // one place is no tie either: a building may repeat itself
+  drive_round();
   EXPECT_FALSE(run_->mapping()->progress().lost);
   EXPECT_EQ(cause(), "mapping");
 }
