@@ -14,8 +14,8 @@
 namespace madori::test {
 
 /// The VLP-16 of simulation::Vlp16Model of which only the eight lasers that aim upwards are measured: their
-/// returns are the same bit for bit (a test compares them), the others come back empty. Half the rays, for
-/// long runs of what looks above the equipment. Strongest return, 10 Hz.
+/// returns are those of thin beams without systematic errors, bit for bit (a test compares them), the others
+/// come back empty. Half the rays, for long runs of what looks above the equipment. Strongest return, 10 Hz.
 class UpperLasers {
  public:
   UpperLasers(const mapping::SensorRecord& mounting, const simulation::Vlp16Spec& spec, std::uint64_t seed)

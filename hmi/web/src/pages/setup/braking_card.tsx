@@ -16,7 +16,7 @@ function Stops({ stops, record }: { stops: readonly BrakingStop[]; record: Vehic
   return (
     <table class="braking">
       <thead>
-        <tr><th /><th>{t("braking.from")}</th><th>{t("vehicle.max_deceleration_mps2")}</th><th>{t("braking.latency")}</th><th>{t("braking.way")}</th></tr>
+        <tr><td /><th>{t("braking.from")}</th><th>{t("vehicle.max_deceleration_mps2")}</th><th>{t("braking.latency")}</th><th>{t("braking.way")}</th></tr>
       </thead>
       <tbody>
         {stops.map((stop, i) => (

@@ -21,7 +21,7 @@ function Row({ row }: { row: MountingRow }) {
     <div class="mounting">
       <h3>{row.typed.name} ({row.typed.type})</h3>
       <table class="facts">
-        <thead><tr><th /><th>{t("mounting.typed")}</th><th>{t("mounting.found")}</th><th>{t("mounting.sigma")}</th></tr></thead>
+        <thead><tr><td /><th>{t("mounting.typed")}</th><th>{t("mounting.found")}</th><th>{t("mounting.sigma")}</th></tr></thead>
         <tbody>
           {places.map(([key, digits, unit]) => (
             <tr key={key}>
