@@ -69,13 +69,14 @@ void command_drive(CycleState& state, const VelocityCommand& wanted, const Cycle
   state.sent.add(input.now, obeys ? output.command : VelocityCommand{}, config.response);
 }
 
-/// Why it stands, where it does; said once. Nobody reads faster than five times a second.
+/// Why it stands, where it does; said once. Nobody reads faster than five times a
+/// second, but what was said before the mode or the place changed is not true any more.
 void say_why(CycleState& state, const CycleInput& input, const CycleConfig& config, double step_s,
-             Mode before, CycleOutput& output) {
+             const std::pair<Mode, LocalizationState>& before, CycleOutput& output) {
   constexpr double kOftenS = 0.2;
   const double now_s = to_seconds(input.now.time_since_epoch());
   const bool again = std::floor(now_s / kOftenS) != std::floor((now_s - step_s) / kOftenS);
-  if (!again && state.mode == before) return;
+  if (!again && before == std::pair(state.mode, state.pose.health.state)) return;
   const Standstill now = standstill_of(state, input, config);
   state.standstill.remedy = now.remedy;  // it may change while the cause lasts
   if (now.cause == state.standstill.cause) return;
@@ -90,7 +91,7 @@ void say_why(CycleState& state, const CycleInput& input, const CycleConfig& conf
 StepResult step(CycleState state, const CycleInput& input, const CycleConfig& config) {
   CycleOutput output;
   const double step_s = state.previous ? to_seconds(input.now - *state.previous) : 0.0;
-  const Mode before = state.mode;
+  const std::pair before(state.mode, state.pose.health.state);
   if (!state.previous) state.begun = input.now;
   state.previous = input.now;
   if (step_s > config.gap_s) begin_gap(state, step_s, output);
