@@ -103,10 +103,7 @@ Result<Path> make_waypoints(const std::vector<WayCorner>& corners, const Waypoin
   const auto way = without_repetitions(corners);
   if (way.size() < 2) return Result<Path>::failure("the way has less than two different points");
   const auto strokes = strokes_of(way, options);
-  double length_m = 0.0;
-  for (const auto& stroke : strokes) length_m += stroke.length_m;
   Path path;
-  path.points.reserve(strokes.size() + static_cast<std::size_t>(length_m / options.spacing_m) + 2);
   for (std::size_t first = 0; first < strokes.size();) {
     std::size_t end = first + 1;
     while (end < strokes.size() && !strokes[end].turns_before) ++end;
