@@ -261,7 +261,7 @@ void Explanation::share_out(double) {
 
 WarpLattice Explanation::lattice() const {
   WarpLattice made;
-  if (shape_ != Shape::Field) return made;
+  if (shape_ != Shape::Field || pairs_.empty()) return made;  // nothing seen bends nothing
   const double range = statistics_.range_m;
   made.spacing_m = std::clamp(0.2 * range, kFinestM, kCoarsestM);
   Point2<Map> low{1e9, 1e9};

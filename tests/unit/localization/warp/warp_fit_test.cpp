@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/segment_distance.hpp"
 #include "localization/warp/bent_drawing.hpp"
@@ -122,6 +123,17 @@ TEST(WarpFit, SurroundingsTakenForTheirNeighboursAreFoundOut) {
   }
   EXPECT_GE(alone_off, 5);
   EXPECT_LE(compared_off, 1);
+}
+
+TEST(WarpFit, AStartFromWhichNothingBelongsToAWallIsOneOfTheOthers) {
+  const BentBuilding building = test::bent_building({});
+  const WallIndex index(building.drawn);
+  const MemoryCloud cloud = seen_on_lap(building, 0.05);
+  const WarpFit alone = fit_warp(index, cloud, {});
+  const WarpFit compared = fit_warp(index, cloud, {}, {DrawingWarp({1.0, 0.0, 5000.0, 0.0}, {}, {})});
+  EXPECT_EQ(compared.warp, alone.warp);
+  const WarpFit nowhere = fit_warp(index, cloud, DrawingWarp({1.0, 0.0, 5000.0, 0.0}, {}, {}));
+  EXPECT_TRUE(std::isfinite(nowhere.evidence_nats));
 }
 
 TEST(BentDrawing, IsAsSureOfAPlaceAsTheOtherWaysAllow) {
