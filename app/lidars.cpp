@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <filesystem>
+#include <limits>
 #include <set>
 
 #include "core/angle.hpp"
@@ -111,6 +111,16 @@ std::vector<LidarModel> lidars_of(const mapping::Site& site, const std::filesyst
   }
   check_apart(site.sensors, where);
   return lidars;
+}
+
+std::vector<mapping::SensorRecord> listed_sensors(const std::filesystem::path& site) {
+  try {
+    const auto sensors = mapping::load_site(site).sensors;
+    for (const auto& sensor : sensors) (void)lidar_model(sensor);
+    return sensors;
+  } catch (const std::exception&) {  // what is wrong is told by who loads the site to drive
+    return {};
+  }
 }
 
 }  // namespace madori::app

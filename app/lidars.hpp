@@ -24,6 +24,10 @@ namespace madori::app {
 [[nodiscard]] std::vector<LidarModel> lidars_of(const mapping::Site& site,
                                                 const std::filesystem::path& folder);
 
+/// The sensors that a site lists, whether it can be driven or not; nothing where there is no site, or one
+/// that nobody knows.
+[[nodiscard]] std::vector<mapping::SensorRecord> listed_sensors(const std::filesystem::path& site);
+
 using planning::kLegM;
 /// How far before the vehicle's front a leg is sure to be seen: by the lidar that does it best straight
 /// ahead.

@@ -73,14 +73,19 @@ void run(BrakingArguments& arguments) {
   const auto verdict = verdict_of(stops, braking_site(loaded.config));
   if (!verdict) return;
   print(stops, *verdict, record, stream);
-  write_json(arguments.json_file, report(stops, *verdict, record, false));
-  if (!arguments.apply) {
-    std::fputs("nothing was changed; add --apply to write the measured values into site.yaml\n", stream);
-    return;
-  }
-  take_over(folder, *verdict, arguments.lower_speed);
-  write_json(arguments.json_file, report(stops, *verdict, record, true));
-  std::fputs("site.yaml holds the measured values now\n", stream);
+  bool applied = false;
+  const auto tell = [&] { write_json(arguments.json_file, report(stops, *verdict, record, applied)); };
+  if (arguments.apply) try {
+      take_over(folder, *verdict, arguments.lower_speed);
+      applied = true;
+    } catch (...) {  // what was measured is told all the same
+      tell();
+      throw;
+    }
+  tell();
+  std::fputs(applied ? "site.yaml holds the measured values now\n"
+                     : "nothing was changed; add --apply to write the measured values into site.yaml\n",
+             stream);
 }
 
 }  // namespace

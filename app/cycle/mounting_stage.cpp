@@ -19,32 +19,28 @@ constexpr double kYawRad = to_rad(2.5);
 constexpr double kYawStandsRad = to_rad(5.0);  // of what is seen 5 m ahead, 0.4 m lie beside where it stands
 constexpr double kLegM = 0.8;
 
-template <std::size_t N>
-double middle(const std::array<double, N>& values) {
-  auto sorted = values;
-  std::ranges::nth_element(sorted, sorted.begin() + N / 2);
-  return sorted[N / 2];
-}
-
 bool is_at_rest(const CycleState& state) {
   return state.drive_heard && state.limits.previous == VelocityCommand{} &&
          std::abs(state.odometry.linear_mps()) < 0.01 && std::abs(state.odometry.angular_radps()) < 0.01;
 }
 
-/// A look at the floor costs a millisecond: often until enough have agreed, then now and then.
-void look_at_floor(MountingWatch& watch, const PointCloud<Lidar>& cloud, const CycleConfig& config,
+/// A look at the floor costs a millisecond: often until enough have agreed, then now and then. Whether it was
+/// seen.
+bool look_at_floor(MountingWatch& watch, const PointCloud<Lidar>& cloud, const CycleConfig& config,
                    Stamp now) {
   constexpr double kFirstS = 0.2, kLaterS = 10.0;
-  if (cloud.lidar >= std::min(config.lidars.size(), MountingWatch::kLidars)) return;
+  if (cloud.lidar >= std::min(config.lidars.size(), MountingWatch::kLidars)) return false;
   const LidarModel& lidar = config.lidars[cloud.lidar];
   auto& floor = watch.floors[cloud.lidar];
-  if (to_seconds(now - floor.looked) < (floor.count < MountingWatch::kLooks ? kFirstS : kLaterS)) return;
+  if (to_seconds(now - floor.looked) < (floor.count < MountingWatch::kLooks ? kFirstS : kLaterS))
+    return false;
   floor.looked = now;
   const auto seen = localization::find_floor(cloud, lidar);
-  if (!seen) return;
+  if (!seen) return false;
   floor.height_m[floor.count % MountingWatch::kLooks] = seen->height_m;
   floor.tilt_rad[floor.count % MountingWatch::kLooks] = seen->tilt_rad();
   ++floor.count;
+  return true;
 }
 
 std::optional<MountingDoubt> judge_floors(const MountingWatch& watch, const CycleConfig& config) {
@@ -52,7 +48,8 @@ std::optional<MountingDoubt> judge_floors(const MountingWatch& watch, const Cycl
     const auto& floor = watch.floors[i];
     if (floor.count < MountingWatch::kLooks) continue;
     const double typed_m = config.lidars[i].mounting.z_m;
-    const double height_m = middle(floor.height_m), tilt_rad = middle(floor.tilt_rad);
+    auto heights_m = floor.height_m, tilts_rad = floor.tilt_rad;
+    const double height_m = median_of(heights_m), tilt_rad = median_of(tilts_rad);
     if (std::abs(height_m - typed_m) > kHeightM) return MountingDoubt{Of::Height, i, height_m, typed_m};
     if (tilt_rad > kTiltRad) return MountingDoubt{Of::Tilt, i, to_deg(tilt_rad), 0.0};
   }
@@ -60,36 +57,40 @@ std::optional<MountingDoubt> judge_floors(const MountingWatch& watch, const Cycl
 }
 
 /// Whoever drives straight on by the wheels, and gets beside where the lidar says it looks, has a lidar that
-/// looks elsewhere.
-void follow_leg(MountingWatch& watch, const CycleState& state) {
+/// looks elsewhere. Whether a leg came to its end.
+bool follow_leg(MountingWatch& watch, const CycleState& state) {
   constexpr double kStraightRad = to_rad(1.5), kSlowestMps = 0.1;
   const auto& odom_from_base = state.odometry.reading().odom_from_base;
   const bool straight = may_drive(state.pose.health.state) && state.odometry.linear_mps() > kSlowestMps;
-  if (!straight) return watch.odom_begun.reset();
+  if (!straight) {
+    watch.odom_begun.reset();
+    return false;
+  }
   if (!watch.odom_begun) {
     watch.odom_begun = odom_from_base;
     watch.map_begun = state.pose.map_from_base;
-    return;
+    return false;
   }
   const auto by_wheels = watch.odom_begun->inverse() * odom_from_base;
-  if (std::abs(by_wheels.yaw_rad()) > kStraightRad) return watch.odom_begun.reset();
-  if (by_wheels.x_m() < kLegM) return;
+  const bool turned = std::abs(by_wheels.yaw_rad()) > kStraightRad;
+  if (!turned && by_wheels.x_m() < kLegM) return false;
   const auto by_sight = watch.map_begun.inverse() * state.pose.map_from_base;
   watch.odom_begun.reset();
-  if (std::abs(by_sight.yaw_rad() - by_wheels.yaw_rad()) > kStraightRad ||
+  if (turned || std::abs(by_sight.yaw_rad() - by_wheels.yaw_rad()) > kStraightRad ||
       std::abs(by_sight.x_m() - by_wheels.x_m()) > 0.1)
-    return;  // the place was corrected meanwhile
+    return false;  // the place was corrected meanwhile
   watch.beside_rad[watch.legs % MountingWatch::kLegs] =
       std::atan2(by_sight.y_m(), by_sight.x_m()) - std::atan2(by_wheels.y_m(), by_wheels.x_m());
   ++watch.legs;
+  return true;
 }
 
 std::optional<MountingDoubt> judge_legs(const MountingWatch& watch, const CycleConfig& config) {
   if (watch.legs < MountingWatch::kLegs) return std::nullopt;
-  const double beside_rad = middle(watch.beside_rad);
   auto apart = watch.beside_rad;
+  const double beside_rad = median_of(apart);
   for (double& one : apart) one = std::abs(one - beside_rad);
-  if (std::abs(beside_rad) < kYawRad || middle(apart) > 0.4 * std::abs(beside_rad)) return std::nullopt;
+  if (std::abs(beside_rad) < kYawRad || median_of(apart) > 0.4 * std::abs(beside_rad)) return std::nullopt;
   std::size_t lidar = 0;
   while (lidar + 1 < config.lidars.size() && !tells_place(config.lidars, lidar)) ++lidar;
   const double typed_deg = to_deg(config.lidars[lidar].mounting.yaw_rad);
@@ -101,11 +102,10 @@ std::optional<MountingDoubt> judge_legs(const MountingWatch& watch, const CycleC
 void watch_mounting(CycleState& state, const CycleInput& input, const CycleConfig& config,
                     CycleOutput& output) {
   MountingWatch& watch = state.mounting;
-  if (is_at_rest(state)) {
-    for (const auto& cloud : input.clouds) look_at_floor(watch, cloud, config, input.now);
-    watch.height = judge_floors(watch, config);
-  }
-  follow_leg(watch, state);
+  if (is_at_rest(state))
+    for (const auto& cloud : input.clouds)
+      if (look_at_floor(watch, cloud, config, input.now)) watch.height = judge_floors(watch, config);
+  if (!follow_leg(watch, state)) return;
   const bool known = watch.yaw.has_value();
   watch.yaw = judge_legs(watch, config);
   if (watch.yaw && !known) output.events.push_back(mounting_notice(*watch.yaw, config).text);

@@ -253,12 +253,12 @@ void MappingDesk::tell(bool reading) {
 }
 
 void MappingDesk::draw_picture() {
-  const localization::Memory memory = mapper_.shown();
+  const localization::Memory& memory = mapper_.memory();
   const auto now = Clock::now();
   const double since_s = std::chrono::duration<double>(now - drawn_at_).count();
   const bool same = memory.size() == drawn_keyframes_ && memory.loops() == drawn_loops_;
   if (same || since_s < std::max(kPictureS, picture_cost_s_ / kPictureShare)) return;
-  auto picture = std::make_shared<MappingPicture>(picture_of(memory));
+  auto picture = std::make_shared<MappingPicture>(picture_of(mapper_.shown()));
   drawn_keyframes_ = memory.size();
   drawn_loops_ = memory.loops();
   drawn_at_ = Clock::now();

@@ -35,17 +35,6 @@ std::string run_name() {
   return name;
 }
 
-/// What the site lists so far; nothing before there is one.
-std::vector<mapping::SensorRecord> sensors_of(const std::filesystem::path& site) {
-  try {
-    const auto sensors = mapping::load_site(site).sensors;
-    for (const auto& sensor : sensors) (void)lidar_model(sensor);
-    return sensors;
-  } catch (const std::exception&) {  // what is wrong is told by who loads the site to drive
-    return {};
-  }
-}
-
 /// The recording of each run, and the panel that looks on.
 class Onlookers {
  public:
@@ -103,7 +92,7 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
   const SiteLock lock(options.site);
   Onlookers onlookers(options);
   Panel* looking_on = nullptr;
-  auto link = std::make_unique<SocketLink>(options.devices, WheelGeometry{}, sensors_of(options.site));
+  auto link = std::make_unique<SocketLink>(options.devices, WheelGeometry{}, listed_sensors(options.site));
   SocketLink& devices = *link;
   SiteRun vehicle(options.site, std::move(link),
                   {.opened =

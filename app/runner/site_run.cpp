@@ -40,17 +40,6 @@ class LentLink final : public VehicleLink {
 
 constexpr Duration kTryAgain = std::chrono::seconds(3);
 
-/// What the site lists, whether it can be driven or not.
-std::vector<mapping::SensorRecord> listed_sensors(const std::filesystem::path& site) {
-  try {
-    const auto sensors = mapping::load_site(site).sensors;
-    for (const auto& sensor : sensors) (void)lidar_model(sensor);
-    return sensors;
-  } catch (const std::exception&) {  // what is wrong is told by who loads the site to drive
-    return {};
-  }
-}
-
 bool stands(const VehicleView& view) {
   if (drives(view.mode) || view.mode == Mode::Waiting) return false;
   return view.mode != Mode::Manual || view.command == VelocityCommand{};

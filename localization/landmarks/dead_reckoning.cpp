@@ -38,9 +38,7 @@ DeadReckoning::DeadReckoning(bool match_scans, const MemoryOptions& options)
     : match_scans_(match_scans), options_(options), recent_(options) {}
 
 Transform2<Odom, Base> DeadReckoning::on_odometry(const OdometryReading& reading) {
-  const OdometryReading before = track_.empty() ? reading : track_.newest();
-  if (track_.add(reading))
-    model_.extend(since_scan_, before.odom_from_base.inverse() * reading.odom_from_base);
+  if (const auto raw = track_.follow(reading)) model_.extend(since_scan_, *raw);
   return in_odom(at_scan_ * since_scan_.motion);
 }
 

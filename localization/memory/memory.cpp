@@ -168,7 +168,8 @@ void Memory::move_piece(const Transform2<Map, Map>& by, std::size_t piece) {
 void Memory::keep_piece(std::size_t piece) {
   std::vector<char> gone;
   for (const std::size_t of : pieces()) gone.push_back(of == piece ? 0 : 1);
-  std::erase_if(factors_, [&](const RelativeFactor& f) { return gone[static_cast<std::size_t>(f.from)] != 0; });
+  std::erase_if(factors_,
+                [&](const RelativeFactor& f) { return gone[static_cast<std::size_t>(f.from)] != 0; });
   compact(gone, keyframes_, poses_, factors_);
   looked_back_ = size();
   room_.has_recent = false;

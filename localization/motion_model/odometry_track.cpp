@@ -20,6 +20,12 @@ bool earlier(const OdometryReading& reading, Stamp stamp) {
 
 }  // namespace
 
+std::optional<Transform2<Base, Base>> OdometryTrack::follow(const OdometryReading& reading) {
+  const OdometryReading before = empty() ? reading : newest();
+  if (!add(reading)) return std::nullopt;
+  return before.odom_from_base.inverse() * reading.odom_from_base;
+}
+
 bool OdometryTrack::add(const OdometryReading& reading) {
   if (!reading.odom_from_base.is_finite() || (!readings_.empty() && reading.stamp < newest().stamp)) {
     return false;

@@ -13,6 +13,8 @@ class OdometryTrack {
  public:
   /// False, and the reading is left out, when it is not finite or older than its forerunner.
   bool add(const OdometryReading& reading);
+  /// Adds it; the raw motion since its forerunner (the first reading: none), nothing where it is left out.
+  [[nodiscard]] std::optional<Transform2<Base, Base>> follow(const OdometryReading& reading);
 
   [[nodiscard]] bool empty() const { return readings_.empty(); }
   [[nodiscard]] const OdometryReading& newest() const { return readings_.back(); }

@@ -36,11 +36,9 @@ PoseEstimate GraphMapper::estimate(Stamp stamp) const {
 }
 
 PoseEstimate GraphMapper::on_odometry(const OdometryReading& reading) {
-  const OdometryReading before = track_.empty() ? reading : track_.newest();
-  if (track_.add(reading)) {
-    const Transform2<Base, Base> raw = before.odom_from_base.inverse() * reading.odom_from_base;
-    model_.extend(since_scan_, raw);
-    since_keyframe_.extend(raw, model_);
+  if (const auto raw = track_.follow(reading)) {
+    model_.extend(since_scan_, *raw);
+    since_keyframe_.extend(*raw, model_);
   }
   return estimate(reading.stamp);
 }

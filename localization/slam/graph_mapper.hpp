@@ -32,8 +32,8 @@ class GraphMapper final : public Mapper {
   [[nodiscard]] const Memory& memory() const { return map_.memory; }
   /// The same where answers are given: a piece that nothing ties lies where the wheels led.
   [[nodiscard]] Memory shown() const;
-  /// Whether the newest keyframe lies on what those before keyframe `end` saw: the drive is tied to them. After
-  /// a cut: whether it is of the largest piece.
+  /// Whether the newest keyframe lies on what those before keyframe `end` saw: the drive is tied to them.
+  /// After a cut: whether it is of the largest piece.
   [[nodiscard]] bool lies_on_earlier(std::size_t end) const;
 
  private:

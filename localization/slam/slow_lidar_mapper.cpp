@@ -47,9 +47,7 @@ PoseEstimate SlowLidarMapper::estimate(Stamp stamp) const {
 }
 
 PoseEstimate SlowLidarMapper::on_odometry(const OdometryReading& reading) {
-  const OdometryReading before = track_.empty() ? reading : track_.newest();
-  if (track_.add(reading))
-    model_.extend(since_scan_, before.odom_from_base.inverse() * reading.odom_from_base);
+  if (const auto raw = track_.follow(reading)) model_.extend(since_scan_, *raw);
   return estimate(reading.stamp);
 }
 

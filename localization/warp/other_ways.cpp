@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "localization/drawing_fit/alignment.hpp"
 #include "localization/drawing_fit/drawing_model.hpp"
-#include "localization/drawing_fit/wall_hits.hpp"
 
 namespace madori::localization {
 namespace {
@@ -28,7 +28,7 @@ MemoryCloud surroundings(const MemoryCloud& cloud, const DrawingWarp& warp, cons
     const auto q = warp.map(Transform2<Building, Base>(s.x_m, s.y_m, std::atan2(s.normal_y, s.normal_x)));
     around.push_back(s);
     around.back().x_m = q.x_m(), around.back().y_m = q.y_m();
-    around.back().direction = WallIndex::direction_of(q.cos_yaw(), q.sin_yaw());
+    around.back().normal_x = q.cos_yaw(), around.back().normal_y = q.sin_yaw();
   }
   return around;
 }
@@ -47,14 +47,8 @@ std::vector<Shift> peaks(const WallIndex& drawn, const MemoryCloud& around) {
     return nats[static_cast<std::size_t>((y + kReach) * kWide + x + kReach)];
   };
   for (int y = -kReach; y <= kReach; ++y)
-    for (int x = -kReach; x <= kReach; ++x) {
-      at(x, y) = 0.0;
-      for (const CloudSurface& p : around) {
-        const auto hit = drawn.nearest(p.x_m + x * kStepM, p.y_m + y * kStepM, p.direction);
-        if (hit.wall >= 0 && hit.beyond_m <= kBeyondM)
-          at(x, y) += p.weight * kShareOfObservation * std::log1p(mixture.odds(hit));
-      }
-    }
+    for (int x = -kReach; x <= kReach; ++x)
+      at(x, y) = log_likelihood(drawn, around, {x * kStepM, y * kStepM, 0.0}, mixture);
   std::vector<Shift> found;
   for (int y = -kReach + 1; y < kReach; ++y)
     for (int x = -kReach + 1; x < kReach; ++x) {

@@ -55,7 +55,8 @@ int main(int argc, char** argv) {
     live.scan = std::make_shared<const std::string>(hmi::scan_frame(scan, live.pose.map_from_base));
     for (int i = 0; i < 40; ++i)
       live.path.push_back({45.0 + 5.0 * std::cos(0.05 * (t + i)), 35.0 + 5.0 * std::sin(0.05 * (t + i))});
-    live.devices = {{"roof lidar", "vlp16", "VLP-16", true, 0.04, 10.0, {}}, {"drive", "drive", "", true, 0.01, 50.0, {}}};
+    live.devices = {{"roof lidar", "vlp16", "VLP-16", true, 0.04, 10.0, {}},
+                    {"drive", "drive", "", true, 0.01, 50.0, {}}};
     vehicle.show(std::move(live));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

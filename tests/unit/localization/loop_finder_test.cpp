@@ -13,17 +13,14 @@
 #include "localization/slam/stretch.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"
+#include "tests/support/scan_at.hpp"
 
 namespace madori::localization {
 namespace {
 
 using Pose = Transform2<Map, Base>;
 
-SurfaceScan scan_at(const mapping::Walls& walls, const Pose& pose, std::mt19937& engine) {
-  const ScanPoints points =
-      scan_points(test::simulate_scan(walls, pose, test::full_turn(360, 30.0), engine), {});
-  return make_surface_scan({}, {}, weighty_points(points));
-}
+using test::scan_at;
 
 Transform2<Base, Base> from_to(const Pose& a, const Pose& b) {
   return a.inverse() * b;

@@ -73,8 +73,7 @@ TEST(FindingTexts, EveryCodeIsThereOnceAndEveryPlaceholderIsFilled) {
   const auto graph =
       parse_routes("ID,EDA\n0,1\n1,0 2\n2,\n3,\n", "ID,x,y,station\n0,0,0,1\n1,4,0,1\n2,4.01,0,1\n3,9,9,1\n")
           .graph;
-  for (const auto& finding :
-       check_routes(graph, {{{2, -1}, {2, 1}}, {{-1, 0.2}, {0.5, 0.2}}}, {}))
+  for (const auto& finding : check_routes(graph, {{{2, -1}, {2, 1}}, {{-1, 0.2}, {0.5, 0.2}}}, {}))
     findings.push_back(finding);
   std::set<std::string> codes;
   for (const auto& finding : findings) {
