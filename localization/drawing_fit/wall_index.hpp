@@ -4,18 +4,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "localization/drawing_fit/visible_faces.hpp"
 #include "mapping/wall_map/grid_frame.hpp"
 #include "mapping/wall_map/wall.hpp"
 
 namespace madori::localization {
 
-/// The nearest drawn wall of a given direction: furniture beside a wall, or the wall across a corner, seldom
-/// runs the way the seen surface runs. One table of nearest walls a direction, walls within 30 degrees in
-/// each.
+/// The nearest drawn wall that runs as a seen surface does and can be seen from where it was seen: furniture
+/// beside a wall, or the wall across a corner, seldom runs the way the surface runs, and the far face of a wall
+/// is seen by nobody. One table of nearest walls a direction, walls within 30 degrees in each.
 class WallIndex {
  public:
   static constexpr double kRadiusM = 1.5;  ///< farther from every wall, a surface belongs to none
-  static constexpr int kDirections = 8;    ///< over half a turn
+  static constexpr int kDirections = 16;   ///< of the normals of surfaces, over a whole turn
 
   struct Hit {
     int wall = -1;            ///< position in the walls given, -1 for none
@@ -30,7 +31,7 @@ class WallIndex {
   explicit WallIndex(const mapping::Walls& walls);
 
   [[nodiscard]] const mapping::Walls& walls() const { return walls_; }
-  /// The table of a surface with this normal.
+  /// The table of a surface with this normal, which looks at the sensor.
   [[nodiscard]] static int direction_of(double normal_x, double normal_y);
   [[nodiscard]] Hit nearest(double x_m, double y_m, int direction) const;
   /// Of whatever direction.
@@ -60,18 +61,22 @@ class WallIndex {
   static constexpr std::uint8_t kFar = 255;
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
   struct Table {
-    std::vector<std::uint32_t> wall;
+    std::vector<std::uint32_t> line;  ///< twice the position in lines_[side], plus the side
     std::vector<std::uint8_t> centimetres;
   };
-  /// What nearest() asks of a wall.
+  /// What nearest() asks of a stretch of a wall that can be seen from a side.
   struct Line {
-    Point2<Map> from;
+    int wall = -1;
+    Point2<Map> from;                     ///< where the wall begins
     double along_x = 0.0, along_y = 0.0;  ///< unit vector
-    double length_m = 0.0;
+    SeenStretch seen;
     double probability = 0.0;
   };
+  void add_lines(int wall, const VisibleFace& face);
+  void fill(int direction);
+
   mapping::Walls walls_;
-  std::vector<Line> lines_;  ///< one a wall
+  std::array<std::vector<Line>, 2> lines_;  ///< seen from the left of a wall, and from its right
   mapping::GridFrame frame_;
   std::array<Table, kDirections> tables_;
 };

@@ -147,9 +147,10 @@ class Looker {
 
   /// Is this the nearest drawn wall of the surface's direction?
   [[nodiscard]] bool belongs(const Beam& beam, const Sight& sight, std::uint32_t cell, double offset) const {
+    const double towards = sight.height_m > 0.0 ? 1.0 : -1.0;  // the sensor
     const auto hit =
         index_.nearest(sensor_.x_m + beam.range_m * beam.dx, sensor_.y_m + beam.range_m * beam.dy,
-                       WallIndex::direction_of(sight.normal_x, sight.normal_y));
+                       WallIndex::direction_of(towards * sight.normal_x, towards * sight.normal_y));
     constexpr double kBorderM = 0.03;  // the index names the nearest wall of a table's cell
     return hit.wall < 0 || hit.wall == static_cast<int>(cells_.all()[cell].wall) ||
            std::hypot(hit.distance_m, hit.beyond_m) > std::abs(offset) - kBorderM;

@@ -5,13 +5,13 @@
 
 #include "core/angle.hpp"
 #include "core/segment_distance.hpp"
+#include "localization/drawing_fit/visible_faces.hpp"
 
 namespace madori::localization {
 namespace {
 
 constexpr double kLeastCos = 0.85;     ///< of the angle between surface and wall: 32 degrees
 constexpr double kDirectionRad = 0.2;  ///< standard deviation of a seen surface's direction
-constexpr double kThickestM = 0.45;    ///< of a wall drawn with two faces
 constexpr double kHiddenOdds = 0.05;   ///< that a face is seen through the other face of its wall
 
 }  // namespace
@@ -35,7 +35,7 @@ WallSides::WallSides(const mapping::Walls& walls) {
   }
   if (walls.empty()) low_ = high_ = {0.0, 0.0};
   hash();
-  find_faces();
+  find_faces(walls);
 }
 
 std::size_t WallSides::cell_of(const Point2<Map>& p) const {
@@ -77,33 +77,15 @@ void WallSides::hash() {
   }
 }
 
-/// A line close behind another one of its direction is that wall's other face: it is not seen from there.
-void WallSides::find_faces() {
-  for (std::size_t i = 0; i < lines_.size(); ++i) {
-    Line& line = lines_[i];
-    double covered[2] = {0.0, 0.0};
-    const int steps = std::max(1, static_cast<int>(std::ceil(line.length_m / (0.5 * kCellM))));
-    for (int k = 0; k < steps; ++k) {
-      const Point2<Map> p = foot(i, (k + 0.5) / steps * line.length_m);
-      bool hidden[2] = {false, false};
-      const std::size_t cell = cell_of(p);
-      for (std::uint32_t n = first_[cell]; n < first_[cell + 1]; ++n) {
-        const Line& other = lines_[walls_[n]];
-        if (std::abs(line.ux * other.ux + line.uy * other.uy) < 0.98) continue;
-        const double px = p.x_m - other.a.x_m;
-        const double py = p.y_m - other.a.y_m;
-        const double along = px * other.ux + py * other.uy;
-        if (along < 0.0 || along > other.length_m) continue;
-        const double ex = along * other.ux - px;
-        const double ey = along * other.uy - py;
-        const double left = -line.uy * ex + line.ux * ey;
-        if (std::abs(left) > 0.03 && std::abs(left) < kThickestM) hidden[left > 0.0 ? 0 : 1] = true;
-      }
-      if (hidden[0] && hidden[1]) continue;  // three lines or more: nothing is known of the faces
-      for (int side = 0; side < 2; ++side) covered[side] += hidden[side] ? 1.0 / steps : 0.0;
+void WallSides::find_faces(const mapping::Walls& walls) {
+  const std::vector<VisibleFace> faces = visible_faces(walls);
+  for (std::size_t i = 0; i < lines_.size(); ++i)
+    for (std::size_t side = 0; side < 2; ++side) {
+      double seen_m = 0.0;
+      for (const SeenStretch& s : faces[i][side]) seen_m += s.to_m - s.from_m;
+      const double share = lines_[i].length_m > 0.0 ? seen_m / lines_[i].length_m : 1.0;
+      lines_[i].open[side] = kHiddenOdds + (1.0 - kHiddenOdds) * share;
     }
-    for (int side = 0; side < 2; ++side) line.open[side] = 1.0 - (1.0 - kHiddenOdds) * covered[side];
-  }
 }
 
 bool WallSides::belongs(const Point2<Map>& p, double nx, double ny, Candidate& found) const {

@@ -61,7 +61,7 @@ class WallSides {
   [[nodiscard]] std::size_t cell_of(const Point2<Map>& p) const;
   [[nodiscard]] bool belongs(const Point2<Map>& p, double nx, double ny, Candidate& found) const;
   void hash();
-  void find_faces();
+  void find_faces(const mapping::Walls& walls);
 
   std::vector<Line> lines_;
   Point2<Map> low_;
