@@ -24,6 +24,9 @@ struct SharedError {
 class DrawingFit {
  public:
   explicit DrawingFit(const mapping::Walls& walls) : index_(std::make_shared<const WallIndex>(walls)) {}
+  /// Where it is known from which sides each can be seen.
+  DrawingFit(const mapping::Walls& walls, const std::vector<VisibleFace>& faces)
+      : index_(std::make_shared<const WallIndex>(walls, faces)) {}
   /// `sigma_m`: of each wall along its normal, where walls are known unequally well.
   DrawingFit(const mapping::Walls& walls, std::vector<double> sigma_m, const DrawingModel& model)
       : index_(std::make_shared<const WallIndex>(walls)),

@@ -27,9 +27,8 @@ constexpr std::array<Boundary, WallIndex::kDirections / 2 - 1> kBoundaries{
 
 }  // namespace
 
-WallIndex::WallIndex(const mapping::Walls& walls)
+WallIndex::WallIndex(const mapping::Walls& walls, const std::vector<VisibleFace>& faces)
     : walls_(walls), frame_(mapping::GridFrame::around(walls, kRadiusM, kCellM)) {
-  const std::vector<VisibleFace> faces = visible_faces(walls_);
   for (std::size_t i = 0; i < walls_.size(); ++i) add_lines(static_cast<int>(i), faces[i]);
   for (int k = 0; k < kDirections; ++k) fill(k);
 }

@@ -28,7 +28,9 @@ class WallIndex {
     double probability = 0.0;  ///< that it is a wall at all, as the drawing has it
   };
 
-  explicit WallIndex(const mapping::Walls& walls);
+  explicit WallIndex(const mapping::Walls& walls) : WallIndex(walls, visible_faces(walls)) {}
+  /// Where it is known from which sides each can be seen.
+  WallIndex(const mapping::Walls& walls, const std::vector<VisibleFace>& faces);
 
   [[nodiscard]] const mapping::Walls& walls() const { return walls_; }
   /// The table of a surface with this normal, which looks at the sensor.
