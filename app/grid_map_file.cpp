@@ -9,7 +9,7 @@
 
 #include "core/result.hpp"
 #include "core/transform2.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
+#include "mapping/picture/load_image.hpp"
 #include "mapping/site/atomic_file.hpp"
 
 namespace madori::app {

@@ -5,8 +5,8 @@
 
 #include "core/frames.hpp"
 #include "core/point2.hpp"
-#include "mapping/drawing/gray_image.hpp"
 #include "mapping/georeference/similarity_fit.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::app {
 

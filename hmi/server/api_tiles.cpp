@@ -6,8 +6,8 @@
 
 #include "hmi/server/api.hpp"
 #include "hmi/server/api_support.hpp"
-#include "mapping/drawing/raster/image_header.hpp"
 #include "mapping/georeference/tile_store.hpp"
+#include "mapping/picture/image_header.hpp"
 #include "mapping/site/atomic_file.hpp"
 
 namespace madori::hmi {

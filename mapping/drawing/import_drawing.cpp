@@ -1,6 +1,7 @@
 #include "mapping/drawing/import_drawing.hpp"
 
 #include <algorithm>
+#include <future>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
@@ -157,10 +158,12 @@ void stage_site(const ImportOptions& options, const Site& site, SiteTransaction&
   remove_old_drawing(options, site.drawing.file, change);
 }
 
-void stage_picture(const Plan& plan, const DetectedWalls& found, std::optional<double> m_per_px,
-                   SiteTransaction& change) {
-  const auto png = import_picture(plan.picture, found.walls, found.rejected, m_per_px, found.probabilities);
-  change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+/// What import.png shows, packed beside what the caller does meanwhile.
+std::future<std::vector<std::uint8_t>> start_picture(const Plan& plan, const DetectedWalls& found,
+                                                     std::optional<double> m_per_px) {
+  return std::async(std::launch::async, [&plan, &found, m_per_px] {
+    return import_picture(plan.picture, found.walls, found.rejected, m_per_px, found.probabilities);
+  });
 }
 
 }  // namespace
@@ -189,6 +192,7 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
   const double unit = scale ? scale->m_per_px : 1.0;
   report.walls = to_map(found, plan.picture.height_px, unit);
 
+  auto picture = start_picture(plan, found, scale ? std::optional(unit) : std::nullopt);
   stages.begin("points", 0.85);
   report.points = stage_walls(options, plan, report.walls, unit, scale.has_value(), change);
   stages.end(report.points.points.size());
@@ -196,7 +200,8 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
   stage_site(options, report.site, change);
   stages.end(report.walls.size());
   stages.begin("picture", 0.95);
-  stage_picture(plan, found, scale ? std::optional(unit) : std::nullopt, change);
+  const auto png = picture.get();
+  change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
   stages.end(found.walls.size());
   stages.begin("commit", 0.98);
   change.commit();

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "core/result.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
 #include "mapping/drawing/vector/bounded_load.hpp"
 #include "mapping/drawing/vector/load_dxf.hpp"
 #include "mapping/drawing/vector/load_pdf.hpp"
 #include "mapping/drawing/vector/load_svg.hpp"
+#include "mapping/picture/load_image.hpp"
 
 namespace madori::mapping {
 namespace {

@@ -17,9 +17,11 @@ namespace {
 /// The edges of a sheet in black on white, as dark as `darkness` (one an edge, 0..1) says.
 GrayImage picture_of(const EdgeSheet& sheet, const std::vector<float>& darkness) {
   GrayImage picture{sheet.grey.width_px, sheet.grey.height_px, {}, sheet.grey.dpi};
-  for (const std::int32_t edge : sheet.edge_at)
+  for (std::size_t pixel = 0; pixel < sheet.map.size(); ++pixel) {
+    const int edge = sheet.map.edge_at(pixel);
     picture.pixels.push_back(
         edge < 0 ? 255 : static_cast<std::uint8_t>(225 * (1 - darkness[static_cast<std::size_t>(edge)])));
+  }
   return picture;
 }
 

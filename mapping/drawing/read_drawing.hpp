@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "mapping/drawing/gray_image.hpp"
 #include "mapping/drawing/pixel_segment.hpp"
 #include "mapping/drawing/raster/detection_options.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::mapping {
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/result.hpp"
+#include "mapping/site/at_once.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site_file.hpp"
 #include "mapping/site/site_versions.hpp"
@@ -29,7 +30,7 @@ fs::path journal_of(const fs::path& site) {
   return site / kStaging / kJournal;
 }
 
-void sync(const fs::path& path) {
+bool sync(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool good = descriptor >= 0 && ::fsync(descriptor) == 0;
   const int error = errno;
@@ -37,6 +38,7 @@ void sync(const fs::path& path) {
   if (!good)
     throw Error(path.string(), std::string("cannot be saved: ") + std::strerror(error),
                 "check the disk and its free space");
+  return good;
 }
 
 int take_lock(const fs::path& site, bool wait) {
@@ -123,12 +125,10 @@ void SiteTransaction::read_back() const {
 void SiteTransaction::commit() {
   read_back();
   stage_version(*this, site_, site_ / kStaging, puts_, removals_, sentence_);
+  at_once(puts_, [&](const std::string& name) { return sync(site_ / kStaging / name); });
   std::string journal;
   for (const auto& name : removals_) journal += "- " + name + "\n";
-  for (const auto& name : puts_) {
-    sync(site_ / kStaging / name);
-    journal += "+ " + name + "\n";
-  }
+  for (const auto& name : puts_) journal += "+ " + name + "\n";
   write_file_atomically(journal_of(site_), journal);
   committed_ = true;
   apply_journal(site_);

@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "core/clock.hpp"
 #include "core/result.hpp"
 #include "core/stamp.hpp"
+#include "mapping/site/at_once.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
 #include "mapping/site/site_file.hpp"
@@ -30,7 +35,7 @@ bool is_kept(const std::string& name) {
 }
 
 /// FNV-1a of 128 bits, and the length: names contents, keeps no secret.
-std::string name_of(const std::string& content) {
+std::string name_of(std::string_view content) {
   __extension__ using Wide = unsigned __int128;
   constexpr Wide kPrime = (static_cast<Wide>(0x1000000) << 64U) + 0x13BU;
   Wide hash = (static_cast<Wide>(0x6C62272E07BB0142ULL) << 64U) + 0x62B821756295C58DULL;
@@ -39,15 +44,25 @@ std::string name_of(const std::string& content) {
                      static_cast<std::uint64_t>(hash), content.size());
 }
 
-/// Objects never change: one that is there is whole, for it got its name only when it was.
-std::string keep_object(const fs::path& site, const fs::path& file) {
-  const std::string content = file_content(file);
-  std::string name = name_of(content);
-  const fs::path object = site / "versions/objects" / name;
-  if (fs::exists(object)) return name;
-  fs::create_directories(object.parent_path());
-  write_file_atomically(object, content);
-  return name;
+/// What each of some files is kept as. Objects never change: one that is there is whole, for it got its name
+/// only when it was.
+std::vector<std::string> keep_objects(const fs::path& site, const std::vector<fs::path>& files) {
+  const std::vector<std::string> contents = at_once(files, file_content);
+  std::map<std::string_view, std::string> names;  // a file that came again as it was has its name already
+  for (const std::string& content : contents) names[content];
+  at_once(names, [](auto& content) { return (content.second = name_of(content.first)).size(); });
+  std::map<fs::path, std::string_view> missing;
+  for (const auto& [content, name] : names)
+    if (const fs::path object = site / "versions/objects" / name; !fs::exists(object))
+      missing[object] = content;
+  if (!missing.empty()) fs::create_directories(site / "versions/objects");
+  at_once(missing, [](const auto& object) {
+    write_file_atomically(object.first, object.second);
+    return true;
+  });
+  std::vector<std::string> kept;
+  for (const std::string& content : contents) kept.push_back(names.at(content));
+  return kept;
 }
 
 SiteVersion parsed(const std::string& manifest) {
@@ -95,16 +110,16 @@ std::string words(const std::map<std::string, std::string>& before,
   return text;
 }
 
-/// What of a version lies in the site now.
-std::map<std::string, std::string> files_now(const fs::path& site) {
-  std::map<std::string, std::string> files;
+/// Names of what belongs to a version and lies in the site now.
+std::vector<std::string> kept_now(const fs::path& site) {
+  std::vector<std::string> names;
   std::error_code missing;
   for (const char* folder : {".", "routes"})
     for (const auto& entry : fs::directory_iterator(site / folder, missing)) {
       const std::string name = entry.path().lexically_relative(site).lexically_normal().generic_string();
-      if (entry.is_regular_file() && is_kept(name)) files[name] = keep_object(site, entry.path());
+      if (entry.is_regular_file() && is_kept(name)) names.push_back(name);
     }
-  return files;
+  return names;
 }
 
 std::string manifest(const SiteVersion& version) {
@@ -165,15 +180,21 @@ void stage_version(SiteTransaction& change, const fs::path& site, const fs::path
                                                   what.empty() ? words(before, files) : what, files}));
     before = files;
   };
-  auto files = files_now(site);
+  const std::vector<std::string> now = kept_now(site);
+  std::vector<std::string> brought_now;
+  std::ranges::copy_if(puts, std::back_inserter(brought_now), is_kept);
+  std::vector<fs::path> paths;
+  for (const auto& name : now) paths.push_back(site / name);
+  for (const auto& name : brought_now) paths.push_back(staging / name);
+  const auto objects = keep_objects(site, paths);
+  std::map<std::string, std::string> files;
+  for (std::size_t i = 0; i < now.size(); ++i) files[now[i]] = objects[i];
   if (!files.empty())
     stage(files, "as it was found");  // saved by another program, or before there were versions
   else if (!brought.empty())
     before = brought.back().files;  // an empty folder: the backup's last save is what comes now
   for (const auto& name : removals) files.erase(name);
-  const std::vector<std::string> kept(puts);  // staging a manifest adds to them
-  for (const auto& name : kept)
-    if (is_kept(name)) files[name] = keep_object(site, staging / name);
+  for (std::size_t i = 0; i < brought_now.size(); ++i) files[brought_now[i]] = objects[now.size() + i];
   stage(files, sentence);
 }
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "mapping/drawing/gray_image.hpp"
 #include "mapping/drawing/pixel_segment.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::mapping {
 

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "core/result.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
 #include "mapping/drawing/read_drawing.hpp"
+#include "mapping/picture/load_image.hpp"
 
 namespace {
 

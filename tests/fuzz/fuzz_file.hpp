@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/result.hpp"
-#include "mapping/drawing/gray_image.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::fuzz {
 

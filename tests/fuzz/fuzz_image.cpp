@@ -1,7 +1,7 @@
 // The way of a raster drawing: its header, the decoder, the detection of walls on small ones, the picture.
-#include "mapping/drawing/raster/image_header.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
 #include "mapping/drawing/read_drawing.hpp"
+#include "mapping/picture/image_header.hpp"
+#include "mapping/picture/load_image.hpp"
 #include "mapping/wall_map/import_picture.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "mapping/drawing/raster/load_image.hpp"
 #include "mapping/drawing/read_drawing.hpp"
+#include "mapping/picture/load_image.hpp"
 #include "tests/support/wall_score.hpp"
 
 namespace madori::mapping {

@@ -5,8 +5,8 @@
 
 #include "app/log_player.hpp"
 #include "app/trajectory_score.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
 #include "mapping/drawing/read_drawing.hpp"
+#include "mapping/picture/load_image.hpp"
 #include "sensors/carmen/reader.hpp"
 #include "tests/support/lidar_models.hpp"
 

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "mapping/drawing/gray_image.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::test {
 

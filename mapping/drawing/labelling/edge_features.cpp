@@ -9,6 +9,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "mapping/drawing/raster/tones.hpp"
+
 namespace madori::mapping {
 namespace {
 
@@ -85,9 +87,7 @@ class Builder {
 
   static double commonest(const std::vector<std::uint8_t>& plane) {
     if (plane.empty()) return 128;
-    std::array<std::size_t, 256> counts{};
-    for (const std::uint8_t value : plane) ++counts[value];
-    return static_cast<double>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+    return commonest_tone(tone_counts(plane));
   }
 
   /// The brightness and colour that most of the sheet has, and how far its darkest and brightest edges reach.

@@ -62,7 +62,7 @@ class Linker {
     for (int dv = -reach; dv <= reach; ++dv)
       for (int du = -reach; du <= reach; ++du) {
         if (!sheet_.inside(u + du, v + dv)) continue;
-        const int other = sheet_.edge_at[sheet_.pixel(u + du, v + dv)];
+        const int other = sheet_.map.edge_at(sheet_.pixel(u + du, v + dv));
         if (other >= 0 && other != static_cast<int>(i)) near_.push_back(other);
       }
     std::sort(near_.begin(), near_.end());

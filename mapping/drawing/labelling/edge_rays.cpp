@@ -5,6 +5,7 @@
 #include <map>
 #include <opencv2/core/utility.hpp>
 #include <optional>
+#include <span>
 
 #include "core/median.hpp"
 
@@ -20,6 +21,7 @@ constexpr double kNeutral = 128;
 constexpr double kBeside = 1, kBesideEnds = 3.2;  // pixels: the edge's own blur, and what is beside it
 constexpr double kPastEnd = 6;                    // pixels: what abuts at an end is over
 constexpr double kThickest = 0.025;               // of the sheet: thicker is no wall
+constexpr std::size_t kEdgesAtOnce = 8;           // their rays stay in the processor's first cache
 
 bool are_parallel(const Edge& a, const Edge& b) {
   return std::abs(a.normal.cross(b.normal)) < kParallelSine;
@@ -30,21 +32,43 @@ bool are_parallel(const Edge& a, const Edge& b) {
 class Walk {
  public:
   Walk(const EdgeSheet& sheet, const Edge& across, double side, const cv::Point2d& from)
-      : sheet_(&sheet), from_(from), ahead_(side * across.normal) {}
+      : sheet_(&sheet), from_(from), ahead_(side * across.normal) {
+    look_ahead();
+  }
 
   [[nodiscard]] double distance() const { return distance_; }
   /// The pixel here; nothing beyond the sheet.
   [[nodiscard]] std::optional<std::size_t> pixel() const {
-    const cv::Point2d place = from_ + distance_ * ahead_;
-    if (!sheet_->inside(place.x, place.y)) return std::nullopt;
-    return sheet_->pixel(place.x, place.y);
+    if (beyond_) return std::nullopt;
+    return pixel_;
   }
-  void step_from(std::size_t pixel) { distance_ += std::max(kStep, sheet_->clear_px[pixel] - 1.5); }
+  void step() {
+    distance_ += std::max(kStep, sheet_->map.clear_px(pixel_) - 1.5);
+    look_ahead();
+  }
 
  private:
+  /// What is asked of the next pixel is fetched while others are asked: most of a walk is waiting for memory.
+  void look_ahead() {
+    const cv::Point2d place = from_ + distance_ * ahead_;
+    beyond_ = !sheet_->inside(place.x, place.y);
+    if (beyond_) return;
+    pixel_ = sheet_->pixel(place.x, place.y);
+    sheet_->map.fetch(pixel_);
+  }
+
   const EdgeSheet* sheet_;
   cv::Point2d from_, ahead_;
   double distance_ = kStep;
+  std::size_t pixel_ = 0;
+  bool beyond_ = false;
+};
+
+/// How far looks reach on a sheet, pixels.
+struct Reach {
+  explicit Reach(const EdgeSheet& sheet)
+      : faces(kReach * sheet.size_px()), far(kFar * sheet.size_px()), thickest(kThickest * sheet.size_px()) {}
+  double faces, far, thickest;
 };
 
 struct Tone {
@@ -69,16 +93,17 @@ struct Ray {
   Ray(const EdgeSheet& of, std::size_t across, double side, const cv::Point2d& place)
       : sheet(&of), from(static_cast<int>(across)), walk(of, of.edges[across], side, place) {}
 
-  void look() {
-    const double reach = kReach * sheet->size_px(), far = kFar * sheet->size_px();
-    while (walk.distance() < far && asks_on(reach)) {
-      const auto pixel = walk.pixel();
-      border = !pixel;
-      if (border) return;
-      see(*pixel, reach);
-      if (sheet->clear_px[*pixel] <= 0) meet(sheet->edge_at[*pixel]);
-      walk.step_from(*pixel);
-    }
+  /// Looks at the next pixel; false where nothing more is asked.
+  bool step(const Reach& reach) {
+    if (walk.distance() >= reach.far || !asks_on(reach.faces)) return false;
+    const auto pixel = walk.pixel();
+    border = !pixel;
+    if (border) return false;
+    see(*pixel, reach.faces);
+    if (const int edge = sheet->map.edge_at(*pixel); edge >= 0) meet(edge);
+    walk.step();
+    if (const auto next = walk.pixel(); next && count == 0) __builtin_prefetch(&sheet->grey.pixels[*next]);
+    return true;
   }
 
   const EdgeSheet* sheet;
@@ -123,53 +148,96 @@ struct Ray {
   }
 };
 
+/// A look from a place beside an edge's line to the next parallel edge.
+struct Gap {
+  Gap(const EdgeSheet& of, const Edge& along, const cv::Point2d& place, double side)
+      : sheet(&of), from(&along), walk(of, along, side, place) {}
+
+  /// Looks at the next pixel; false where the edge is found or is too far.
+  bool step(const Reach& reach) {
+    const auto pixel = walk.pixel();
+    if (!pixel || walk.distance() >= reach.thickest) return false;
+    const int edge = sheet->map.edge_at(*pixel);
+    if (edge >= 0 && are_parallel(*from, sheet->edges[static_cast<std::size_t>(edge)])) {
+      width = walk.distance();
+      return false;
+    }
+    walk.step();
+    return true;
+  }
+
+  const EdgeSheet* sheet;
+  const Edge* from;
+  Walk walk;
+  double width = 0;  // pixels; 0 where none is near
+};
+
+/// All looks go in step: each waits for its own pixels to come from memory, and together they wait once.
+template <class Look>
+void look_together(std::vector<Look>& looks, const Reach& reach) {
+  std::vector<Look*> going;
+  for (Look& look : looks) going.push_back(&look);
+  while (!going.empty()) std::erase_if(going, [&](Look* look) { return !look->step(reach); });
+}
+
 class Looker {
  public:
   explicit Looker(const EdgeSheet& sheet) : sheet_(sheet) {}
 
-  [[nodiscard]] SideView look(std::size_t edge, double side) {
-    const Edge& e = sheet_.edges[edge];
-    const PixelSegment& s = e.segment;
-    const int places = std::clamp(static_cast<int>(e.length_px / 4), 3, 15);
+  /// What is seen from some edges.
+  void look(std::size_t from, std::size_t to, std::vector<EdgeViews>& views) {
     rays_.clear();
+    gaps_.clear();
+    for (std::size_t edge = from; edge < to; ++edge) {
+      add_rays(edge, 1);
+      add_rays(edge, -1);
+      add_gaps(sheet_.edges[edge]);
+    }
+    look_together(rays_, reach_);
+    look_together(gaps_, reach_);
+    std::span<const Ray> rays(rays_);
+    auto gap = gaps_.cbegin();
+    for (std::size_t edge = from; edge < to; ++edge) {
+      const std::size_t places = places_on(sheet_.edges[edge]);
+      views[edge].dark = summary(rays.first(places));
+      views[edge].bright = summary(rays.subspan(places, places));
+      rays = rays.subspan(2 * places);
+      for (Between& past : views[edge].past_ends) {
+        past.left_px = (gap++)->width;
+        past.right_px = (gap++)->width;
+      }
+    }
+  }
+
+ private:
+  static std::size_t places_on(const Edge& edge) {
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(edge.length_px / 4), 3, 15));
+  }
+
+  void add_rays(std::size_t edge, double side) {
+    const PixelSegment& s = sheet_.edges[edge].segment;
+    const auto places = static_cast<int>(places_on(sheet_.edges[edge]));
     for (int k = 0; k < places; ++k) {
       const double t = (k + 0.5) / places;
       rays_.emplace_back(sheet_, edge, side, cv::Point2d(std::lerp(s.u1, s.u2, t), std::lerp(s.v1, s.v2, t)));
     }
-    for (Ray& ray : rays_) ray.look();
-    return summary(rays_);
   }
 
-  [[nodiscard]] Between past_end(std::size_t edge, bool last) const {
-    const Edge& e = sheet_.edges[edge];
+  /// Past its first end and past its last one, to both sides.
+  void add_gaps(const Edge& e) {
     const PixelSegment& s = e.segment;
-    const double sign = last ? kPastEnd / e.length_px : -kPastEnd / e.length_px;
-    const cv::Point2d place((last ? s.u2 : s.u1) + sign * (s.u2 - s.u1),
-                            (last ? s.v2 : s.v1) + sign * (s.v2 - s.v1));
-    return {first_parallel(e, place, 1), first_parallel(e, place, -1)};
+    const double beyond = kPastEnd / e.length_px;
+    const cv::Point2d first(s.u1 - beyond * (s.u2 - s.u1), s.v1 - beyond * (s.v2 - s.v1));
+    const cv::Point2d last(s.u2 + beyond * (s.u2 - s.u1), s.v2 + beyond * (s.v2 - s.v1));
+    for (const cv::Point2d& place : {first, last})
+      for (const double side : {1.0, -1.0}) gaps_.emplace_back(sheet_, e, place, side);
   }
 
- private:
-  /// Pixels from a place beside the edge `from` to the next parallel one; 0 where none is near.
-  [[nodiscard]] double first_parallel(const Edge& from, const cv::Point2d& place, double side) const {
-    Walk walk(sheet_, from, side, place);
-    while (walk.distance() < kThickest * sheet_.size_px()) {
-      const auto pixel = walk.pixel();
-      if (!pixel) return 0;
-      if (sheet_.clear_px[*pixel] <= 0 &&
-          are_parallel(from, sheet_.edges[static_cast<std::size_t>(sheet_.edge_at[*pixel])]))
-        return walk.distance();
-      walk.step_from(*pixel);
-    }
-    return 0;
-  }
-
-  [[nodiscard]] SideView summary(const std::vector<Ray>& rays) const {
+  [[nodiscard]] SideView summary(std::span<const Ray> rays) const {
     SideView view;
-    const double far = kFar * sheet_.size_px();
     std::vector<double> free, near, fill, spread, red_green, yellow_blue;
     for (const Ray& ray : rays) {
-      free.push_back(ray.count > 0 ? ray.events[0].distance : far);
+      free.push_back(ray.count > 0 ? ray.events[0].distance : reach_.far);
       near.push_back(ray.near.mean(0));
       red_green.push_back(ray.red_green.mean(kNeutral));
       yellow_blue.push_back(ray.yellow_blue.mean(kNeutral));
@@ -188,8 +256,7 @@ class Looker {
     return view;
   }
 
-  [[nodiscard]] SideView::ParallelHit parallel_hit(const std::vector<Ray>& rays, int wanted) const {
-    const double far = kFar * sheet_.size_px(), reach = kReach * sheet_.size_px();
+  [[nodiscard]] SideView::ParallelHit parallel_hit(std::span<const Ray> rays, int wanted) const {
     std::vector<double> distances, after;
     std::map<int, int> votes;
     int opposite = 0;
@@ -197,10 +264,11 @@ class Looker {
       int parallel = 0;
       for (int k = 0; k < ray.count; ++k) {
         const Event& event = ray.events[static_cast<std::size_t>(k)];
-        if (!event.parallel || event.distance > reach || parallel++ != wanted) continue;
+        if (!event.parallel || event.distance > reach_.faces || parallel++ != wanted) continue;
         distances.push_back(event.distance);
-        after.push_back(
-            k + 1 < ray.count ? ray.events[static_cast<std::size_t>(k + 1)].distance - event.distance : far);
+        after.push_back(k + 1 < ray.count
+                            ? ray.events[static_cast<std::size_t>(k + 1)].distance - event.distance
+                            : reach_.far);
         opposite += event.opposite ? 1 : 0;
         ++votes[event.edge];
       }
@@ -219,20 +287,22 @@ class Looker {
   }
 
   const EdgeSheet& sheet_;
+  const Reach reach_{sheet_};
   std::vector<Ray> rays_;
+  std::vector<Gap> gaps_;
 };
 
 }  // namespace
 
 std::vector<EdgeViews> look_across(const EdgeSheet& sheet) {
   std::vector<EdgeViews> views(sheet.edges.size());
-  const auto look = [&](const cv::Range& edges) {
+  const std::size_t batches = (views.size() + kEdgesAtOnce - 1) / kEdgesAtOnce;
+  const auto look = [&](const cv::Range& some) {
     Looker looker(sheet);
-    for (auto i = static_cast<std::size_t>(edges.start); i < static_cast<std::size_t>(edges.end); ++i)
-      views[i] = {
-          looker.look(i, 1), looker.look(i, -1), {looker.past_end(i, false), looker.past_end(i, true)}};
+    for (auto k = static_cast<std::size_t>(some.start); k < static_cast<std::size_t>(some.end); ++k)
+      looker.look(k * kEdgesAtOnce, std::min(views.size(), (k + 1) * kEdgesAtOnce), views);
   };
-  cv::parallel_for_({0, static_cast<int>(views.size())}, look);
+  cv::parallel_for_({0, static_cast<int>(batches)}, look);
   return views;
 }
 

@@ -59,12 +59,13 @@ class Areas {
 
   void find_runs(int v) {
     const auto width = static_cast<std::size_t>(sheet_.grey.width_px);
-    const float* clear = &sheet_.clear_px[static_cast<std::size_t>(v) * width];
-    const std::uint8_t* grey = &sheet_.grey.pixels[static_cast<std::size_t>(v) * width];
+    const std::size_t row = static_cast<std::size_t>(v) * width;
+    const auto open = [&](std::size_t u) { return sheet_.map.is_clear(row + u, kBarrier); };
+    const std::uint8_t* grey = &sheet_.grey.pixels[row];
     for (std::size_t u = 0; u < width;) {
-      while (u < width && clear[u] <= kBarrier) ++u;
+      while (u < width && !open(u)) ++u;
       const std::size_t from = u;
-      while (u < width && clear[u] > kBarrier) ++u;
+      while (u < width && open(u)) ++u;
       if (from == u) break;
       const int left = static_cast<int>(from), right = static_cast<int>(u);
       const Sums sums{static_cast<double>(u - from),

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <opencv2/core/types.hpp>
 #include <vector>
 
-#include "mapping/drawing/gray_image.hpp"
+#include "mapping/drawing/labelling/edge_map.hpp"
 #include "mapping/drawing/pixel_box.hpp"
 #include "mapping/drawing/pixel_segment.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::mapping {
 
@@ -26,9 +26,8 @@ struct EdgeSheet {
   bool dark_ground = false;
   double factor = 1;  ///< its pixels for one of the drawing
   std::vector<Edge> edges;
-  std::vector<std::int32_t> edge_at;  ///< row-major; the edge that crosses a pixel, -1 where none does
-  std::vector<float> clear_px;        ///< row-major; the distance to the next edge
-  PixelBox box;                       ///< around all edges
+  EdgeMap map;   ///< where they are
+  PixelBox box;  ///< around all edges
 
   /// Its diagonal: what "of the sheet" means.
   [[nodiscard]] double size_px() const { return std::max(1.0, box.diagonal()); }

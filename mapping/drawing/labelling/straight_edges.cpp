@@ -4,10 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numbers>
+#include <numeric>
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
 
-#include "mapping/drawing/raster/cv_view.hpp"
+#include "mapping/picture/cv_view.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -19,10 +23,34 @@ const double kLeastStep = 2 / std::sin(kWithin);  // rounding can turn smaller o
 constexpr double kDense = 0.7, kShrink = 0.75;    // share of a rectangle that its places fill
 constexpr std::size_t kLevels = 1024;
 
-/// A pixel where the grey changes.
+/// A pixel where the grey changes, and the pixels around it where it does: row by row, those of a row one
+/// behind the other.
 struct Place {
   float x, y, step, cosine, sine;  // which way the edge runs there
+  std::int32_t above, below;       // its first neighbours there
+  std::int8_t count_above, count_below, left, right;
 };
+
+/// Calls visit(x, gx, gy) for every pixel of a row where the grey changes, with twice the gradient there.
+template <class Visit>
+void for_changes(const cv::Mat& picture, int y, const Visit& visit) {
+  constexpr int kAtOnce = cv::v_uint8x16::nlanes;
+  const auto *here = picture.ptr<std::uint8_t>(y), *below = picture.ptr<std::uint8_t>(y + 1);
+  const auto still = cv::v_setall_u8(static_cast<std::uint8_t>(kLeastStep));
+  const int least = static_cast<int>(4 * kLeastStep * kLeastStep), end = picture.cols - 1;
+  for (int from = 0; from < end; from += kAtOnce) {
+    if (from + kAtOnce <= end) {  // paper: neither diagonal changes anywhere
+      const auto falling = cv::v_absdiff(cv::v_load(below + from + 1), cv::v_load(here + from));
+      const auto rising = cv::v_absdiff(cv::v_load(here + from + 1), cv::v_load(below + from));
+      if (!cv::v_check_any(cv::v_max(falling, rising) > still)) continue;
+    }
+    for (int x = from; x < std::min(from + kAtOnce, end); ++x) {
+      const int falling = below[x + 1] - here[x], rising = here[x + 1] - below[x];
+      const int gx = falling + rising, gy = falling - rising;
+      if (gx * gx + gy * gy > least) visit(x, gx, gy);
+    }
+  }
+}
 
 struct Rectangle {
   double x1 = 0, y1 = 0, x2 = 0, y2 = 0, width = 1;
@@ -34,11 +62,20 @@ struct Rectangle {
 class Grower {
  public:
   explicit Grower(const cv::Mat& picture) : width_(picture.cols), height_(picture.rows) {
-    at_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1);
-    places_.reserve(at_.size() / 8);
-    for (int y = 0; y + 1 < height_; ++y)
-      row(picture.ptr<std::uint8_t>(y), picture.ptr<std::uint8_t>(y + 1), y);
-    used_.assign(places_.size(), false);
+    const int rows = std::max(0, height_ - 1);
+    rows_.assign(static_cast<std::size_t>(rows) + 1, 0);
+    for_rows(rows, [&](std::size_t y) {
+      for_changes(picture, static_cast<int>(y), [&](int, int, int) { ++rows_[y + 1]; });
+    });
+    std::partial_sum(rows_.begin(), rows_.end(), rows_.begin());
+    count_ = static_cast<std::size_t>(rows_.back());
+    places_ = std::make_unique_for_overwrite<Place[]>(count_);
+    for_rows(rows, [&](std::size_t y) { find_places(picture, y); });
+    for_rows(rows, [&](std::size_t y) {
+      link(y, y > 0 ? y - 1 : y, &Place::above, &Place::count_above);
+      link(y, y + 2 < rows_.size() ? y + 1 : y, &Place::below, &Place::count_below);
+    });
+    used_.assign(count_, 0);
   }
 
   [[nodiscard]] std::vector<PixelSegment> segments() {
@@ -58,39 +95,68 @@ class Grower {
   }
 
  private:
-  void row(const std::uint8_t* here, const std::uint8_t* below, int y) {
-    const int least = static_cast<int>(4 * kLeastStep * kLeastStep);
-    for (int x = 0; x + 1 < width_; ++x) {
-      const int falling = below[x + 1] - here[x], rising = here[x + 1] - below[x];
-      const int gx = falling + rising, gy = falling - rising, square = gx * gx + gy * gy;
-      if (square <= least) continue;
-      const float length = std::sqrt(static_cast<float>(square));
-      at_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] =
-          static_cast<std::int32_t>(places_.size());
-      places_.push_back({static_cast<float>(x), static_cast<float>(y), 0.5F * length,
-                         -static_cast<float>(gy) / length, static_cast<float>(gx) / length});
+  template <class Work>
+  static void for_rows(int rows, const Work& work) {
+    cv::parallel_for_({0, rows}, [&](const cv::Range& some) {
+      for (int y = some.start; y < some.end; ++y) work(static_cast<std::size_t>(y));
+    });
+  }
+
+  void find_places(const cv::Mat& picture, std::size_t y) {
+    Place* const first = &places_[static_cast<std::size_t>(rows_[y])];
+    Place* next = first;
+    for_changes(picture, static_cast<int>(y), [&](int x, int gx, int gy) {
+      const float length = std::sqrt(static_cast<float>(gx * gx + gy * gy));
+      const bool beside = next > first && static_cast<int>(next[-1].x) == x - 1;
+      if (beside) next[-1].right = 1;
+      *next++ = {static_cast<float>(x),
+                 static_cast<float>(y),
+                 0.5F * length,
+                 -static_cast<float>(gy) / length,
+                 static_cast<float>(gx) / length,
+                 0,
+                 0,
+                 0,
+                 0,
+                 static_cast<std::int8_t>(beside),
+                 0};
+    });
+  }
+
+  /// Gives the places of a row their neighbours in another one; none in their own.
+  void link(std::size_t row, std::size_t other, std::int32_t Place::*neighbours, std::int8_t Place::*count) {
+    std::int32_t first = rows_[other];
+    const std::int32_t last = other == row ? first : rows_[other + 1];
+    for (auto i = static_cast<std::size_t>(rows_[row]); i < static_cast<std::size_t>(rows_[row + 1]); ++i) {
+      Place& p = places_[i];
+      const auto x_of = [&](std::int32_t j) { return places_[static_cast<std::size_t>(j)].x; };
+      while (first < last && x_of(first) < p.x - 1) ++first;
+      std::int32_t end = first;
+      while (end < last && x_of(end) <= p.x + 1) ++end;
+      p.*neighbours = first;
+      p.*count = static_cast<std::int8_t>(end - first);
     }
   }
 
   [[nodiscard]] std::vector<std::int32_t> strongest_first() const {
+    const std::span<const Place> places(places_.get(), count_);
     float most = 1;
-    for (const Place& p : places_) most = std::max(most, p.step);
+    for (const Place& p : places) most = std::max(most, p.step);
     const auto level = [&](const Place& p) {
       return kLevels - 1 - static_cast<std::size_t>(p.step * (kLevels - 1) / most);
     };
     std::array<std::size_t, kLevels + 1> from{};
-    for (const Place& p : places_) ++from[level(p) + 1];
+    for (const Place& p : places) ++from[level(p) + 1];
     for (std::size_t k = 1; k <= kLevels; ++k) from[k] += from[k - 1];
-    std::vector<std::int32_t> order(places_.size());
-    for (std::size_t i = 0; i < places_.size(); ++i)
-      order[from[level(places_[i])]++] = static_cast<std::int32_t>(i);
+    std::vector<std::int32_t> order(count_);
+    for (std::size_t i = 0; i < count_; ++i) order[from[level(places[i])]++] = static_cast<std::int32_t>(i);
     return order;
   }
 
   [[nodiscard]] const Place& place(std::size_t k) const {
     return places_[static_cast<std::size_t>(region_[k])];
   }
-  void mark(std::int32_t i, bool used) { used_[static_cast<std::size_t>(i)] = used; }
+  void mark(std::int32_t i, bool used) { used_[static_cast<std::size_t>(i)] = used ? 1 : 0; }
 
   /// All places that hang together with the seed and run within an angle of their mean.
   void grow(std::int32_t seed, double within) {
@@ -99,17 +165,21 @@ class Grower {
     mark(seed, true);
     float cosine = place(0).cosine, sine = place(0).sine, length = 1;
     for (std::size_t k = 0; k < region_.size(); ++k) {
-      const int x0 = static_cast<int>(place(k).x), y0 = static_cast<int>(place(k).y);
-      for (int y = std::max(0, y0 - 1); y <= std::min(height_ - 1, y0 + 1); ++y)
-        for (int x = std::max(0, x0 - 1); x <= std::min(width_ - 1, x0 + 1); ++x) {
-          const std::int32_t i = at_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                     static_cast<std::size_t>(x)];
-          if (i < 0 || used_[static_cast<std::size_t>(i)]) continue;
-          const Place& p = places_[static_cast<std::size_t>(i)];
-          if (p.cosine * cosine + p.sine * sine < least * length) continue;
+      const std::int32_t own = region_[k];
+      const Place& p = place(k);
+      const std::array<std::array<std::int32_t, 2>, 3> rows{{{p.above, p.above + p.count_above},
+                                                             {own - p.left, own + 1 + p.right},
+                                                             {p.below, p.below + p.count_below}}};
+      for (const auto& [first, end] : rows)
+        for (std::int32_t i = first; i < end; ++i) {
+          if (used_[static_cast<std::size_t>(i)] != 0) continue;
+          const Place& next = places_[static_cast<std::size_t>(i)];
+          if (next.cosine * cosine + next.sine * sine < least * length) continue;
           mark(i, true);
           region_.push_back(i);
-          cosine += p.cosine, sine += p.sine;
+          __builtin_prefetch(&places_[static_cast<std::size_t>(next.above)]);
+          __builtin_prefetch(&places_[static_cast<std::size_t>(next.below)]);
+          cosine += next.cosine, sine += next.sine;
           length = std::sqrt(cosine * cosine + sine * sine);
         }
     }
@@ -176,9 +246,10 @@ class Grower {
   }
 
   int width_, height_;
-  std::vector<std::int32_t> at_;  // the place of a pixel, -1 = none
-  std::vector<Place> places_;
-  std::vector<bool> used_;
+  std::vector<std::int32_t> rows_;  // the first place of each, and the end of all
+  std::unique_ptr<Place[]> places_;
+  std::size_t count_ = 0;
+  std::vector<std::uint8_t> used_;    // a place each
   std::vector<std::int32_t> region_;  // its seed first
 };
 

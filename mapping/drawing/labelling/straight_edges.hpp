@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "mapping/drawing/gray_image.hpp"
 #include "mapping/drawing/pixel_segment.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::mapping {
 

@@ -45,8 +45,10 @@ bool merge_once(DrawnLines& lines, double largest_gap_px) {
   const LineIndex index(lines, kCell);
   std::vector<std::size_t> order(lines.size());
   std::iota(order.begin(), order.end(), 0);
+  std::vector<double> lengths;
+  for (const DrawnLine& line : lines) lengths.push_back(line.length_px());
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return lines[a].length_px() > lines[b].length_px(); });
+                   [&](std::size_t a, std::size_t b) { return lengths[a] > lengths[b]; });
   std::vector<bool> gone(lines.size(), false);
   bool changed = false;
   for (const std::size_t i : order) {

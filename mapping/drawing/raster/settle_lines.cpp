@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <opencv2/core/utility.hpp>
 #include <vector>
 
 #include "core/median.hpp"
@@ -135,9 +136,12 @@ class Settler {
 
 void settle_lines(DrawnLines& lines, const GreyDrawing& drawing) {
   if (drawing.image.empty()) return;
-  Settler settler(drawing);
-  for (DrawnLine& line : lines)
-    if (!line.rejected && line.length_px() > 0) settler.settle(line);
+  cv::parallel_for_({0, static_cast<int>(lines.size())}, [&](const cv::Range& some) {
+    Settler settler(drawing);
+    for (int i = some.start; i < some.end; ++i)
+      if (DrawnLine& line = lines[static_cast<std::size_t>(i)]; !line.rejected && line.length_px() > 0)
+        settler.settle(line);
+  });
 }
 
 }  // namespace madori::mapping

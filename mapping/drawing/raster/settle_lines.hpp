@@ -2,8 +2,8 @@
 
 #include <opencv2/core/types.hpp>
 
-#include "mapping/drawing/gray_image.hpp"
 #include "mapping/drawing/raster/drawn_line.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::mapping {
 

@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "core/result.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
 #include "mapping/drawing/vector/dxf_layers.hpp"
 #include "mapping/drawing/vector/dxf_lines.hpp"
+#include "mapping/picture/load_image.hpp"
 
 namespace madori::mapping {
 namespace {

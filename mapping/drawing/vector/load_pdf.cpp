@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/result.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
+#include "mapping/picture/load_image.hpp"
 
 namespace madori::mapping {
 namespace {

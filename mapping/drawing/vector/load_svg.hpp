@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "mapping/drawing/gray_image.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::mapping {
 

@@ -8,8 +8,8 @@
 #include "localization/drawing_fit/wall_lines.hpp"
 #include "localization/memory/memory.hpp"
 #include "localization/scan_points.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
 #include "mapping/drawing/read_drawing.hpp"
+#include "mapping/picture/load_image.hpp"
 #include "sensors/carmen/reader.hpp"
 
 namespace madori::bench {

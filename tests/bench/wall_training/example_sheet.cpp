@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/result.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
+#include "mapping/picture/load_image.hpp"
 
 namespace madori::training {
 namespace {

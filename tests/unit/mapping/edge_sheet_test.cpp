@@ -42,7 +42,7 @@ double free_px(const EdgeSheet& sheet, std::size_t from, double side, double t, 
   for (double d = 0.6; d < far; d += 0.02) {
     const double x = u + side * d * edge.normal.x, y = v + side * d * edge.normal.y;
     if (!sheet.inside(x, y)) break;
-    const int met = sheet.edge_at[sheet.pixel(x, y)];
+    const int met = sheet.map.edge_at(sheet.pixel(x, y));
     if (met >= 0 && met != static_cast<int>(from)) return d;
   }
   return far;
@@ -110,10 +110,36 @@ Region region_beside(const EdgeSheet& sheet, const cv::Mat& labels, const cv::Ma
                    labels == most)[0]};
 }
 
+cv::Mat clear_of(const EdgeSheet& sheet) {
+  cv::Mat clear(sheet.grey.height_px, sheet.grey.width_px, CV_32FC1);
+  std::size_t pixel = 0;
+  for (float& value : cv::Mat_<float>(clear)) value = sheet.map.clear_px(pixel++);
+  return clear;
+}
+
+TEST(EdgeMap, MeasuresAsOpenCvOnAnyNumberOfThreads) {
+  const EdgeSheet sheet = random_sheet(3);
+  const cv::Size size(sheet.grey.width_px, sheet.grey.height_px);
+  cv::Mat free(size, CV_8UC1), expected;
+  std::size_t pixel = 0;
+  for (std::uint8_t& value : cv::Mat_<std::uint8_t>(free)) value = sheet.map.edge_at(pixel++) < 0 ? 255 : 0;
+  cv::distanceTransform(free, expected, cv::DIST_L2, 3);
+  const int threads = cv::getNumThreads();
+  for (const int of : {1, 2, 5}) {
+    cv::setNumThreads(of);
+    EdgeMap map(size.width, size.height);
+    for (std::size_t i = 0; i < sheet.edges.size(); ++i)
+      map.draw(sheet.edges[i].segment, static_cast<int>(i));
+    map.measure_distances();
+    for (pixel = 0; pixel < map.size(); ++pixel)
+      ASSERT_EQ(map.clear_px(pixel), expected.at<float>(static_cast<int>(pixel))) << of << " at " << pixel;
+  }
+  cv::setNumThreads(threads);
+}
+
 TEST(EdgeRegions, AreTheConnectedComponentsBetweenEdges) {
   const EdgeSheet sheet = random_sheet(4);
-  const cv::Mat clear(sheet.grey.height_px, sheet.grey.width_px, CV_32FC1,
-                      const_cast<float*>(sheet.clear_px.data()));
+  const cv::Mat clear = clear_of(sheet);
   cv::Mat labels, stats, middles;
   cv::connectedComponentsWithStats(clear > 1.2, labels, stats, middles, 4, CV_32S);
   const auto regions = regions_beside(sheet);

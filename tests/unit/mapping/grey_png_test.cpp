@@ -1,5 +1,5 @@
 // PNG files are written by OpenCV here, with every filter, and read by the quick decoder.
-#include "mapping/drawing/raster/grey_png.hpp"
+#include "mapping/picture/grey_png.hpp"
 
 #include <gtest/gtest.h>
 

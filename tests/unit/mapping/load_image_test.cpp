@@ -1,5 +1,5 @@
 // Pictures are written by OpenCV here and read by the importer.
-#include "mapping/drawing/raster/load_image.hpp"
+#include "mapping/picture/load_image.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/result.hpp"
-#include "mapping/drawing/raster/image_header.hpp"
+#include "mapping/picture/image_header.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::mapping {

@@ -55,6 +55,21 @@ bool any_inside(const DetectedWalls& found, double u0, double v0, double u1, dou
   });
 }
 
+TEST(ReadDrawing, IsTheSameOnAnyNumberOfThreads) {
+  const GrayImage plan = small_plan();
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
+  const DetectedWalls one = read_drawing(plan, {});
+  for (const int several : {2, 5}) {
+    cv::setNumThreads(several);
+    const DetectedWalls found = read_drawing(plan, {});
+    EXPECT_EQ(found.walls, one.walls) << several;
+    EXPECT_EQ(found.probabilities, one.probabilities) << several;
+    EXPECT_EQ(found.rejected.size(), one.rejected.size()) << several;
+  }
+  cv::setNumThreads(threads);
+}
+
 TEST(ReadDrawing, BothFacesStayAndTheDoorStaysOpen) {
   const DetectedWalls found = read_drawing(small_plan(), {});
   EXPECT_GT(covered(found, {114, 114}, {1086, 114}), 940);

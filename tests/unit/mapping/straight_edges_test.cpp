@@ -7,8 +7,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "mapping/drawing/raster/cv_view.hpp"
-#include "mapping/drawing/raster/load_image.hpp"
+#include "mapping/picture/cv_view.hpp"
+#include "mapping/picture/load_image.hpp"
 
 namespace madori::mapping {
 namespace {

@@ -1,4 +1,4 @@
-#include "mapping/drawing/raster/grey_png.hpp"
+#include "mapping/picture/grey_png.hpp"
 
 #include <libdeflate.h>
 

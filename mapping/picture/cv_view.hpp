@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "mapping/drawing/gray_image.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::mapping {
 

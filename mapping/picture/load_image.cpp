@@ -1,4 +1,4 @@
-#include "mapping/drawing/raster/load_image.hpp"
+#include "mapping/picture/load_image.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "core/result.hpp"
-#include "mapping/drawing/raster/grey_png.hpp"
-#include "mapping/drawing/raster/image_header.hpp"
-#include "mapping/drawing/raster/quiet_stderr.hpp"
+#include "mapping/picture/grey_png.hpp"
+#include "mapping/picture/image_header.hpp"
+#include "mapping/picture/quiet_stderr.hpp"
 
 namespace madori::mapping {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "mapping/drawing/gray_image.hpp"
+#include "mapping/picture/gray_image.hpp"
 
 namespace madori::mapping {
 

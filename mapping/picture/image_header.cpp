@@ -1,4 +1,4 @@
-#include "mapping/drawing/raster/image_header.hpp"
+#include "mapping/picture/image_header.hpp"
 
 #include <algorithm>
 #include <array>
