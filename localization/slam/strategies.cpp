@@ -48,27 +48,6 @@ Pose locally_likeliest(const ScanPoints& scan, const PointMap& map, const Pose& 
   return found ? found->map_from_base : assumed;
 }
 
-/// Algorithm 1 over all candidates, most like the scan first; those of a block share the points they see.
-std::vector<RdnmResult> globally_likeliest(const ScanPoints& scan, const PointMap& map,
-                                           const StrategyOptions& options) {
-  constexpr double kBlockM = 5.0;
-  const std::vector<Point2<Map>> points = thinned(map.points(), options.view_spacing_m);
-  std::map<std::pair<int, int>, std::vector<Point2<Map>>> blocks;
-  for (const Point2<Map>& p : global_candidates(map, options.grid_m, options.clearance_m))
-    blocks[{static_cast<int>(std::floor(p.x_m / kBlockM)), static_cast<int>(std::floor(p.y_m / kBlockM))}]
-        .push_back(p);
-  std::vector<RdnmResult> all;
-  for (const auto& [at, candidates] : blocks) {
-    const Point2<Map> centre{(at.first + 0.5) * kBlockM, (at.second + 0.5) * kBlockM};
-    const auto around = points_around(points, centre, options.global_view_m + 0.5 * kBlockM);
-    const auto ranked = rdnm_ranked(scan, around, candidates, options.rdn);
-    all.insert(all.end(), ranked.begin(), ranked.end());
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.difference_m < b.difference_m; });
-  return all;
-}
-
 bool succeeded(const RegistrationResult& fit, const StrategyOptions& options) {
   return fit.e_psr_m < options.most_e_psr_m && fit.near_fraction >= options.least_near;
 }
@@ -77,6 +56,23 @@ std::optional<StrategyResult> refined(const ScanPoints& scan, const PointMap& ma
                                       Strategy strategy, const StrategyOptions& options) {
   const RegistrationResult fit = point_icp(scan, map, rough, options.icp);
   return succeeded(fit, options) ? std::optional(StrategyResult{fit, strategy}) : std::nullopt;
+}
+
+/// The best of them at different places: many candidates lead to the same one.
+std::vector<RegistrationResult> distinct(const std::vector<RegistrationResult>& fits, std::size_t most) {
+  constexpr double kSameM = 0.15;
+  constexpr double kSameRad = 0.05;
+  std::vector<RegistrationResult> kept;
+  for (const RegistrationResult& fit : fits) {
+    if (kept.size() == most) break;
+    const Pose& at = fit.map_from_base;
+    if (std::none_of(kept.begin(), kept.end(), [&](const RegistrationResult& k) {
+          return distance_m(k.map_from_base.translation(), at.translation()) < kSameM &&
+                 std::abs(wrap_angle(k.map_from_base.yaw_rad() - at.yaw_rad())) < kSameRad;
+        }))
+      kept.push_back(fit);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -108,18 +104,54 @@ std::vector<Point2<Map>> global_candidates(const PointMap& map, double grid_m, d
   return candidates;
 }
 
+GlobalViews::GlobalViews(const PointMap& map, const StrategyOptions& options) {
+  constexpr double kBlockM = 5.0;  // the candidates of a block share the points they see
+  const std::vector<Point2<Map>> points = thinned(map.points(), options.view_spacing_m);
+  std::map<std::pair<int, int>, std::vector<Point2<Map>>> blocks;
+  for (const Point2<Map>& p : global_candidates(map, options.grid_m, options.clearance_m))
+    blocks[{static_cast<int>(std::floor(p.x_m / kBlockM)), static_cast<int>(std::floor(p.y_m / kBlockM))}]
+        .push_back(p);
+  for (const auto& [at, candidates] : blocks) {
+    const Point2<Map> centre{(at.first + 0.5) * kBlockM, (at.second + 0.5) * kBlockM};
+    const auto around = points_around(points, centre, options.global_view_m + 0.5 * kBlockM);
+    for (const Point2<Map>& candidate : candidates) {
+      places_.push_back(candidate);
+      views_.push_back(rdn<Map>(around, candidate, options.rdn));
+    }
+  }
+}
+
+std::vector<RdnmResult> GlobalViews::ranked(const ScanPoints& scan, const RdnOptions& options) const {
+  return rdnm_ranked(scan, places_, views_, options);
+}
+
 std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,
-                                                  const StrategyOptions& options) {
-  const std::vector<RdnmResult> ranked = globally_likeliest(scan, map, options);
-  StrategyOptions alone = options;
-  alone.icp.prior_information.setZero();
-  const auto worth = [](const StrategyResult& r) { return r.fit.near_fraction / (0.01 + r.fit.e_psr_m); };
+                                                  const GlobalViews& views, const StrategyOptions& options) {
+  const auto worth = [](const RegistrationResult& fit) { return fit.near_fraction / (0.01 + fit.e_psr_m); };
+  PointIcpOptions exact = options.icp;
+  exact.prior_information.setZero();
+  PointIcpOptions rough = exact;
+  rough.max_iterations = options.rough_iterations;
+  rough.coarse_points = options.rough_points;
+  std::vector<RegistrationResult> fits;
+  for (const RdnmResult& candidate : views.ranked(scan, options.rdn)) {
+    if (fits.size() == options.refined) break;
+    fits.push_back(point_icp(scan, map, candidate.map_from_base, rough));
+  }
+  std::stable_sort(fits.begin(), fits.end(),
+                   [&](const auto& a, const auto& b) { return worth(a) > worth(b); });
   std::optional<StrategyResult> best;
-  for (std::size_t i = 0; i < std::min(options.refined, ranked.size()); ++i) {
-    const auto found = refined(scan, map, ranked[i].map_from_base, Strategy::Absolute, alone);
-    if (found && (!best || worth(*found) > worth(*best))) best = found;
+  for (const RegistrationResult& start : distinct(fits, options.refined_exactly)) {
+    const RegistrationResult fit = point_icp(scan, map, start.map_from_base, exact);
+    if (succeeded(fit, options) && (!best || worth(fit) > worth(best->fit)))
+      best = StrategyResult{fit, Strategy::Absolute};
   }
   return best;
+}
+
+std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,
+                                                  const StrategyOptions& options) {
+  return localize_absolutely(scan, map, GlobalViews(map, options), options);
 }
 
 std::optional<StrategyResult> localize_around(const ScanPoints& scan, const PointMap& map,

@@ -25,7 +25,10 @@ struct StrategyOptions {
   double grid_m = 0.5;  ///< g of the global candidates
   double clearance_m =
       0.25;                  ///< from every point of the map: where the vehicle would not fit is no candidate
-  std::size_t refined = 300;  ///< candidates of Algorithm 2 that ICP looks at (the paper: the best alone)
+  std::size_t refined = 300;  ///< candidates of Algorithm 2 that ICP looks at (the paper: the best alone),
+  int rough_iterations = 8;   ///< first with so many steps,
+  std::size_t rough_points = 90;     ///< and about so many points of the scan;
+  std::size_t refined_exactly = 20;  ///< then the best of them to the end
   double view_radius_m = 30.0;  ///< the map's points within it make the candidates' views,
   double global_view_m = 15.0;  ///< the same for the candidates of Algorithm 2, of which there are thousands,
   double view_spacing_m = 0.15;  ///< thinned to this: a section averages over half a metre anyway
@@ -45,7 +48,24 @@ struct StrategyResult {
 [[nodiscard]] std::vector<Point2<Map>> global_candidates(const PointMap& map, double grid_m,
                                                          double clearance_m);
 
+/// What RDN sees of a map from every candidate position: made once for all scans that are sought in it.
+class GlobalViews {
+ public:
+  GlobalViews(const PointMap& map, const StrategyOptions& options);
+
+  /// Algorithm 1 over all candidates, most like the scan first.
+  [[nodiscard]] std::vector<RdnmResult> ranked(const ScanPoints& scan, const RdnOptions& options) const;
+  [[nodiscard]] std::size_t size() const { return places_.size(); }
+
+ private:
+  std::vector<Point2<Map>> places_;
+  std::vector<RdnDescriptor> views_;
+};
+
 /// Algorithm 2: RDNM over the whole map's grid, then ICP; nothing when e_psr stays above the limit.
+[[nodiscard]] std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,
+                                                                const GlobalViews& views,
+                                                                const StrategyOptions& options = {});
 [[nodiscard]] std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,
                                                                 const StrategyOptions& options = {});
 
