@@ -83,16 +83,16 @@ void GrowingMap::add(const ScanPoints& scan, const Transform2<Map, Base>& map_fr
     voxel.sum_y += p.y_m;
     ++voxel.seen;
   }
-  std::vector<std::pair<std::uint64_t, Point2<Map>>> sorted;  // the order of a hash is nobody's
-  sorted.reserve(voxels_.size());
-  for (const auto& [key, v] : voxels_) sorted.push_back({key, {v.sum_x / v.seen, v.sum_y / v.seen}});
+  std::vector<std::pair<std::uint64_t, Voxel>> sorted(voxels_.begin(), voxels_.end());  // no hash's order
   std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Point2<Map>> points;
-  points.reserve(sorted.size());
-  for (const auto& [key, p] : sorted) points.push_back(p);
+  NoisyPoints cloud;
+  for (const auto& [key, v] : sorted) {
+    cloud.points.push_back({v.sum_x / v.seen, v.sum_y / v.seen});
+    cloud.weights.push_back(v.seen);
+  }
   noise_m_ += (noise_m - noise_m_) / static_cast<double>(++scans_);
-  points_ =
-      PointMap(std::move(points), std::max(options_.least_surface_m, options_.surface_sigmas * noise_m_));
+  cloud.noise_m = std::max(options_.least_noise_m, noise_m_);
+  points_ = PointMap(std::move(cloud), std::max(options_.least_surface_m, options_.surface_sigmas * noise_m_));
 }
 
 double GrowingMap::density_per_m2() const {
