@@ -69,6 +69,8 @@ StrategyOptions SlowLidarMapper::strategies_for(const ScanPoints& points) const 
   options.most_e_psr_m = e_max_m(noise);
   options.icp.last_scale_m = std::max(options.icp.last_scale_m, 1.5 * noise);
   options.icp.inlier_distance_m = std::max(options.icp.inlier_distance_m, noise);
+  options.likelihood.sigma_m = std::max(options.likelihood.sigma_m, noise);
+  options.likelihood.margin_m = std::max(options.likelihood.margin_m, 3.0 * noise);
   return options;
 }
 

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <unordered_set>
 #include <utility>
 
 #include "localization/registration/cpd.hpp"
+#include "localization/slam/range_ring.hpp"
 
 namespace madori::localization {
 namespace {
@@ -75,6 +77,26 @@ std::vector<RegistrationResult> distinct(const std::vector<RegistrationResult>& 
   return kept;
 }
 
+/// ICP of all candidates with few steps and points, and of the best of them to the end.
+std::vector<RegistrationResult> refined_exactly(const ScanPoints& scan, const PointMap& map,
+                                                std::span<const RdnmResult> candidates,
+                                                const StrategyOptions& options) {
+  const auto worth = [](const RegistrationResult& fit) { return fit.near_fraction / (0.01 + fit.e_psr_m); };
+  PointIcpOptions exact = options.icp;
+  exact.prior_information.setZero();
+  PointIcpOptions rough = exact;
+  rough.max_iterations = options.rough_iterations;
+  rough.coarse_points = options.rough_points;
+  std::vector<RegistrationResult> fits;
+  for (const RdnmResult& candidate : candidates)
+    fits.push_back(point_icp(scan, map, candidate.map_from_base, rough));
+  std::stable_sort(fits.begin(), fits.end(),
+                   [&](const auto& a, const auto& b) { return worth(a) > worth(b); });
+  fits = distinct(fits, options.refined_exactly);
+  for (RegistrationResult& fit : fits) fit = point_icp(scan, map, fit.map_from_base, exact);
+  return fits;
+}
+
 }  // namespace
 
 const char* to_string(Strategy strategy) {
@@ -125,27 +147,42 @@ std::vector<RdnmResult> GlobalViews::ranked(const ScanPoints& scan, const RdnOpt
   return rdnm_ranked(scan, places_, views_, options);
 }
 
+double log_likelihood(const ScanPoints& scan, const PointMap& map, const Pose& pose,
+                      const LikelihoodOptions& options) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double squared = map.nearest(pose * scan.point(i)).squared_distance_m2;
+    const double hit = std::exp(-0.5 * squared / (options.sigma_m * options.sigma_m));
+    sum += std::log(options.other + (1.0 - options.other) * hit);
+  }
+  const RangeRing ring(scan, {});
+  std::vector<bool> passed(RangeRing::kSize, false);
+  const Transform2<Base, Map> base_from_map = pose.inverse();
+  for (const Point2<Map>& p : map.points()) {
+    std::size_t direction = 0;
+    if (distance_m(p, pose.translation()) < options.view_m &&
+        ring.passes(base_from_map * p, options.margin_m, direction))
+      passed[direction] = true;
+  }
+  const auto directions = static_cast<double>(std::count(passed.begin(), passed.end(), true));
+  const double beams = directions / RangeRing::kSize * static_cast<double>(scan.size()) * options.turn_share;
+  return sum + beams * std::log(options.other);
+}
+
 std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,
                                                   const GlobalViews& views, const StrategyOptions& options) {
-  const auto worth = [](const RegistrationResult& fit) { return fit.near_fraction / (0.01 + fit.e_psr_m); };
-  PointIcpOptions exact = options.icp;
-  exact.prior_information.setZero();
-  PointIcpOptions rough = exact;
-  rough.max_iterations = options.rough_iterations;
-  rough.coarse_points = options.rough_points;
-  std::vector<RegistrationResult> fits;
-  for (const RdnmResult& candidate : views.ranked(scan, options.rdn)) {
-    if (fits.size() == options.refined) break;
-    fits.push_back(point_icp(scan, map, candidate.map_from_base, rough));
-  }
-  std::stable_sort(fits.begin(), fits.end(),
-                   [&](const auto& a, const auto& b) { return worth(a) > worth(b); });
+  const std::vector<RdnmResult> ranked = views.ranked(scan, options.rdn);
+  const double enough = options.enough_a_point * static_cast<double>(scan.size());
   std::optional<StrategyResult> best;
-  for (const RegistrationResult& start : distinct(fits, options.refined_exactly)) {
-    const RegistrationResult fit = point_icp(scan, map, start.map_from_base, exact);
-    if (succeeded(fit, options) && (!best || worth(fit) > worth(best->fit)))
+  double most = -INFINITY;
+  for (std::size_t i = 0; i < std::min(ranked.size(), options.most_refined) && most < enough; i += options.refined)
+    for (const RegistrationResult& fit :
+         refined_exactly(scan, map, std::span(ranked).subspan(i).first(std::min(options.refined, ranked.size() - i)), options)) {
+      const double likelihood = log_likelihood(scan, map, fit.map_from_base, options.likelihood);
+      if (!succeeded(fit, options) || likelihood <= most) continue;
+      most = likelihood;
       best = StrategyResult{fit, Strategy::Absolute};
-  }
+    }
   return best;
 }
 

@@ -2,7 +2,8 @@
 // is slower); the map is made of every second one, the others are sought in it by Algorithm 2 without any
 // start, with candidates 0.2, 0.5 and 0.8 m apart. Two counts of success: within 0.3 m of the reference after
 // the map was laid rigidly on it, and within 0.3 m of where the map itself has the place (the nearest scan of
-// the map, and the reference's motion from there). `bench_slow_logs FOLDER [log[,log] [graph|slow-lidar [g]]]`
+// the map, and the reference's motion from there). `bench_slow_logs FOLDER [log[,log] [graph|slow-lidar [g [n]]]]`;
+// n: every n-th of the scans that are sought
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -107,20 +108,19 @@ Pose by_map(const Built& built, const Pose& reference) {
   return built.placed[nearest] * (built.scans[nearest].reference.inverse() * reference);
 }
 
-void seek(const Built& built, const std::vector<Look>& sought, const StrategyOptions& options, double grid_m) {
+void seek(const Built& built, const std::vector<Look>& sought, double grid_m, std::size_t every) {
   constexpr double kRightM = 0.3;
-  StrategyOptions at = options;
+  StrategyOptions at;
   at.grid_m = grid_m;
+  if (std::getenv("B_CAP")) at.rdn.norm = RdnNorm::CappedMean;
   const GlobalViews views(built.map.points(), at);
-  int answered = 0, by_reference = 0, in_map = 0;
+  int tried = 0, answered = 0, by_reference = 0, in_map = 0;
   double e_psr = 0.0;
   const std::clock_t before = std::clock();
-  for (const Look& look : sought) {
+  for (std::size_t i = 0; i < sought.size(); i += every) {
+    const Look& look = sought[i];
+    ++tried;
     const auto found = localize_absolutely(look.points, built.map.points(), views, at);
-    if (std::getenv("MADORI_SHOW") != nullptr && found)
-      std::printf("# %.3f off %.3f e_psr %.3f near %.3f\n", to_seconds(look.stamp.time_since_epoch()),
-                  distance_m((built.reference_from_map * found->fit.map_from_base).translation(), look.reference.translation()),
-                  found->fit.e_psr_m, found->fit.near_fraction);
     if (!found) continue;
     ++answered;
     const Pose& pose = found->fit.map_from_base;
@@ -128,15 +128,15 @@ void seek(const Built& built, const std::vector<Look>& sought, const StrategyOpt
     in_map += distance_m(pose.translation(), by_map(built, look.reference).translation()) < kRightM;
     e_psr += found->fit.e_psr_m;
   }
-  const auto n = static_cast<double>(sought.size());
-  std::printf("| %.1f | %zu | %zu | %.1f %% | %.1f %% | %.1f %% | %.3f | %.0f |\n", grid_m, views.size(), sought.size(),
+  const auto n = static_cast<double>(tried);
+  std::printf("| %.1f | %zu | %d | %.1f %% | %.1f %% | %.1f %% | %.3f | %.0f |\n", grid_m, views.size(), tried,
               100.0 * answered / n, 100.0 * by_reference / n, 100.0 * in_map / n, e_psr / std::max(answered, 1),
               1e3 * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC / n);
   std::fflush(stdout);
 }
 
 void run(const std::filesystem::path& folder, const std::string& name, const std::string& method,
-         const std::vector<double>& grids) {
+         const std::vector<double>& grids, std::size_t every) {
   const auto mapper = method == "graph" ? std::unique_ptr<Mapper>(std::make_unique<GraphMapper>())
                                         : std::make_unique<SlowLidarMapper>();
   const Halves halves = through(*mapper, folder, name);
@@ -152,7 +152,7 @@ void run(const std::filesystem::path& folder, const std::string& name, const std
               "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
               name.c_str(), method.c_str(), map.scans.size(), halves.mapped.size(), off, most, map.map.density_per_m2());
   std::fflush(stdout);
-  for (const double g : grids) seek(map, halves.sought, {}, g);
+  for (const double g : grids) seek(map, halves.sought, g, every);
 }
 
 }  // namespace
@@ -163,7 +163,8 @@ int main(int argc, char** argv) {
   const std::string logs = argc > 2 ? argv[2] : "intel,aces,fr079";
   std::vector<double> grids{0.2, 0.5, 0.8};
   if (argc > 4) grids = {std::atof(argv[4])};
+  const std::size_t every = argc > 5 ? static_cast<std::size_t>(std::max(1, std::atoi(argv[5]))) : 1;
   for (const char* name : {"intel", "aces", "fr079"})
     if (logs.find(name) != std::string::npos)
-      madori::bench::run(argv[1], name, argc > 3 ? argv[3] : "graph", grids);
+      madori::bench::run(argv[1], name, argc > 3 ? argv[3] : "graph", grids, every);
 }
