@@ -171,7 +171,9 @@ double log_likelihood(const ScanPoints& scan, const PointMap& map, const Pose& p
 
 std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,
                                                   const GlobalViews& views, const StrategyOptions& options) {
-  const std::vector<RdnmResult> ranked = views.ranked(scan, options.rdn);
+  RdnOptions by = options.rdn;
+  by.norm = options.global_norm;
+  const std::vector<RdnmResult> ranked = views.ranked(scan, by);
   const double enough = options.enough_a_point * static_cast<double>(scan.size());
   std::optional<StrategyResult> best;
   double most = -INFINITY;

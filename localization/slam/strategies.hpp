@@ -44,6 +44,8 @@ struct StrategyOptions {
   double global_view_m = 15.0;  ///< the same for the candidates of Algorithm 2, of which there are thousands,
   double view_spacing_m = 0.15;  ///< thinned to this: a section averages over half a metre anyway
   RdnOptions rdn;
+  /// How Algorithm 2 ranks: in a building one open door is metres of difference, and the published norm squares it.
+  RdnNorm global_norm = RdnNorm::CappedMean;
   PointIcpOptions icp;
   LikelihoodOptions likelihood;
 };

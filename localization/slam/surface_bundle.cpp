@@ -249,6 +249,14 @@ void add_motion(const RelativeFactor& motion, const std::vector<Pose>& poses, Eq
   equations.pull_of(to) += by_to.transpose() * w * error;
 }
 
+/// A step leads no farther than the surfaces that it was worked out with were sought.
+Pose stepped(const Pose& pose, const Eigen::Vector3d& step, double most_m) {
+  constexpr double kMostRad = 0.1;
+  const double by = std::min({1.0, most_m / std::max(1e-12, std::hypot(step[0], step[1])),
+                              kMostRad / std::max(1e-12, std::abs(step[2]))});
+  return {pose.x_m() + by * step[0], pose.y_m() + by * step[1], pose.yaw_rad() + by * step[2]};
+}
+
 std::vector<Blot> cloud_of(const std::vector<ScanPoints>& scans, const std::vector<Pose>& poses) {
   std::vector<Blot> cloud;
   for (std::size_t s = 0; s < scans.size(); ++s)
@@ -272,16 +280,14 @@ std::vector<Pose> bundle_scans(const std::vector<ScanPoints>& scans, std::vector
     const Sayings sayings = listen(scans, poses, pieces, 0.5 * length_m, reach_m);
     Equations equations(poses.size());
     for (const auto& scans_of_piece : sayings)
-      if (is_one_line(scans_of_piece, options.most_spread * noise))
+      if (is_one_line(scans_of_piece, options.most_spread * noise * reach_m / last_m))
         add_piece(scans_of_piece, options.beams_a_point / (noise * noise), equations);
     for (const RelativeFactor& motion : wheels) add_motion(motion, poses, equations);
     for (std::uint32_t i = 0; i < poses.size(); ++i)
       equations.block(i, i) += (i == 0 ? 1e9 : 1e-3) * Eigen::Matrix3d::Identity();
     const Eigen::VectorXd step = equations.solve();
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      const auto d = step.segment<3>(3 * static_cast<Eigen::Index>(i));
-      poses[i] = Pose(poses[i].x_m() + d[0], poses[i].y_m() + d[1], poses[i].yaw_rad() + d[2]);
-    }
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      poses[i] = stepped(poses[i], step.segment<3>(3 * static_cast<Eigen::Index>(i)), reach_m);
     reach_m = std::max(last_m, options.shrink * reach_m);
   }
   return poses;

@@ -112,7 +112,6 @@ void seek(const Built& built, const std::vector<Look>& sought, double grid_m, st
   constexpr double kRightM = 0.3;
   StrategyOptions at;
   at.grid_m = grid_m;
-  if (std::getenv("B_CAP")) at.rdn.norm = RdnNorm::CappedMean;
   const GlobalViews views(built.map.points(), at);
   int tried = 0, answered = 0, by_reference = 0, in_map = 0;
   double e_psr = 0.0;
