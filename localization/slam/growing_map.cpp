@@ -57,7 +57,8 @@ void GrowingMap::add(const ScanPoints& scan, const Transform2<Map, Base>& map_fr
   }
   noise_m_ += (noise_m - noise_m_) / static_cast<double>(++scans_);
   cloud.noise_m = std::max(options_.least_noise_m, noise_m_);
-  points_ = PointMap(std::move(cloud), std::max(options_.least_surface_m, options_.surface_sigmas * noise_m_));
+  points_ =
+      PointMap(std::move(cloud), std::max(options_.least_surface_m, options_.surface_sigmas * noise_m_));
 }
 
 double GrowingMap::density_per_m2() const {

@@ -15,7 +15,7 @@ struct GrowingMapOptions {
   double least_surface_m = 0.2;  ///< the points this near make the surface at one, or in so many sigmas
   double surface_sigmas = 2.0;
   double least_noise_m = 0.03;  ///< of a point from its surface: real surfaces are no lines
-  int forgotten_after = 2;  ///< beams that passed a point by, more than saw it
+  int forgotten_after = 2;      ///< beams that passed a point by, more than saw it
 };
 
 /// A point map that grows scan by scan, is thinned to a point a voxel (the mean of what fell into it), and

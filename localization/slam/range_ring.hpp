@@ -39,8 +39,8 @@ class RangeRing {
     }
     return seen >= 2 ? least : 0.0;
   }
-  /// Whether beams end behind `p` by more than the margin, which grows with the distance: the heading errs, and
-  /// walls are slanted. Says in which direction.
+  /// Whether beams end behind `p` by more than the margin, which grows with the distance: the heading errs,
+  /// and walls are slanted. Says in which direction.
   [[nodiscard]] bool passes(const Point2<Base>& p, double margin_m, std::size_t& direction) const {
     constexpr double kMarginPerM = 0.03;
     const double dx = p.x_m - sensor_.x_m;

@@ -177,9 +177,11 @@ std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const 
   const double enough = options.enough_a_point * static_cast<double>(scan.size());
   std::optional<StrategyResult> best;
   double most = -INFINITY;
-  for (std::size_t i = 0; i < std::min(ranked.size(), options.most_refined) && most < enough; i += options.refined)
-    for (const RegistrationResult& fit :
-         refined_exactly(scan, map, std::span(ranked).subspan(i).first(std::min(options.refined, ranked.size() - i)), options)) {
+  for (std::size_t i = 0; i < std::min(ranked.size(), options.most_refined) && most < enough;
+       i += options.refined)
+    for (const RegistrationResult& fit : refined_exactly(
+             scan, map, std::span(ranked).subspan(i).first(std::min(options.refined, ranked.size() - i)),
+             options)) {
       const double likelihood = log_likelihood(scan, map, fit.map_from_base, options.likelihood);
       if (!succeeded(fit, options) || likelihood <= most) continue;
       most = likelihood;

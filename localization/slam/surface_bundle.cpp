@@ -5,7 +5,6 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -22,7 +21,9 @@ using Pose = Transform2<Map, Base>;
 class Cells {
  public:
   explicit Cells(double side_m) : side_m_(side_m) {}
-  void add(const Point2<Map>& p, std::uint32_t what) { cells_[key(cell(p.x_m), cell(p.y_m))].push_back(what); }
+  void add(const Point2<Map>& p, std::uint32_t what) {
+    cells_[key(cell(p.x_m), cell(p.y_m))].push_back(what);
+  }
   /// All that is in the cell of `p` and those around it.
   template <class Visit>
   void around(const Point2<Map>& p, const Visit& visit) const {
@@ -35,7 +36,8 @@ class Cells {
  private:
   [[nodiscard]] int cell(double m) const { return static_cast<int>(std::floor(m / side_m_)); }
   static std::uint64_t key(int ix, int iy) {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(ix)) << 32U) | static_cast<std::uint32_t>(iy);
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(ix)) << 32U) |
+           static_cast<std::uint32_t>(iy);
   }
   double side_m_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
@@ -50,7 +52,8 @@ struct Blot {
 std::vector<Blot> blots(const std::vector<Blot>& of, double side_m) {
   std::map<std::pair<int, int>, Blot> cells;
   for (const Blot& b : of) {
-    Blot& sum = cells[{static_cast<int>(std::floor(b.at.x_m / side_m)), static_cast<int>(std::floor(b.at.y_m / side_m))}];
+    Blot& sum = cells[{static_cast<int>(std::floor(b.at.x_m / side_m)),
+                       static_cast<int>(std::floor(b.at.y_m / side_m))}];
     sum.at = {sum.at.x_m + b.weight * b.at.x_m, sum.at.y_m + b.weight * b.at.y_m};
     sum.weight += b.weight;
   }
@@ -76,8 +79,8 @@ struct Piece {
 
 /// One step of a piece towards the ridge: total least squares within a window that is longer than wide, and
 /// moves across the surface only. False where there are too few points for a line.
-bool step_to_ridge(Piece& piece, const std::vector<Blot>& cloud, const Cells& cells, double length_m, double width_m,
-                   double least_points) {
+bool step_to_ridge(Piece& piece, const std::vector<Blot>& cloud, const Cells& cells, double length_m,
+                   double width_m, double least_points) {
   const bool is_turned = piece.normal_x != 0.0 || piece.normal_y != 0.0;
   double w_sum = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   cells.around(piece.at, [&](std::uint32_t i) {
@@ -100,7 +103,8 @@ bool step_to_ridge(Piece& piece, const std::vector<Blot>& cloud, const Cells& ce
 }
 
 /// Ridges of the cloud, at about `length_m` from each other, strongest first.
-std::vector<Piece> ridges(const std::vector<Blot>& points, double length_m, double width_m, double least_points) {
+std::vector<Piece> ridges(const std::vector<Blot>& points, double length_m, double width_m,
+                          double least_points) {
   constexpr int kSteps = 5;
   const std::vector<Blot> cloud = blots(points, 0.2 * std::min(length_m, width_m));
   Cells cells(2.5 * std::max(length_m, width_m));
@@ -113,13 +117,15 @@ std::vector<Piece> ridges(const std::vector<Blot>& points, double length_m, doub
       is_line = step_to_ridge(piece, cloud, cells, length_m, width_m, least_points);
     if (is_line) found.push_back(piece);
   }
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.weight > b.weight; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.weight > b.weight; });
   std::vector<Piece> apart;
   Cells taken(length_m);
   for (const Piece& piece : found) {
     bool is_new = true;
     taken.around(piece.at, [&](std::uint32_t k) {
-      is_new &= std::abs(apart[k].across(piece.at)) > 0.5 * width_m || std::abs(apart[k].along(piece.at)) > 0.6 * length_m ||
+      is_new &= std::abs(apart[k].across(piece.at)) > 0.5 * width_m ||
+                std::abs(apart[k].along(piece.at)) > 0.6 * length_m ||
                 std::abs(apart[k].normal_x * piece.normal_x + apart[k].normal_y * piece.normal_y) < 0.8;
     });
     if (!is_new) continue;
@@ -142,8 +148,8 @@ struct Saying {
 using Sayings = std::vector<std::map<std::uint32_t, Saying>>;  ///< by piece, then by scan
 
 /// Every point draws at the piece that it lies nearest to.
-Sayings listen(const std::vector<ScanPoints>& scans, const std::vector<Pose>& poses, const std::vector<Piece>& pieces,
-               double length_m, double scale_m) {
+Sayings listen(const std::vector<ScanPoints>& scans, const std::vector<Pose>& poses,
+               const std::vector<Piece>& pieces, double length_m, double scale_m) {
   const double reach_m = 2.0 * scale_m;
   Cells cells(std::max(reach_m, length_m));
   for (std::uint32_t k = 0; k < pieces.size(); ++k) cells.add(pieces[k].at, k);
@@ -162,8 +168,9 @@ Sayings listen(const std::vector<ScanPoints>& scans, const std::vector<Pose>& po
       const double r = nearest->across(p);
       const double ratio = 1.0 + r * r / (scale_m * scale_m);
       const double w = scans[s].weight_of(i) / (ratio * ratio);
-      const Eigen::Vector3d j(nearest->normal_x, nearest->normal_y,
-                              nearest->normal_y * (p.x_m - poses[s].x_m()) - nearest->normal_x * (p.y_m - poses[s].y_m()));
+      const Eigen::Vector3d j(
+          nearest->normal_x, nearest->normal_y,
+          nearest->normal_y * (p.x_m - poses[s].x_m()) - nearest->normal_x * (p.y_m - poses[s].y_m()));
       const Eigen::Vector2d l(-1.0, -nearest->along(p));
       Saying& saying = sayings[static_cast<std::size_t>(nearest - pieces.data())][s];
       saying.squares_m2 += r * r, saying.points += 1.0;
@@ -176,8 +183,9 @@ Sayings listen(const std::vector<ScanPoints>& scans, const std::vector<Pose>& po
   return sayings;
 }
 
-/// Points of a corner, or of two surfaces, spread wider than noise alone spreads them about a line. Such a piece
-/// leans to whichever of its surfaces a scan saw more of, which bends the map: 2 % of its size at 0.3 m.
+/// Points of a corner, or of two surfaces, spread wider than noise alone spreads them about a line. Such a
+/// piece leans to whichever of its surfaces a scan saw more of, which bends the map: 2 % of its size at 0.3
+/// m.
 bool is_one_line(const std::map<std::uint32_t, Saying>& scans, double most_m) {
   double squares_m2 = 0.0, points = 0.0;
   for (const auto& [s, saying] : scans) squares_m2 += saying.squares_m2, points += saying.points;
@@ -204,7 +212,8 @@ Eigen::VectorXd Equations::solve() const {
   for (const auto& [at, m] : blocks)
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c)
-        entries.emplace_back(3 * static_cast<int>(at.first) + r, 3 * static_cast<int>(at.second) + c, m(r, c));
+        entries.emplace_back(3 * static_cast<int>(at.first) + r, 3 * static_cast<int>(at.second) + c,
+                             m(r, c));
   Eigen::SparseMatrix<double> lower(pull.size(), pull.size());
   lower.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factors(lower);
@@ -243,8 +252,10 @@ void add_motion(const RelativeFactor& motion, const std::vector<Pose>& poses, Eq
   const Eigen::Matrix3d& w = motion.information;
   equations.block(from, from) += by_from.transpose() * w * by_from;
   equations.block(to, to) += by_to.transpose() * w * by_to;
-  if (to > from) equations.block(to, from) += by_to.transpose() * w * by_from;
-  else equations.block(from, to) += by_from.transpose() * w * by_to;
+  if (to > from)
+    equations.block(to, from) += by_to.transpose() * w * by_from;
+  else
+    equations.block(from, to) += by_from.transpose() * w * by_to;
   equations.pull_of(from) += by_from.transpose() * w * error;
   equations.pull_of(to) += by_to.transpose() * w * error;
 }
@@ -268,7 +279,8 @@ std::vector<Blot> cloud_of(const std::vector<ScanPoints>& scans, const std::vect
 }  // namespace
 
 std::vector<Pose> bundle_scans(const std::vector<ScanPoints>& scans, std::vector<Pose> poses,
-                               const std::vector<RelativeFactor>& wheels, double noise_m, const BundleOptions& options) {
+                               const std::vector<RelativeFactor>& wheels, double noise_m,
+                               const BundleOptions& options) {
   const double noise = std::max(noise_m, options.least_noise_m);
   const double length_m = std::max(options.length_m, options.length_sigmas * noise);
   const double last_m = options.last_sigmas * noise;

@@ -1,9 +1,9 @@
 // Table 1 of Kis, Csemesz, Csáji (2021): a hall of 200 m², 270 degrees in steps of half a degree, 0.5 Hz,
 // 0.3 m/s, about 85 scans, Gaussian noise on x and y of every point; ten runs a level, then ten absolute
 // localizations a run on the map that it built. e_psr is to the points of that map. A place is right within
-// 0.2 m and 2 degrees: in the map, of where the map has it (its nearest scan, and the true motion from there),
-// which is what the published success is about; by truth, after the map was laid rigidly on the truth.
-// `bench_slow_lidar [runs [first seed [sigma]]]`
+// 0.2 m and 2 degrees: in the map, of where the map has it (its nearest scan, and the true motion from
+// there), which is what the published success is about; by truth, after the map was laid rigidly on the
+// truth. `bench_slow_lidar [runs [first seed [sigma]]]`
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -124,8 +124,7 @@ void run(double sigma_m, unsigned seed, Level& level) {
   for (const auto& moment : moments) {
     (void)mapper.on_odometry(moment.odometry);
     if (!moment.has_scan) continue;
-    const PoseEstimate pose =
-        mapper.on_scan(moment.scan.stamp, noisy(moment.scan, sigma_m, engine), {});
+    const PoseEstimate pose = mapper.on_scan(moment.scan.stamp, noisy(moment.scan, sigma_m, engine), {});
     ++level.scans;
     level.lost += pose.health.state == LocalizationState::Lost;
     if (pose.health.state == LocalizationState::Lost) continue;
@@ -141,11 +140,13 @@ void run(double sigma_m, unsigned seed, Level& level) {
 }
 
 void print(double sigma_m, const Level& level) {
-  std::printf("| %.1f | %d | %d | %.3f (%.3f) | %.3f | %.3f | %.3f (%.3f) | %.3f | %.3f | %.1f %% | %.1f %% | %.0f |\n",
-              sigma_m, level.scans, level.lost, level.relative.mean(), level.relative.deviation(),
-              level.causal_truth.mean(), level.final_truth.mean(), level.absolute.mean(), level.absolute.deviation(),
-              level.absolute_map.mean(), level.absolute_truth.mean(), 100.0 * level.right_in_map / level.tried,
-              100.0 * level.right / level.tried, level.density.mean());
+  std::printf(
+      "| %.1f | %d | %d | %.3f (%.3f) | %.3f | %.3f | %.3f (%.3f) | %.3f | %.3f | %.1f %% | %.1f %% | %.0f "
+      "|\n",
+      sigma_m, level.scans, level.lost, level.relative.mean(), level.relative.deviation(),
+      level.causal_truth.mean(), level.final_truth.mean(), level.absolute.mean(), level.absolute.deviation(),
+      level.absolute_map.mean(), level.absolute_truth.mean(), 100.0 * level.right_in_map / level.tried,
+      100.0 * level.right / level.tried, level.density.mean());
   std::fflush(stdout);
 }
 
@@ -158,7 +159,8 @@ int main(int argc, char** argv) {
   std::vector<double> sigmas{0.0, 0.1, 0.2, 0.3};
   if (argc > 3) sigmas = {std::atof(argv[3])};
   std::printf(
-      "| sigma m | scans | lost | relative e_psr m | causal off truth m | final off truth m | absolute e_psr m | "
+      "| sigma m | scans | lost | relative e_psr m | causal off truth m | final off truth m | absolute e_psr "
+      "m | "
       "off the map m | off truth m | right in the map | right by truth | points/m2 |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const double sigma : sigmas) {

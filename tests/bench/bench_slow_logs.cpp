@@ -1,14 +1,14 @@
-// Table 2 of Kis, Csemesz, Csáji (2021) on recorded logs: scans at 0.5 Hz at most (the log's own rate where it
-// is slower); the map is made of every second one, the others are sought in it by Algorithm 2 without any
+// Table 2 of Kis, Csemesz, Csáji (2021) on recorded logs: scans at 0.5 Hz at most (the log's own rate where
+// it is slower); the map is made of every second one, the others are sought in it by Algorithm 2 without any
 // start, with candidates 0.2, 0.5 and 0.8 m apart. Two counts of success: within 0.3 m of the reference after
 // the map was laid rigidly on it, and within 0.3 m of where the map itself has the place (the nearest scan of
-// the map, and the reference's motion from there). `bench_slow_logs FOLDER [log[,log] [graph|slow-lidar [g [n]]]]`;
-// n: every n-th of the scans that are sought
+// the map, and the reference's motion from there). `bench_slow_logs FOLDER [log[,log] [graph|slow-lidar [g
+// [n]]]]`; n: every n-th of the scans that are sought
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -86,7 +86,8 @@ Built built(const FinishedMap& finished, const std::vector<Look>& mapped) {
   Built built;
   std::vector<Pose> references;
   for (const MomentPose& pose : finished.scans) {
-    const auto at = std::find_if(mapped.begin(), mapped.end(), [&](const Look& l) { return l.stamp == pose.stamp; });
+    const auto at =
+        std::find_if(mapped.begin(), mapped.end(), [&](const Look& l) { return l.stamp == pose.stamp; });
     if (at == mapped.end()) continue;
     built.scans.push_back(*at);
     built.placed.push_back(pose.map_from_base);
@@ -123,13 +124,15 @@ void seek(const Built& built, const std::vector<Look>& sought, double grid_m, st
     if (!found) continue;
     ++answered;
     const Pose& pose = found->fit.map_from_base;
-    by_reference += distance_m((built.reference_from_map * pose).translation(), look.reference.translation()) < kRightM;
+    by_reference +=
+        distance_m((built.reference_from_map * pose).translation(), look.reference.translation()) < kRightM;
     in_map += distance_m(pose.translation(), by_map(built, look.reference).translation()) < kRightM;
     e_psr += found->fit.e_psr_m;
   }
   const auto n = static_cast<double>(tried);
-  std::printf("| %.1f | %zu | %d | %.1f %% | %.1f %% | %.1f %% | %.3f | %.0f |\n", grid_m, views.size(), tried,
-              100.0 * answered / n, 100.0 * by_reference / n, 100.0 * in_map / n, e_psr / std::max(answered, 1),
+  std::printf("| %.1f | %zu | %d | %.1f %% | %.1f %% | %.1f %% | %.3f | %.0f |\n", grid_m, views.size(),
+              tried, 100.0 * answered / n, 100.0 * by_reference / n, 100.0 * in_map / n,
+              e_psr / std::max(answered, 1),
               1e3 * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC / n);
   std::fflush(stdout);
 }
@@ -142,14 +145,18 @@ void run(const std::filesystem::path& folder, const std::string& name, const std
   const Built map = built(mapper->finish(), halves.mapped);
   double off = 0.0, most = 0.0;
   for (std::size_t i = 0; i < map.scans.size(); ++i) {
-    const double d = distance_m((map.reference_from_map * map.placed[i]).translation(), map.scans[i].reference.translation());
+    const double d = distance_m((map.reference_from_map * map.placed[i]).translation(),
+                                map.scans[i].reference.translation());
     off += d / static_cast<double>(map.scans.size());
     most = std::max(most, d);
   }
-  std::printf("\n%s by %s: %zu of %zu scans in the map, %.3f m from the reference in the mean, %.3f at most, %.0f points/m2\n\n"
-              "| g m | candidates | sought | answered | right by the reference | right in the map | e_psr m | ms |\n"
-              "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
-              name.c_str(), method.c_str(), map.scans.size(), halves.mapped.size(), off, most, map.map.density_per_m2());
+  std::printf(
+      "\n%s by %s: %zu of %zu scans in the map, %.3f m from the reference in the mean, %.3f at most, %.0f "
+      "points/m2\n\n"
+      "| g m | candidates | sought | answered | right by the reference | right in the map | e_psr m | ms |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
+      name.c_str(), method.c_str(), map.scans.size(), halves.mapped.size(), off, most,
+      map.map.density_per_m2());
   std::fflush(stdout);
   for (const double g : grids) seek(map, halves.sought, g, every);
 }

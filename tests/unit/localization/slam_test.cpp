@@ -197,8 +197,8 @@ TEST(GrowingMap, ForgetsWhatIsSeenThrough) {
   EXPECT_GT(map.points().points().size(), 300U);
 }
 
-/// Noise of 0.2 m on every point, and poses that were led astray: the surfaces bring them back, and do not shrink
-/// the map. Corners did, by 2 %.
+/// Noise of 0.2 m on every point, and poses that were led astray: the surfaces bring them back, and do not
+/// shrink the map. Corners did, by 2 %.
 TEST(SurfaceBundle, BringsPosesBackWithoutBendingTheMap) {
   std::mt19937 engine(31);
   std::normal_distribution<double> noise;
@@ -225,7 +225,8 @@ TEST(SurfaceBundle, BringsPosesBackWithoutBendingTheMap) {
   const auto by = test::laid_on(poses, truth);
   double mean_m = 0.0, way = 0.0, true_way = 0.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    mean_m += distance_m((by * poses[i]).translation(), truth[i].translation()) / static_cast<double>(truth.size());
+    mean_m +=
+        distance_m((by * poses[i]).translation(), truth[i].translation()) / static_cast<double>(truth.size());
     way += distance_m(poses[i].translation(), poses[0].translation());
     true_way += distance_m(truth[i].translation(), truth[0].translation());
   }
@@ -282,7 +283,8 @@ TEST(PointMap, ItsSurfaceIsTheRidgeOfANoisyCloud) {
   EXPECT_LT(map.surface(map.nearest({10.0, 0.0}).index).worth, 1.0);
 }
 
-/// Of two places from which a scan's points fit alike, the one where its beams do not go through a wall is likelier.
+/// Of two places from which a scan's points fit alike, the one where its beams do not go through a wall is
+/// likelier.
 TEST(Strategies, AScanThatLooksThroughAWallIsUnlikely) {
   std::mt19937 engine(34);
   mapping::Walls walls = test::laboratory_hall();
