@@ -36,7 +36,7 @@ Sums pair_up(const ScanPoints& points, const PointMap& map, const Pose& pose, do
     const double along = dy * s.normal_x - dx * s.normal_y;
     const double tangent = std::max(along_surface, kBlot * (1.0 - s.flatness));
     const double ratio = (across * across + tangent * along * along) / (scale_m * scale_m);
-    const double weight = points.weight_of(i) / ((1.0 + ratio) * (1.0 + ratio));
+    const double weight = s.worth * points.weight_of(i) / ((1.0 + ratio) * (1.0 + ratio));
     const double rx = p.x_m - pose.x_m();
     const double ry = p.y_m - pose.y_m();
     sums.add(across, s.normal_x, s.normal_y, rx, ry, weight);

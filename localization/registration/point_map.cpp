@@ -21,6 +21,8 @@ struct PointMap::Tree {
   }
 
   std::vector<Point2<Map>> points;
+  std::vector<double> weights;  ///< empty: all one
+  double noise_m = 0.0;
   std::vector<std::optional<PointSurface>> surfaces;
   double surface_radius_m = 0.0;
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Tree>, Tree, 2> index;
@@ -54,7 +56,82 @@ PointSurface surface_of(const std::vector<Point2<Map>>& points,
   return surface;
 }
 
+/// The points near a place.
+using Near = std::vector<std::pair<std::uint32_t, double>>;
+template <class Tree>
+void find_near(const Tree& tree, double x_m, double y_m, double radius_m, Near& near) {
+  const double query[2] = {x_m, y_m};
+  near.clear();
+  tree.index.radiusSearch(query, radius_m * radius_m, near, nanoflann::SearchParams(0, 0.0F, false));
+}
+
+/// One step to the ridge: weighted total least squares in a round window, moved across the line alone.
+template <class Tree>
+void step_to_ridge(const Tree& tree, const Near& near, double window_m, PointSurface& surface) {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const auto& [i, unused] : near) {
+    const double dx = tree.points[i].x_m - surface.x_m, dy = tree.points[i].y_m - surface.y_m;
+    const double w = tree.weights[i] * std::exp(-0.5 * (dx * dx + dy * dy) / (window_m * window_m));
+    n += w, x += w * dx, y += w * dy, xx += w * dx * dx, xy += w * dx * dy, yy += w * dy * dy;
+  }
+  if (n <= 0.0) return;
+  x /= n, y /= n;
+  xx = xx / n - x * x, xy = xy / n - x * y, yy = yy / n - y * y;
+  const double spread = std::hypot(0.5 * (xx - yy), xy);
+  const double large = 0.5 * (xx + yy) + spread;
+  const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  surface.normal_x = -std::sin(direction);
+  surface.normal_y = std::cos(direction);
+  surface.flatness = large > 0.0 ? 2.0 * spread / large : 0.0;
+  const double off = x * surface.normal_x + y * surface.normal_y;
+  surface.x_m += off * surface.normal_x;
+  surface.y_m += off * surface.normal_y;
+}
+
+/// Whether points are spread about the line as noise alone spreads them.
+template <class Tree>
+bool is_line(const Tree& tree, const Near& near, double window_m, const PointSurface& surface) {
+  constexpr double kMostSpread = 1.2;
+  constexpr double kReach = 3.0;
+  double n = 0.0, squares_m2 = 0.0;
+  for (const auto& [i, unused] : near) {
+    const double dx = tree.points[i].x_m - surface.x_m, dy = tree.points[i].y_m - surface.y_m;
+    const double across = dx * surface.normal_x + dy * surface.normal_y;
+    const double along = dy * surface.normal_x - dx * surface.normal_y;
+    if (std::abs(along) > window_m || std::abs(across) > kReach * window_m) continue;
+    n += tree.weights[i];
+    squares_m2 += tree.weights[i] * across * across;
+  }
+  return squares_m2 < n * kMostSpread * kMostSpread * tree.noise_m * tree.noise_m;
+}
+
+template <class Tree>
+PointSurface ridge_at(const Tree& tree, const Point2<Map>& p) {
+  constexpr int kSteps = 4;
+  constexpr double kCorner = 0.1;  // what a piece that is no line is worth beside one that is
+  const double window_m = 0.5 * tree.surface_radius_m;
+  PointSurface surface{p.x_m, p.y_m, 1.0, 0.0, 0.0};
+  Near near;
+  for (int k = 0; k < kSteps; ++k) {
+    find_near(tree, surface.x_m, surface.y_m, 2.5 * window_m, near);
+    step_to_ridge(tree, near, window_m, surface);
+  }
+  find_near(tree, surface.x_m, surface.y_m, 3.2 * window_m, near);
+  if (is_line(tree, near, window_m, surface)) {
+    surface.flatness = 1.0;
+  } else {
+    surface.worth = kCorner;
+  }
+  return surface;
+}
+
 }  // namespace
+
+PointMap::PointMap(NoisyPoints cloud, double surface_radius_m)
+    : PointMap(std::move(cloud.points), surface_radius_m) {
+  tree_->weights = std::move(cloud.weights);
+  tree_->noise_m = cloud.noise_m;
+}
 
 PointMap::PointMap(std::vector<Point2<Map>> points, double surface_radius_m)
     : tree_(std::make_unique<Tree>(std::move(points))) {
@@ -68,7 +145,9 @@ const PointSurface& PointMap::surface(std::size_t i) const {
   const Point2<Map>& p = tree_->points[i];
   const double radius = tree_->surface_radius_m;
   surface = PointSurface{p.x_m, p.y_m, 1.0, 0.0, 0.0};
-  if (radius > 0.0) {
+  if (tree_->noise_m > 0.0) {
+    surface = ridge_at(*tree_, p);
+  } else if (radius > 0.0) {
     const double query[2] = {p.x_m, p.y_m};
     std::vector<std::pair<std::uint32_t, double>> near;
     tree_->index.radiusSearch(query, radius * radius, near, nanoflann::SearchParams(0, 0.0F, false));

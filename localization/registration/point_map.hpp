@@ -17,6 +17,14 @@ struct PointSurface {
   double normal_x = 0.0;
   double normal_y = 0.0;
   double flatness = 0.0;  ///< 0 a blot or a lone point, 1 a line
+  double worth = 1.0;     ///< less where the points are known to make no line
+};
+
+/// The points of a map with noise, and how they were seen.
+struct NoisyPoints {
+  std::vector<Point2<Map>> points;
+  std::vector<double> weights;  ///< one a point: how often it was seen
+  double noise_m = 0.0;         ///< sigma of what was seen
 };
 
 /// Points of a map with a search tree, for the methods that match points to points. What the points were made
@@ -25,6 +33,9 @@ class PointMap {
  public:
   /// `surface_radius_m`: the points this near to one make its surface; 0: no surfaces are made.
   explicit PointMap(std::vector<Point2<Map>> points, double surface_radius_m = 0.2);
+  /// Surfaces are the ridges of the cloud: what is seen most, however thick noise makes it. Where the points
+  /// spread wider about their line than noise alone spreads them (corners, two surfaces) they make none.
+  PointMap(NoisyPoints cloud, double surface_radius_m);
   ~PointMap();
   PointMap(PointMap&&) noexcept;
   PointMap& operator=(PointMap&&) noexcept;

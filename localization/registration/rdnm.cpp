@@ -44,43 +44,55 @@ RdnDescriptor rdn(const ScanPoints& points, const RdnOptions& options) {
 }
 
 double rdn_difference(const RdnDescriptor& scan, const RdnDescriptor& map, int shift,
-                      const RdnOptions& options) {
+                      const RdnOptions& options, double most) {
   const std::size_t n = scan.size();
+  const bool published = options.norm == RdnNorm::Published;
+  const double most_sum = static_cast<double>(n) * (published ? most * most : most);
   double sum = 0.0;
   std::size_t compared = 0;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0, k = static_cast<std::size_t>(shift) % n; i < n; ++i, k = k + 1 == n ? 0 : k + 1) {
     const float a = scan[i];
-    const float b = map[(i + static_cast<std::size_t>(shift)) % n];
+    const float b = map[k];
     if (a == kEmptySection || b == kEmptySection) continue;
     const double off = std::abs(a - b);
-    sum += options.norm == RdnNorm::Published ? off * off : std::min(off, options.unlike_m);
+    sum += published ? off * off : std::min(off, options.unlike_m);
+    if (sum > most_sum) return INFINITY;
     ++compared;
   }
   if (4 * compared < n) return INFINITY;
   const double mean = sum / static_cast<double>(compared);
-  return options.norm == RdnNorm::Published ? std::sqrt(mean) : mean;
+  return published ? std::sqrt(mean) : mean;
 }
 
-std::vector<RdnmResult> rdnm_ranked(const ScanPoints& scan, std::span<const Point2<Map>> map,
-                                    std::span<const Point2<Map>> candidates, const RdnOptions& options,
+std::vector<RdnmResult> rdnm_ranked(const ScanPoints& scan, std::span<const Point2<Map>> candidates,
+                                    std::span<const RdnDescriptor> views, const RdnOptions& options,
                                     const TurnLimit& turns) {
   std::vector<RdnmResult> ranked;
   if (scan.empty()) return ranked;
   const RdnDescriptor seen = rdn(scan, options);
   const double alpha = 2.0 * kPi / options.sections;
-  for (const Point2<Map>& candidate : candidates) {
-    const RdnDescriptor view = rdn<Map>(map, candidate, options);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
     RdnmResult best{{}, INFINITY};
     for (int shift = 0; shift < options.sections; ++shift) {
       if (std::abs(wrap_angle(shift * alpha - turns.heading_rad)) > turns.most_rad) continue;
-      const double difference = rdn_difference(seen, view, shift, options);
-      if (difference < best.difference_m) best = {{candidate.x_m, candidate.y_m, shift * alpha}, difference};
+      const double difference = rdn_difference(seen, views[i], shift, options, best.difference_m);
+      if (difference < best.difference_m)
+        best = {{candidates[i].x_m, candidates[i].y_m, shift * alpha}, difference};
     }
     if (best.difference_m < INFINITY) ranked.push_back(best);
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.difference_m < b.difference_m; });
   return ranked;
+}
+
+std::vector<RdnmResult> rdnm_ranked(const ScanPoints& scan, std::span<const Point2<Map>> map,
+                                    std::span<const Point2<Map>> candidates, const RdnOptions& options,
+                                    const TurnLimit& turns) {
+  std::vector<RdnDescriptor> views;
+  views.reserve(candidates.size());
+  for (const Point2<Map>& candidate : candidates) views.push_back(rdn<Map>(map, candidate, options));
+  return rdnm_ranked(scan, candidates, views, options, turns);
 }
 
 std::optional<RdnmResult> rdnm(const ScanPoints& scan, std::span<const Point2<Map>> map,

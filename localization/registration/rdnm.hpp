@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,9 +38,10 @@ template <class F>
 [[nodiscard]] RdnDescriptor rdn(const ScanPoints& points, const RdnOptions& options);
 
 /// Difference of two descriptors, the second seen turned: section i of `scan` beside section i + shift of
-/// `map`. Over the sections that neither leaves empty; infinite when these are fewer than a quarter.
+/// `map`. Over the sections that neither leaves empty; infinite when these are fewer than a quarter,
+/// and where it is found to exceed `most`.
 [[nodiscard]] double rdn_difference(const RdnDescriptor& scan, const RdnDescriptor& map, int shift,
-                                    const RdnOptions& options = {});
+                                    const RdnOptions& options = {}, double most = INFINITY);
 
 struct RdnmResult {
   Transform2<Map, Base> map_from_base;  ///< R(shift * alpha) x + p: the shift is taken times alpha
@@ -55,6 +57,12 @@ struct TurnLimit {
 /// in common with the scan are left out.
 [[nodiscard]] std::vector<RdnmResult> rdnm_ranked(const ScanPoints& scan, std::span<const Point2<Map>> map,
                                                   std::span<const Point2<Map>> candidates,
+                                                  const RdnOptions& options = {},
+                                                  const TurnLimit& turns = {});
+/// The same with what is seen of the map from every candidate.
+[[nodiscard]] std::vector<RdnmResult> rdnm_ranked(const ScanPoints& scan,
+                                                  std::span<const Point2<Map>> candidates,
+                                                  std::span<const RdnDescriptor> views,
                                                   const RdnOptions& options = {},
                                                   const TurnLimit& turns = {});
 

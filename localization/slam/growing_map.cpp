@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "localization/slam/range_ring.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -18,41 +20,6 @@ std::uint64_t key_of(const Point2<Map>& p, double voxel_m) {
   return (ix << 32U) | iy;
 }
 
-/// The shortest range of a scan in each of 720 directions from the sensor; infinite where nothing was seen.
-class RangeRing {
- public:
-  RangeRing(const ScanPoints& scan, const Point2<Base>& sensor) {
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-      const double dx = scan.x_m[i] - sensor.x_m;
-      const double dy = scan.y_m[i] - sensor.y_m;
-      double& r = ranges_[index(std::atan2(dy, dx))];
-      r = std::min(r, std::hypot(dx, dy));
-    }
-  }
-  /// Of the beams beside this direction the one that ends first; 0 where they do not all end somewhere.
-  [[nodiscard]] double free_m(double bearing_rad) const {
-    const std::size_t at = index(bearing_rad);
-    double least = 1e9;
-    int seen = 0;
-    for (std::size_t k = kSize - kBeside; k <= kSize + kBeside; ++k) {
-      const double r = ranges_[(at + k) % kSize];
-      if (!std::isfinite(r)) continue;
-      least = std::min(least, r);
-      ++seen;
-    }
-    return seen >= 2 ? least : 0.0;
-  }
-
- private:
-  static constexpr std::size_t kSize = 720;
-  static constexpr std::size_t kBeside = 2;
-  static std::size_t index(double bearing_rad) {
-    const double turn = bearing_rad / (2.0 * kPi) + 0.5;
-    return std::min(static_cast<std::size_t>(std::max(0.0, turn) * kSize), kSize - 1);
-  }
-  std::vector<double> ranges_ = std::vector<double>(kSize, INFINITY);
-};
-
 }  // namespace
 
 GrowingMap::GrowingMap(const GrowingMapOptions& options) : options_(options) {}
@@ -64,10 +31,8 @@ void GrowingMap::look_through(const ScanPoints& scan, const Transform2<Map, Base
   for (auto entry = voxels_.begin(); entry != voxels_.end();) {
     Voxel& voxel = entry->second;
     const Point2<Base> p = base_from_map * Point2<Map>{voxel.sum_x / voxel.seen, voxel.sum_y / voxel.seen};
-    const double dx = p.x_m - sensor.x_m;
-    const double dy = p.y_m - sensor.y_m;
-    const double margin = margin_m + 0.03 * std::hypot(dx, dy);  // by the heading, and by slanted walls
-    if (std::hypot(dx, dy) + margin < ring.free_m(std::atan2(dy, dx))) ++voxel.passed;
+    std::size_t direction = 0;
+    if (ring.passes(p, margin_m, direction)) ++voxel.passed;
     entry = voxel.passed >= voxel.seen + options_.forgotten_after ? voxels_.erase(entry) : std::next(entry);
   }
 }
@@ -83,16 +48,17 @@ void GrowingMap::add(const ScanPoints& scan, const Transform2<Map, Base>& map_fr
     voxel.sum_y += p.y_m;
     ++voxel.seen;
   }
-  std::vector<std::pair<std::uint64_t, Point2<Map>>> sorted;  // the order of a hash is nobody's
-  sorted.reserve(voxels_.size());
-  for (const auto& [key, v] : voxels_) sorted.push_back({key, {v.sum_x / v.seen, v.sum_y / v.seen}});
+  std::vector<std::pair<std::uint64_t, Voxel>> sorted(voxels_.begin(), voxels_.end());  // no hash's order
   std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Point2<Map>> points;
-  points.reserve(sorted.size());
-  for (const auto& [key, p] : sorted) points.push_back(p);
+  NoisyPoints cloud;
+  for (const auto& [key, v] : sorted) {
+    cloud.points.push_back({v.sum_x / v.seen, v.sum_y / v.seen});
+    cloud.weights.push_back(v.seen);
+  }
   noise_m_ += (noise_m - noise_m_) / static_cast<double>(++scans_);
+  cloud.noise_m = std::max(options_.least_noise_m, noise_m_);
   points_ =
-      PointMap(std::move(points), std::max(options_.least_surface_m, options_.surface_sigmas * noise_m_));
+      PointMap(std::move(cloud), std::max(options_.least_surface_m, options_.surface_sigmas * noise_m_));
 }
 
 double GrowingMap::density_per_m2() const {

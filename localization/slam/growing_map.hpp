@@ -13,8 +13,9 @@ struct GrowingMapOptions {
   double through_sigmas = 3.0;  ///< a beam that ends so much farther has passed a point by
   double least_through_m = 0.3;
   double least_surface_m = 0.2;  ///< the points this near make the surface at one, or in so many sigmas
-  double surface_sigmas = 5.0;
-  int forgotten_after = 2;  ///< beams that passed a point by, more than saw it
+  double surface_sigmas = 2.0;
+  double least_noise_m = 0.03;  ///< of a point from its surface: real surfaces are no lines
+  int forgotten_after = 2;      ///< beams that passed a point by, more than saw it
 };
 
 /// A point map that grows scan by scan, is thinned to a point a voxel (the mean of what fell into it), and

@@ -12,6 +12,8 @@
 namespace madori::localization {
 namespace {
 
+using Pose = Transform2<Map, Base>;
+
 /// While the map is young and thin the wheels know more of some directions than the scan.
 void lean_on_wheels(PointIcpOptions& icp, const Transform2<Map, Base>& assumed,
                     const Eigen::Matrix3d& covariance, double residual_sigma_m) {
@@ -67,6 +69,8 @@ StrategyOptions SlowLidarMapper::strategies_for(const ScanPoints& points) const 
   options.most_e_psr_m = e_max_m(noise);
   options.icp.last_scale_m = std::max(options.icp.last_scale_m, 1.5 * noise);
   options.icp.inlier_distance_m = std::max(options.icp.inlier_distance_m, noise);
+  options.likelihood.sigma_m = std::max(options.likelihood.sigma_m, noise);
+  options.likelihood.margin_m = std::max(options.likelihood.margin_m, 3.0 * noise);
   return options;
 }
 
@@ -112,6 +116,7 @@ PoseEstimate SlowLidarMapper::on_scan(Stamp stamp, const ScanPoints& points, con
     if (found && !is_believed(found->fit.map_from_base, assumed, step)) found.reset();
   }
   const bool accepted = found || (!started_ && !points.empty());
+  if (accepted) note_motion(assumed, !found || agree(found->fit.map_from_base, assumed));
   anchor_ = found ? found->fit.map_from_base : assumed.map_from_base;
   covariance_ = accepted ? Eigen::Matrix3d::Zero() : assumed.covariance;
   if (found) e_psr_m_.push_back(found->fit.e_psr_m);
@@ -119,10 +124,9 @@ PoseEstimate SlowLidarMapper::on_scan(Stamp stamp, const ScanPoints& points, con
     model_.learn(step, before.inverse() * anchor_, 0.05, 0.02);
   if (accepted) {
     map_.add(points, anchor_, sensor, scan_noise_m(points));
-    const Eigen::Matrix3d information = Eigen::Vector3d(400.0, 400.0, 2500.0).asDiagonal();
-    finished_.memory.add(make_surface_scan(stamp, sensor, weighty_points(points), options_.scan), path_m_,
-                         anchor_, information);
-    finished_.scans.push_back({stamp, anchor_});
+    looks_.push_back({stamp, sensor, path_m_});
+    scans_.push_back(points);
+    poses_.push_back(anchor_);
     path_m_ = 0.0;
   }
   is_lost_ = started_ && !accepted;
@@ -133,9 +137,30 @@ PoseEstimate SlowLidarMapper::on_scan(Stamp stamp, const ScanPoints& points, con
   return estimate(stamp);
 }
 
+/// The wheels' word from the scan accepted last to the one that is about to be: for the last look.
+void SlowLidarMapper::note_motion(const Belief& assumed, bool is_believed) {
+  if (poses_.empty()) return;
+  const auto n = static_cast<int>(poses_.size());
+  const Pose& from = poses_.back();
+  const Eigen::Matrix3d covariance = in_map_axes(with_floor(assumed.covariance), -from.yaw_rad());
+  motions_.push_back({n - 1, n, from.inverse() * assumed.map_from_base,
+                      is_believed ? Eigen::Matrix3d(covariance.inverse()) : Eigen::Matrix3d::Zero().eval()});
+}
+
 FinishedMap SlowLidarMapper::finish() {
-  finished_.lost_scans = lost_;
-  return std::move(finished_);
+  poses_ = bundle_scans(scans_, std::move(poses_), motions_, map_.noise_m(), options_.bundle);
+  FinishedMap finished;
+  finished.lost_scans = lost_;
+  map_ = GrowingMap(options_.map);
+  const Eigen::Matrix3d information = Eigen::Vector3d(400.0, 400.0, 2500.0).asDiagonal();
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const auto& [stamp, sensor, path_m] = looks_[i];
+    map_.add(scans_[i], poses_[i], sensor, scan_noise_m(scans_[i]));
+    finished.memory.add(make_surface_scan(stamp, sensor, weighty_points(scans_[i]), options_.scan), path_m,
+                        poses_[i], information);
+    finished.scans.push_back({stamp, poses_[i]});
+  }
+  return finished;
 }
 
 }  // namespace madori::localization

@@ -12,6 +12,7 @@
 #include "localization/slam/growing_map.hpp"
 #include "localization/slam/mapper.hpp"
 #include "localization/slam/strategies.hpp"
+#include "localization/slam/surface_bundle.hpp"
 
 namespace madori::localization {
 
@@ -20,6 +21,7 @@ struct SlowLidarOptions {
   GrowingMapOptions map;
   OdometryNoise odometry;
   SurfaceScanOptions scan;
+  BundleOptions bundle;          ///< the last look
   double e_max_of_noise = 1.0;   ///< e_max is at least so many sigmas of the scan's own noise,
   double e_max_of_recent = 2.0;  ///< and so many times the mean e_psr of the scans accepted last;
   std::size_t recent = 10;
@@ -45,7 +47,7 @@ class SlowLidarMapper final : public Mapper {
   PoseEstimate on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) override;
   [[nodiscard]] FinishedMap finish() override;
 
-  /// The point map, and what it says of itself.
+  /// The point map, and what it says of itself; after finish() that of the last look.
   [[nodiscard]] const GrowingMap& map() const { return map_; }
   /// e_psr of each accepted scan to the map as it was before it, metres.
   [[nodiscard]] const std::vector<double>& e_psr_m() const { return e_psr_m_; }
@@ -58,6 +60,13 @@ class SlowLidarMapper final : public Mapper {
   [[nodiscard]] Belief carried(const Belief& from, const OdometryStep& step) const;
   [[nodiscard]] bool is_believed(const Transform2<Map, Base>& pose, const Belief& here,
                                  const OdometryStep& step);
+  void note_motion(const Belief& assumed, bool is_believed);
+
+  struct Look {
+    Stamp stamp{};
+    Point2<Base> sensor;
+    double path_m;  ///< driven since the one before
+  };
 
   SlowLidarOptions options_;
   OdometryModel model_;
@@ -74,7 +83,10 @@ class SlowLidarMapper final : public Mapper {
   bool is_lost_ = false;  ///< the last one
   double path_m_ = 0.0;   ///< driven since the last accepted scan
   std::vector<double> e_psr_m_;
-  FinishedMap finished_;
+  std::vector<Look> looks_;  ///< the accepted scans, what they saw, and from where
+  std::vector<ScanPoints> scans_;
+  std::vector<Transform2<Map, Base>> poses_;
+  std::vector<RelativeFactor> motions_;  ///< from each to the next by the wheels
 };
 
 }  // namespace madori::localization

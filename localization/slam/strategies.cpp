@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <unordered_set>
 #include <utility>
 
 #include "localization/registration/cpd.hpp"
+#include "localization/slam/range_ring.hpp"
 
 namespace madori::localization {
 namespace {
@@ -48,27 +50,6 @@ Pose locally_likeliest(const ScanPoints& scan, const PointMap& map, const Pose& 
   return found ? found->map_from_base : assumed;
 }
 
-/// Algorithm 1 over all candidates, most like the scan first; those of a block share the points they see.
-std::vector<RdnmResult> globally_likeliest(const ScanPoints& scan, const PointMap& map,
-                                           const StrategyOptions& options) {
-  constexpr double kBlockM = 5.0;
-  const std::vector<Point2<Map>> points = thinned(map.points(), options.view_spacing_m);
-  std::map<std::pair<int, int>, std::vector<Point2<Map>>> blocks;
-  for (const Point2<Map>& p : global_candidates(map, options.grid_m, options.clearance_m))
-    blocks[{static_cast<int>(std::floor(p.x_m / kBlockM)), static_cast<int>(std::floor(p.y_m / kBlockM))}]
-        .push_back(p);
-  std::vector<RdnmResult> all;
-  for (const auto& [at, candidates] : blocks) {
-    const Point2<Map> centre{(at.first + 0.5) * kBlockM, (at.second + 0.5) * kBlockM};
-    const auto around = points_around(points, centre, options.global_view_m + 0.5 * kBlockM);
-    const auto ranked = rdnm_ranked(scan, around, candidates, options.rdn);
-    all.insert(all.end(), ranked.begin(), ranked.end());
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.difference_m < b.difference_m; });
-  return all;
-}
-
 bool succeeded(const RegistrationResult& fit, const StrategyOptions& options) {
   return fit.e_psr_m < options.most_e_psr_m && fit.near_fraction >= options.least_near;
 }
@@ -77,6 +58,43 @@ std::optional<StrategyResult> refined(const ScanPoints& scan, const PointMap& ma
                                       Strategy strategy, const StrategyOptions& options) {
   const RegistrationResult fit = point_icp(scan, map, rough, options.icp);
   return succeeded(fit, options) ? std::optional(StrategyResult{fit, strategy}) : std::nullopt;
+}
+
+/// The best of them at different places: many candidates lead to the same one.
+std::vector<RegistrationResult> distinct(const std::vector<RegistrationResult>& fits, std::size_t most) {
+  constexpr double kSameM = 0.15;
+  constexpr double kSameRad = 0.05;
+  std::vector<RegistrationResult> kept;
+  for (const RegistrationResult& fit : fits) {
+    if (kept.size() == most) break;
+    const Pose& at = fit.map_from_base;
+    if (std::none_of(kept.begin(), kept.end(), [&](const RegistrationResult& k) {
+          return distance_m(k.map_from_base.translation(), at.translation()) < kSameM &&
+                 std::abs(wrap_angle(k.map_from_base.yaw_rad() - at.yaw_rad())) < kSameRad;
+        }))
+      kept.push_back(fit);
+  }
+  return kept;
+}
+
+/// ICP of all candidates with few steps and points, and of the best of them to the end.
+std::vector<RegistrationResult> refined_exactly(const ScanPoints& scan, const PointMap& map,
+                                                std::span<const RdnmResult> candidates,
+                                                const StrategyOptions& options) {
+  const auto worth = [](const RegistrationResult& fit) { return fit.near_fraction / (0.01 + fit.e_psr_m); };
+  PointIcpOptions exact = options.icp;
+  exact.prior_information.setZero();
+  PointIcpOptions rough = exact;
+  rough.max_iterations = options.rough_iterations;
+  rough.coarse_points = options.rough_points;
+  std::vector<RegistrationResult> fits;
+  for (const RdnmResult& candidate : candidates)
+    fits.push_back(point_icp(scan, map, candidate.map_from_base, rough));
+  std::stable_sort(fits.begin(), fits.end(),
+                   [&](const auto& a, const auto& b) { return worth(a) > worth(b); });
+  fits = distinct(fits, options.refined_exactly);
+  for (RegistrationResult& fit : fits) fit = point_icp(scan, map, fit.map_from_base, exact);
+  return fits;
 }
 
 }  // namespace
@@ -108,18 +126,73 @@ std::vector<Point2<Map>> global_candidates(const PointMap& map, double grid_m, d
   return candidates;
 }
 
+GlobalViews::GlobalViews(const PointMap& map, const StrategyOptions& options) {
+  constexpr double kBlockM = 5.0;  // the candidates of a block share the points they see
+  const std::vector<Point2<Map>> points = thinned(map.points(), options.view_spacing_m);
+  std::map<std::pair<int, int>, std::vector<Point2<Map>>> blocks;
+  for (const Point2<Map>& p : global_candidates(map, options.grid_m, options.clearance_m))
+    blocks[{static_cast<int>(std::floor(p.x_m / kBlockM)), static_cast<int>(std::floor(p.y_m / kBlockM))}]
+        .push_back(p);
+  for (const auto& [at, candidates] : blocks) {
+    const Point2<Map> centre{(at.first + 0.5) * kBlockM, (at.second + 0.5) * kBlockM};
+    const auto around = points_around(points, centre, options.global_view_m + 0.5 * kBlockM);
+    for (const Point2<Map>& candidate : candidates) {
+      places_.push_back(candidate);
+      views_.push_back(rdn<Map>(around, candidate, options.rdn));
+    }
+  }
+}
+
+std::vector<RdnmResult> GlobalViews::ranked(const ScanPoints& scan, const RdnOptions& options) const {
+  return rdnm_ranked(scan, places_, views_, options);
+}
+
+double log_likelihood(const ScanPoints& scan, const PointMap& map, const Pose& pose,
+                      const LikelihoodOptions& options) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double squared = map.nearest(pose * scan.point(i)).squared_distance_m2;
+    const double hit = std::exp(-0.5 * squared / (options.sigma_m * options.sigma_m));
+    sum += std::log(options.other + (1.0 - options.other) * hit);
+  }
+  const RangeRing ring(scan, {});
+  std::vector<bool> passed(RangeRing::kSize, false);
+  const Transform2<Base, Map> base_from_map = pose.inverse();
+  for (const Point2<Map>& p : map.points()) {
+    std::size_t direction = 0;
+    if (distance_m(p, pose.translation()) < options.view_m &&
+        ring.passes(base_from_map * p, options.margin_m, direction))
+      passed[direction] = true;
+  }
+  const auto directions = static_cast<double>(std::count(passed.begin(), passed.end(), true));
+  const double beams = directions / RangeRing::kSize * static_cast<double>(scan.size()) * options.turn_share;
+  return sum + beams * std::log(options.other);
+}
+
+std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,
+                                                  const GlobalViews& views, const StrategyOptions& options) {
+  RdnOptions by = options.rdn;
+  by.norm = options.global_norm;
+  const std::vector<RdnmResult> ranked = views.ranked(scan, by);
+  const double enough = options.enough_a_point * static_cast<double>(scan.size());
+  std::optional<StrategyResult> best;
+  double most = -INFINITY;
+  for (std::size_t i = 0; i < std::min(ranked.size(), options.most_refined) && most < enough;
+       i += options.refined)
+    for (const RegistrationResult& fit : refined_exactly(
+             scan, map, std::span(ranked).subspan(i).first(std::min(options.refined, ranked.size() - i)),
+             options)) {
+      const double likelihood = log_likelihood(scan, map, fit.map_from_base, options.likelihood);
+      if (!succeeded(fit, options) || likelihood <= most) continue;
+      most = likelihood;
+      best = StrategyResult{fit, Strategy::Absolute};
+    }
+  return best;
+}
+
 std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,
                                                   const StrategyOptions& options) {
-  const std::vector<RdnmResult> ranked = globally_likeliest(scan, map, options);
-  StrategyOptions alone = options;
-  alone.icp.prior_information.setZero();
-  const auto worth = [](const StrategyResult& r) { return r.fit.near_fraction / (0.01 + r.fit.e_psr_m); };
-  std::optional<StrategyResult> best;
-  for (std::size_t i = 0; i < std::min(options.refined, ranked.size()); ++i) {
-    const auto found = refined(scan, map, ranked[i].map_from_base, Strategy::Absolute, alone);
-    if (found && (!best || worth(*found) > worth(*best))) best = found;
-  }
-  return best;
+  return localize_absolutely(scan, map, GlobalViews(map, options), options);
 }
 
 std::optional<StrategyResult> localize_around(const ScanPoints& scan, const PointMap& map,

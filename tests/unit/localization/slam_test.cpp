@@ -7,6 +7,7 @@
 #include "localization/slam/slow_lidar_mapper.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"
+#include "tests/support/rigid_alignment.hpp"
 
 namespace madori::localization {
 namespace {
@@ -194,6 +195,104 @@ TEST(GrowingMap, ForgetsWhatIsSeenThrough) {
             0.0);
   EXPECT_EQ(boxed(), 0);
   EXPECT_GT(map.points().points().size(), 300U);
+}
+
+/// Noise of 0.2 m on every point, and poses that were led astray: the surfaces bring them back, and do not
+/// shrink the map. Corners did, by 2 %.
+TEST(SurfaceBundle, BringsPosesBackWithoutBendingTheMap) {
+  std::mt19937 engine(31);
+  std::normal_distribution<double> noise;
+  constexpr double kSigmaM = 0.2;
+  test::DriveSettings settings;
+  settings.lidar = test::ScanSettings{};
+  settings.steps_per_scan = 6;
+  std::vector<ScanPoints> scans;
+  std::vector<Transform2<Map, Base>> truth, astray;
+  for (const auto& moment : test::drive(test::laboratory_hall(), kTwoRounds, settings, engine)) {
+    if (!moment.has_scan) continue;
+    ScanPoints points = scan_points(moment.scan, {});
+    for (auto* array : {&points.x_m, &points.y_m})
+      for (float& v : *array) v += static_cast<float>(kSigmaM * noise(engine));
+    scans.push_back(points);
+    truth.push_back(moment.truth);
+    const bool is_first = astray.empty();
+    astray.push_back(is_first ? moment.truth
+                              : Transform2<Map, Base>(moment.truth.x_m() + 0.1 * noise(engine),
+                                                      moment.truth.y_m() + 0.1 * noise(engine),
+                                                      moment.truth.yaw_rad() + 0.02 * noise(engine)));
+  }
+  const auto poses = bundle_scans(scans, astray, {}, kSigmaM);
+  const auto by = test::laid_on(poses, truth);
+  double mean_m = 0.0, way = 0.0, true_way = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    mean_m +=
+        distance_m((by * poses[i]).translation(), truth[i].translation()) / static_cast<double>(truth.size());
+    way += distance_m(poses[i].translation(), poses[0].translation());
+    true_way += distance_m(truth[i].translation(), truth[0].translation());
+  }
+  EXPECT_LT(mean_m, 0.03);
+  EXPECT_NEAR(way / true_way, 1.0, 0.006);
+}
+
+/// A law: where everything lies does not change how it lies to each other.
+TEST(SurfaceBundle, TurnsWithTheMap) {
+  std::mt19937 engine(32);
+  const mapping::Walls walls = test::laboratory_hall();
+  std::vector<ScanPoints> scans;
+  std::vector<Transform2<Map, Base>> poses, moved;
+  const Transform2<Map, Map> by(3.0, -7.0, 0.0);
+  for (int i = 0; i < 6; ++i) {
+    const Transform2<Map, Base> truth(2.5 + 0.6 * i, 1.2, 0.1 * i);
+    scans.push_back(scan_points(test::simulate_scan(walls, truth, {}, engine), {}));
+    poses.emplace_back(truth.x_m() + (i % 2 == 0 ? 0.0 : 0.05), truth.y_m(), truth.yaw_rad());
+    moved.push_back(by * poses.back());
+  }
+  poses = bundle_scans(scans, poses, {}, 0.0);
+  moved = bundle_scans(scans, moved, {}, 0.0);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    EXPECT_LT(distance_m((by * poses[i]).translation(), moved[i].translation()), 0.02) << i;
+  EXPECT_NEAR(poses[5].x_m() - poses[0].x_m(), 3.0, 0.01);
+}
+
+TEST(SurfaceBundle, LeavesAloneWhatNothingSpeaksOf) {
+  EXPECT_TRUE(bundle_scans({}, {}, {}, 0.1).empty());
+  const auto alone = bundle_scans({ScanPoints{}}, {{1.0, 2.0, 0.3}}, {}, 0.1);
+  ASSERT_EQ(alone.size(), 1U);
+  EXPECT_DOUBLE_EQ(alone[0].x_m(), 1.0);
+}
+
+/// The ridge of a thick wall is the wall, wherever in the cloud one asks; what fills an area makes none.
+TEST(PointMap, ItsSurfaceIsTheRidgeOfANoisyCloud) {
+  std::mt19937 engine(33);
+  std::normal_distribution<double> noise(0.0, 0.2);
+  NoisyPoints cloud;
+  cloud.noise_m = 0.2;
+  std::uniform_real_distribution<double> anywhere(-1.5, 1.5);
+  for (int i = 0; i < 8000; ++i) {
+    cloud.points.push_back({4.0 * i / 8000.0 + noise(engine), noise(engine)});
+    cloud.points.push_back({10.0 + anywhere(engine), anywhere(engine)});
+  }
+  cloud.weights.assign(cloud.points.size(), 1.0);
+  const PointMap map(std::move(cloud), 0.4);
+  for (const double off_m : {-0.2, 0.0, 0.2}) {
+    const PointSurface& surface = map.surface(map.nearest({2.5, off_m}).index);
+    EXPECT_NEAR(surface.y_m, 0.0, 0.04) << off_m;
+    EXPECT_GT(std::abs(surface.normal_y), 0.98);
+    EXPECT_DOUBLE_EQ(surface.worth, 1.0);
+  }
+  EXPECT_LT(map.surface(map.nearest({10.0, 0.0}).index).worth, 1.0);
+}
+
+/// Of two places from which a scan's points fit alike, the one where its beams do not go through a wall is
+/// likelier.
+TEST(Strategies, AScanThatLooksThroughAWallIsUnlikely) {
+  std::mt19937 engine(34);
+  mapping::Walls walls = test::laboratory_hall();
+  const Transform2<Map, Base> here(2.5, 1.2, 0.0);
+  const ScanPoints scan = scan_points(test::simulate_scan(walls, here, {}, engine), {});
+  const double likely = log_likelihood(scan, PointMap(sample_walls(walls, 0.05)), here);
+  test::add_wall(walls, 3.5, 0.2, 3.5, 2.0);
+  EXPECT_LT(log_likelihood(scan, PointMap(sample_walls(walls, 0.05)), here), likely - 20.0);
 }
 
 TEST(GraphMapper, HasNothingToFinishWithoutAScan) {

@@ -1,0 +1,308 @@
+#include "localization/slam/surface_bundle.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <unordered_map>
+
+#include "localization/localizer/pose_covariance.hpp"
+
+namespace madori::localization {
+namespace {
+
+using Pose = Transform2<Map, Base>;
+
+/// What lies where, by square cells.
+class Cells {
+ public:
+  explicit Cells(double side_m) : side_m_(side_m) {}
+  void add(const Point2<Map>& p, std::uint32_t what) {
+    cells_[key(cell(p.x_m), cell(p.y_m))].push_back(what);
+  }
+  /// All that is in the cell of `p` and those around it.
+  template <class Visit>
+  void around(const Point2<Map>& p, const Visit& visit) const {
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if (const auto at = cells_.find(key(cell(p.x_m) + dx, cell(p.y_m) + dy)); at != cells_.end())
+          for (const std::uint32_t what : at->second) visit(what);
+  }
+
+ private:
+  [[nodiscard]] int cell(double m) const { return static_cast<int>(std::floor(m / side_m_)); }
+  static std::uint64_t key(int ix, int iy) {
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(ix)) << 32U) |
+           static_cast<std::uint32_t>(iy);
+  }
+  double side_m_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+struct Blot {
+  Point2<Map> at;  ///< mean of the points in a small cell
+  double weight = 0.0;
+};
+
+/// Means of the points in square cells, in the cells' order.
+std::vector<Blot> blots(const std::vector<Blot>& of, double side_m) {
+  std::map<std::pair<int, int>, Blot> cells;
+  for (const Blot& b : of) {
+    Blot& sum = cells[{static_cast<int>(std::floor(b.at.x_m / side_m)),
+                       static_cast<int>(std::floor(b.at.y_m / side_m))}];
+    sum.at = {sum.at.x_m + b.weight * b.at.x_m, sum.at.y_m + b.weight * b.at.y_m};
+    sum.weight += b.weight;
+  }
+  std::vector<Blot> means;
+  for (const auto& [cell, sum] : cells)
+    means.push_back({{sum.at.x_m / sum.weight, sum.at.y_m / sum.weight}, sum.weight});
+  return means;
+}
+
+/// A piece of surface: a line through `at`.
+struct Piece {
+  Point2<Map> at;
+  double normal_x = 0.0, normal_y = 0.0;
+  double weight = 0.0;
+
+  [[nodiscard]] double across(const Point2<Map>& p) const {
+    return (p.x_m - at.x_m) * normal_x + (p.y_m - at.y_m) * normal_y;
+  }
+  [[nodiscard]] double along(const Point2<Map>& p) const {
+    return (p.y_m - at.y_m) * normal_x - (p.x_m - at.x_m) * normal_y;
+  }
+};
+
+/// One step of a piece towards the ridge: total least squares within a window that is longer than wide, and
+/// moves across the surface only. False where there are too few points for a line.
+bool step_to_ridge(Piece& piece, const std::vector<Blot>& cloud, const Cells& cells, double length_m,
+                   double width_m, double least_points) {
+  const bool is_turned = piece.normal_x != 0.0 || piece.normal_y != 0.0;
+  double w_sum = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  cells.around(piece.at, [&](std::uint32_t i) {
+    const double dx = cloud[i].at.x_m - piece.at.x_m, dy = cloud[i].at.y_m - piece.at.y_m;
+    const double u = is_turned ? piece.along(cloud[i].at) / length_m : dx / length_m;
+    const double v = is_turned ? piece.across(cloud[i].at) / width_m : dy / length_m;
+    const double w = cloud[i].weight * std::exp(-0.5 * (u * u + v * v));
+    w_sum += w, x += w * dx, y += w * dy, xx += w * dx * dx, xy += w * dx * dy, yy += w * dy * dy;
+  });
+  piece.weight = w_sum;
+  if (w_sum < least_points) return false;
+  x /= w_sum, y /= w_sum;
+  xx = xx / w_sum - x * x, xy = xy / w_sum - x * y, yy = yy / w_sum - y * y;
+  const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  piece.normal_x = -std::sin(direction);
+  piece.normal_y = std::cos(direction);
+  const double off = x * piece.normal_x + y * piece.normal_y;
+  piece.at = {piece.at.x_m + off * piece.normal_x, piece.at.y_m + off * piece.normal_y};
+  return std::hypot(0.5 * (xx - yy), xy) > 0.1 * (xx + yy);  // longer than thick, by what the window leaves
+}
+
+/// Ridges of the cloud, at about `length_m` from each other, strongest first.
+std::vector<Piece> ridges(const std::vector<Blot>& points, double length_m, double width_m,
+                          double least_points) {
+  constexpr int kSteps = 5;
+  const std::vector<Blot> cloud = blots(points, 0.2 * std::min(length_m, width_m));
+  Cells cells(2.5 * std::max(length_m, width_m));
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) cells.add(cloud[i].at, i);
+  std::vector<Piece> found;
+  for (const Blot& seed : blots(points, 0.7 * length_m)) {
+    Piece piece{seed.at};
+    bool is_line = true;
+    for (int k = 0; k < kSteps && is_line; ++k)
+      is_line = step_to_ridge(piece, cloud, cells, length_m, width_m, least_points);
+    if (is_line) found.push_back(piece);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.weight > b.weight; });
+  std::vector<Piece> apart;
+  Cells taken(length_m);
+  for (const Piece& piece : found) {
+    bool is_new = true;
+    taken.around(piece.at, [&](std::uint32_t k) {
+      is_new &= std::abs(apart[k].across(piece.at)) > 0.5 * width_m ||
+                std::abs(apart[k].along(piece.at)) > 0.6 * length_m ||
+                std::abs(apart[k].normal_x * piece.normal_x + apart[k].normal_y * piece.normal_y) < 0.8;
+    });
+    if (!is_new) continue;
+    taken.add(piece.at, static_cast<std::uint32_t>(apart.size()));
+    apart.push_back(piece);
+  }
+  return apart;
+}
+
+/// What the points of one scan say of one piece: sums of the Gauss-Newton terms.
+struct Saying {
+  Eigen::Matrix3d pose = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 2> both = Eigen::Matrix<double, 3, 2>::Zero();
+  Eigen::Matrix2d line = Eigen::Matrix2d::Zero();
+  Eigen::Vector3d pose_pull = Eigen::Vector3d::Zero();
+  Eigen::Vector2d line_pull = Eigen::Vector2d::Zero();
+  double squares_m2 = 0.0;  ///< of the distances from the line, and how many
+  double points = 0.0;
+};
+using Sayings = std::vector<std::map<std::uint32_t, Saying>>;  ///< by piece, then by scan
+
+/// Every point draws at the piece that it lies nearest to.
+Sayings listen(const std::vector<ScanPoints>& scans, const std::vector<Pose>& poses,
+               const std::vector<Piece>& pieces, double length_m, double scale_m) {
+  const double reach_m = 2.0 * scale_m;
+  Cells cells(std::max(reach_m, length_m));
+  for (std::uint32_t k = 0; k < pieces.size(); ++k) cells.add(pieces[k].at, k);
+  Sayings sayings(pieces.size());
+  for (std::uint32_t s = 0; s < scans.size(); ++s)
+    for (std::size_t i = 0; i < scans[s].size(); ++i) {
+      const Point2<Map> p = poses[s] * scans[s].point(i);
+      double least = reach_m;
+      const Piece* nearest = nullptr;
+      cells.around(p, [&](std::uint32_t k) {
+        const double beyond = std::max(0.0, std::abs(pieces[k].along(p)) - 0.5 * length_m);
+        const double off = std::hypot(pieces[k].across(p), 3.0 * beyond);
+        if (off < least) least = off, nearest = &pieces[k];
+      });
+      if (nearest == nullptr) continue;
+      const double r = nearest->across(p);
+      const double ratio = 1.0 + r * r / (scale_m * scale_m);
+      const double w = scans[s].weight_of(i) / (ratio * ratio);
+      const Eigen::Vector3d j(
+          nearest->normal_x, nearest->normal_y,
+          nearest->normal_y * (p.x_m - poses[s].x_m()) - nearest->normal_x * (p.y_m - poses[s].y_m()));
+      const Eigen::Vector2d l(-1.0, -nearest->along(p));
+      Saying& saying = sayings[static_cast<std::size_t>(nearest - pieces.data())][s];
+      saying.squares_m2 += r * r, saying.points += 1.0;
+      saying.pose += w * j * j.transpose();
+      saying.both += w * j * l.transpose();
+      saying.line += w * l * l.transpose();
+      saying.pose_pull += w * r * j;
+      saying.line_pull += w * r * l;
+    }
+  return sayings;
+}
+
+/// Points of a corner, or of two surfaces, spread wider than noise alone spreads them about a line. Such a
+/// piece leans to whichever of its surfaces a scan saw more of, which bends the map: 2 % of its size at 0.3
+/// m.
+bool is_one_line(const std::map<std::uint32_t, Saying>& scans, double most_m) {
+  double squares_m2 = 0.0, points = 0.0;
+  for (const auto& [s, saying] : scans) squares_m2 += saying.squares_m2, points += saying.points;
+  return squares_m2 < points * most_m * most_m;
+}
+
+/// Normal equations of all poses.
+struct Equations {
+  explicit Equations(std::size_t poses) : pull(Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(poses))) {}
+
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Eigen::Matrix3d> blocks;  ///< row not before column
+  Eigen::VectorXd pull;
+
+  Eigen::Matrix3d& block(std::uint32_t row, std::uint32_t column) {
+    return blocks.try_emplace({row, column}, Eigen::Matrix3d::Zero()).first->second;
+  }
+  auto pull_of(std::uint32_t i) { return pull.segment<3>(3 * static_cast<Eigen::Index>(i)); }
+  [[nodiscard]] Eigen::VectorXd solve() const;
+};
+
+Eigen::VectorXd Equations::solve() const {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(9 * blocks.size());
+  for (const auto& [at, m] : blocks)
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        entries.emplace_back(3 * static_cast<int>(at.first) + r, 3 * static_cast<int>(at.second) + c,
+                             m(r, c));
+  Eigen::SparseMatrix<double> lower(pull.size(), pull.size());
+  lower.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factors(lower);
+  if (factors.info() != Eigen::Success) return Eigen::VectorXd::Zero(pull.size());
+  return -factors.solve(pull);
+}
+
+/// The piece's own line is eliminated (Schur): what is left of what the scans say of it is about each other.
+void add_piece(const std::map<std::uint32_t, Saying>& scans, double information, Equations& equations) {
+  if (scans.size() < 2) return;
+  Eigen::Matrix2d line = 1e-3 * Eigen::Matrix2d::Identity();
+  Eigen::Vector2d line_pull = Eigen::Vector2d::Zero();
+  for (const auto& [s, saying] : scans) line += saying.line, line_pull += saying.line_pull;
+  const Eigen::Matrix2d inverse = line.inverse();
+  for (auto a = scans.begin(); a != scans.end(); ++a) {
+    const Eigen::Matrix<double, 3, 2> left = a->second.both * inverse;
+    equations.block(a->first, a->first) += information * a->second.pose;
+    equations.pull_of(a->first) += information * (a->second.pose_pull - left * line_pull);
+    for (auto b = scans.begin(); b != std::next(a); ++b)
+      equations.block(a->first, b->first) -= information * left * b->second.both.transpose();
+  }
+}
+
+void add_motion(const RelativeFactor& motion, const std::vector<Pose>& poses, Equations& equations) {
+  const auto from = static_cast<std::uint32_t>(motion.from), to = static_cast<std::uint32_t>(motion.to);
+  const Pose& a = poses[from];
+  const Pose& b = poses[to];
+  const Eigen::Vector3d error = relative_error(motion, a, b);
+  const double c = std::cos(a.yaw_rad()), s = std::sin(a.yaw_rad());
+  const double dx = b.x_m() - a.x_m(), dy = b.y_m() - a.y_m();
+  Eigen::Matrix3d by_to;
+  by_to << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
+  Eigen::Matrix3d by_from = -by_to;
+  by_from(0, 2) = -s * dx + c * dy;
+  by_from(1, 2) = -c * dx - s * dy;
+  const Eigen::Matrix3d& w = motion.information;
+  equations.block(from, from) += by_from.transpose() * w * by_from;
+  equations.block(to, to) += by_to.transpose() * w * by_to;
+  if (to > from)
+    equations.block(to, from) += by_to.transpose() * w * by_from;
+  else
+    equations.block(from, to) += by_from.transpose() * w * by_to;
+  equations.pull_of(from) += by_from.transpose() * w * error;
+  equations.pull_of(to) += by_to.transpose() * w * error;
+}
+
+/// A step leads no farther than the surfaces that it was worked out with were sought.
+Pose stepped(const Pose& pose, const Eigen::Vector3d& step, double most_m) {
+  constexpr double kMostRad = 0.1;
+  const double by = std::min({1.0, most_m / std::max(1e-12, std::hypot(step[0], step[1])),
+                              kMostRad / std::max(1e-12, std::abs(step[2]))});
+  return {pose.x_m() + by * step[0], pose.y_m() + by * step[1], pose.yaw_rad() + by * step[2]};
+}
+
+std::vector<Blot> cloud_of(const std::vector<ScanPoints>& scans, const std::vector<Pose>& poses) {
+  std::vector<Blot> cloud;
+  for (std::size_t s = 0; s < scans.size(); ++s)
+    for (std::size_t i = 0; i < scans[s].size(); ++i)
+      if (scans[s].weight_of(i) > 0.0) cloud.push_back({poses[s] * scans[s].point(i), scans[s].weight_of(i)});
+  return cloud;
+}
+
+}  // namespace
+
+std::vector<Pose> bundle_scans(const std::vector<ScanPoints>& scans, std::vector<Pose> poses,
+                               const std::vector<RelativeFactor>& wheels, double noise_m,
+                               const BundleOptions& options) {
+  const double noise = std::max(noise_m, options.least_noise_m);
+  const double length_m = std::max(options.length_m, options.length_sigmas * noise);
+  const double last_m = options.last_sigmas * noise;
+  double reach_m = std::max(options.first_reach_m, options.first_sigmas * noise);
+  for (int round = 0; round < options.rounds; ++round) {
+    const double width_m = std::max(noise, 0.4 * reach_m);
+    const std::vector<Piece> pieces =
+        ridges(blots(cloud_of(scans, poses), 0.1 * length_m), 0.5 * length_m, width_m, options.least_points);
+    const Sayings sayings = listen(scans, poses, pieces, 0.5 * length_m, reach_m);
+    Equations equations(poses.size());
+    for (const auto& scans_of_piece : sayings)
+      if (is_one_line(scans_of_piece, options.most_spread * noise * reach_m / last_m))
+        add_piece(scans_of_piece, options.beams_a_point / (noise * noise), equations);
+    for (const RelativeFactor& motion : wheels) add_motion(motion, poses, equations);
+    for (std::uint32_t i = 0; i < poses.size(); ++i)
+      equations.block(i, i) += (i == 0 ? 1e9 : 1e-3) * Eigen::Matrix3d::Identity();
+    const Eigen::VectorXd step = equations.solve();
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      poses[i] = stepped(poses[i], step.segment<3>(3 * static_cast<Eigen::Index>(i)), reach_m);
+    reach_m = std::max(last_m, options.shrink * reach_m);
+  }
+  return poses;
+}
+
+}  // namespace madori::localization
