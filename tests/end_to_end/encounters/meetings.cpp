@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "app/cycle/stages.hpp"
 #include "planning/obstacle_check/sure_sight.hpp"
@@ -13,7 +14,27 @@ namespace {
 using simulation::MoverKind;
 
 constexpr double kStanding_mps = 0.01;
-constexpr double kRounding_mps = 0.02;  ///< of a speed that is kept: wheels slip
+constexpr double kRounding_mps = 0.01;  ///< of a speed that is kept: wheels slip
+constexpr double kTick_s = 0.02;
+
+/// What the vehicle did over the last tenth of a second: a single step of the factory is all slip.
+class Pace {
+ public:
+  void add(const Transform2<Map, Base>& pose) {
+    poses_.push_back(pose);
+    if (poses_.size() > kSteps + 1) poses_.erase(poses_.begin());
+  }
+  [[nodiscard]] VelocityCommand now() const {
+    if (poses_.size() < 2) return {};
+    const double time_s = kTick_s * static_cast<double>(poses_.size() - 1);
+    const auto way = poses_.front().inverse() * poses_.back();
+    return {std::hypot(way.x_m(), way.y_m()) / time_s, std::abs(way.yaw_rad()) / time_s};
+  }
+
+ private:
+  static constexpr std::size_t kSteps = 5;
+  std::vector<Transform2<Map, Base>> poses_;
+};
 
 /// Whether the vehicle was in motion at the touch: driving, or turning on the spot.
 bool moved(const simulation::Collision& c) {
@@ -101,28 +122,18 @@ int Meetings::contacts_since(std::size_t before) const {
   return static_cast<int>(std::count_if(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(), moved));
 }
 
-double Meetings::touch_since(std::size_t before) const {
-  const auto& all = run_->factory->collisions();
-  double fastest_mps = 0.0;
-  for (std::size_t i = before; i < all.size(); ++i)
-    if (moved(all[i]))
-      fastest_mps = std::max(fastest_mps, app::outline_mps(site_.config.check.vehicle,
-                                                           {all[i].speed_mps, all[i].turn_radps}));
-  return fastest_mps;
-}
-
 double Meetings::driven_mps() const {
   return looks_over(site_.config) ? std::min(options_.speed_mps, planning::kUnseenPersonMps)
                                   : options_.speed_mps;
 }
 
 void Meetings::encounter(const Placement& placement, Tally& tally) {
-  constexpr double kTick_s = 0.02;
   auto& factory = *run_->factory;
   const bool walks = placement.mover.kind == MoverKind::Person;
   const std::size_t touched = factory.collisions().size();
   double nearest_m = 10.0, fastest_mps = 0.0, stood_s = 0.0;
   bool stopped = false;
+  Pace pace;
   factory.add_mover(placement.mover);
   run_->run_until(
       [&] {
@@ -132,7 +143,8 @@ void Meetings::encounter(const Placement& placement, Tally& tally) {
             test::distance_between(factory.vehicle().footprint(truth.building_from_base), outline);
         const bool moves =
             std::abs(truth.linear_mps) > kStanding_mps || std::abs(truth.angular_radps) > kStanding_mps;
-        fastest_mps = std::max(fastest_mps, std::abs(truth.linear_mps));
+        pace.add(truth.map_from_base);
+        fastest_mps = std::max(fastest_mps, pace.now().linear_mps);
         if (moves) nearest_m = std::min(nearest_m, away_m);
         stood_s = run_->stands() ? stood_s + kTick_s : 0.0;
         stopped = stopped || (run_->stands() && run_->state().mode == app::Mode::Waiting);
@@ -143,7 +155,8 @@ void Meetings::encounter(const Placement& placement, Tally& tally) {
   ++tally.met;
   tally.stopped += stopped;
   tally.contacts += contacts > 0;
-  const double touch_mps = touch_since(touched);
+  const double touch_mps =
+      contacts > 0 ? app::outline_mps(site_.config.check.vehicle, pace.now()) : 0.0;
   tally.touch_mps = std::max(tally.touch_mps, touch_mps);
   tally.refused += contacts > 0 && placement.mover.kind == MoverKind::LyingBody &&
                    looks_over(site_.config) &&

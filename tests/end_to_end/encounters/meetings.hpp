@@ -56,8 +56,6 @@ class Meetings {
   void clear();
   /// Contacts since the first `before` that began while the vehicle moved.
   [[nodiscard]] int contacts_since(std::size_t before) const;
-  /// The fastest of those; 0 where there were none.
-  [[nodiscard]] double touch_since(std::size_t before) const;
   /// As fast as the vehicle drives with what it sees by.
   [[nodiscard]] double driven_mps() const;
 

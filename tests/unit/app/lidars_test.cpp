@@ -138,7 +138,9 @@ TEST(Lidars, WhoLooksOverTheFloorDrivesSlowlyUnlessTheSiteSaysWhatElseGuards) {
     CycleState state(config, nullptr);
     const Stamp now = state.begun = stamp_from_seconds(1.0);
     state.lidars_heard.assign(config.lidars.size(), Hearing{now, {}});
-    return allowed_mps(state, {.now = now}, config);
+    CycleInput input;
+    input.now = now;
+    return allowed_mps(state, input, config);
   };
   auto low = kFront;
   low.z_m = 0.18;
