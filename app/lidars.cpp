@@ -8,7 +8,6 @@
 
 #include "core/angle.hpp"
 #include "core/result.hpp"
-#include "planning/obstacle_check/sight_history.hpp"
 
 namespace madori::app {
 namespace {
@@ -88,6 +87,13 @@ double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m) {
   return best_m;
 }
 
+double sure_low_m(const std::vector<LidarModel>& lidars, double front_m, double reach_m) {
+  double best_m = 0.0;
+  for (const LidarModel& lidar : lidars)
+    best_m = std::max(best_m, planning::sure_low_m(lidar, front_m, reach_m));
+  return best_m;
+}
+
 double lowest_ahead_m(const std::vector<LidarModel>& lidars) {
   double lowest_m = std::numeric_limits<double>::infinity();
   for (const LidarModel& lidar : lidars)
@@ -105,8 +111,9 @@ std::vector<LidarModel> lidars_of(const mapping::Site& site, const std::filesyst
   for (const auto& sensor : site.sensors) {
     (void)sensors::lidar_of(sensor.type, where + ": sensor " + sensor.name);
     check_mounting(sensor, site.vehicle, where);
-    if (sensor.protective_m > 0.0 && !sensors::lidar_of(sensor.type, where).has_field)
-      throw Error(where, "sensor " + sensor.name + " has no protective field", "take protective_m away");
+    const bool field = sensor.protective_m > 0.0 || sensor.protective_side_m > 0.0;
+    if (field && !sensors::lidar_of(sensor.type, where).has_field)
+      throw Error(where, "sensor " + sensor.name + " has no protective field", "take protective_m and protective_side_m away");
     lidars.push_back(lidar_model(sensor));
   }
   check_apart(site.sensors, where);

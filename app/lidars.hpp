@@ -5,7 +5,7 @@
 
 #include "core/lidar_model.hpp"
 #include "mapping/site/site.hpp"
-#include "planning/obstacle_check/sight_history.hpp"
+#include "planning/obstacle_check/sure_sight.hpp"
 #include "sensors/lidar/registry.hpp"
 
 namespace madori::app {
@@ -33,8 +33,10 @@ using planning::kLegM;
 /// ahead.
 [[nodiscard]] double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m);
 
-/// The height of a person who lies on the floor (test body of IEC 61496-3: 200 mm).
-inline constexpr double kLyingM = 0.2;
+using planning::kLyingM;
+/// How far before the vehicle's front who lies on the floor is sure to have been seen, likewise; 0 where all
+/// look over him.
+[[nodiscard]] double sure_low_m(const std::vector<LidarModel>& lidars, double front_m, double reach_m);
 /// The lowest height above the floor that a lidar sees straight ahead, somewhere before the vehicle; infinity
 /// where none looks ahead.
 [[nodiscard]] double lowest_ahead_m(const std::vector<LidarModel>& lidars);

@@ -46,9 +46,10 @@ std::uint16_t rssi(const Echo& echo) {
 
 std::vector<mapping::SensorRecord> default_sensors(const mapping::VehicleRecord& vehicle) {
   const double front = vehicle.length_m - vehicle.base_to_rear_m;
+  const S300Spec field;
   return {{"top", "vlp16", front / 2.0, 0.0, 1.2, 0.0},
-          {"front", "lms1xx", front - 0.05, 0.0, 0.35, 0.0},
-          {"safety", "s300", front - 0.02, 0.0, 0.15, 0.0}};
+          {"front", "lms1xx", front - 0.05, 0.0, 0.18, 0.0},
+          {"safety", "s300", front - 0.02, 0.0, 0.15, 0.0, field.protective_m, {}, {}, field.side_m}};
 }
 
 SensorSuite::SensorSuite(const Scenario& scenario, const mapping::VehicleRecord& vehicle,

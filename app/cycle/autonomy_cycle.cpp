@@ -13,7 +13,7 @@ CycleState::CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> so
       localization(std::move(source)),
       site(std::make_shared<const SiteInBuilding>(config.routes, config.walls)),
       obstacles(config.field),
-      movers(config.movers) {
+      movers(config.lidars.size(), MoverWatch{{}, planning::MovingObjects(config.movers)}) {
   pose.health = {LocalizationState::Lost, "no scan yet"};
 }
 
@@ -49,6 +49,18 @@ VelocityCommand wanted_command(CycleState& state, const CycleInput& input, const
   state.progress = pursued.progress;
   if (state.progress.status == control::PursuitStatus::Arrived) arrive(state, input.now);
   return pursued.command;
+}
+
+/// No point of the vehicle faster than it may be: by itself for the sake of who lies on the floor, by hand
+/// while it is driven out of a protective field.
+VelocityCommand slowed(const CycleState& state, const VelocityCommand& wanted, const CycleInput& input,
+                       const CycleConfig& config) {
+  double most_mps = planning::PathCheck::kFree;
+  if (drives(state.mode)) most_mps = low_bodies_mps(state, input.now, config);
+  if (state.mode == Mode::Manual && input.protective_stop) most_mps = config.out_of_field_mps;
+  const double fastest_mps = outline_mps(config.check.vehicle, wanted);
+  const double share = fastest_mps > most_mps ? most_mps / fastest_mps : 1.0;
+  return {wanted.linear_mps * share, wanted.angular_radps * share};
 }
 
 /// What the drive is told: no faster than vehicle and brakes allow, nothing where a safety rule holds.
@@ -106,8 +118,10 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   check_way(state, input, config, output);     // way against bodies and drawing -> ahead, block
   recover(state, input, config, output);       // where the way is not free: what is due of the table
   change_mode(state, input, config, output);   // what happened -> what the vehicle is about
+  say_floor_unseen(state, input, config, output);
   const VelocityCommand wanted = wanted_command(state, input, config);  // way, ahead -> progress, command
-  const VelocityCommand safe = guarded(state, wanted, config);          // it leads into nothing
+  const VelocityCommand slow = slowed(state, wanted, input, config);    // as what is not seen allows
+  const VelocityCommand safe = guarded(state, slow, config);            // it leads into nothing
   command_drive(state, safe, input, step_s, config, output);            // always last
   say_why(state, input, config, step_s, before, output);
   return {std::move(state), std::move(output)};

@@ -57,6 +57,7 @@ bool is_free_behind(const CycleState& state, const Path& path, const std::vector
   check.vehicle.front_m -= 2.0 * kEndM;  // the margin is added at both ends
   check.ends_margin_m = kEndM;
   check.sides_margin_m = 0.0;
+  check.protective = {};  // it moves away from what its field would meet
   check.wall_margin_m = -state.block.squeeze.wall_slack_m;
   return std::all_of(path.points.begin(), path.points.end(), [&](const PathPoint& point) {
     const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m, point.facing_rad());

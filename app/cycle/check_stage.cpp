@@ -9,15 +9,19 @@
 namespace madori::app {
 namespace {
 
-/// What crosses the way, Map frame.
-std::vector<planning::Mover<Map>>& movers_on_map(CycleState& state) {
+/// What crosses the way, Map frame, by all lidars that are heard.
+std::vector<planning::Mover<Map>>& movers_on_map(CycleState& state, Stamp now, const CycleConfig& config) {
   const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
   const Transform2<Map, Odom> turn(0.0, 0.0, map_from_odom.yaw_rad());
   auto& movers = state.bench.movers;
   movers.clear();
-  for (const auto& m : state.movers.movers()) {
-    const Point2<Map> velocity = turn * Point2<Odom>{m.vx_mps, m.vy_mps};
-    movers.push_back({map_from_odom * m.at, velocity.x_m, velocity.y_m, m.radius_m});
+  for (std::size_t i = 0; i < state.movers.size(); ++i) {
+    const double lasts_s = patience_s(config, i) + config.lidars[i].period_s;
+    if (to_seconds(now - state.movers[i].looked) > lasts_s) continue;
+    for (const auto& m : state.movers[i].objects.movers()) {
+      const Point2<Map> velocity = turn * Point2<Odom>{m.vx_mps, m.vy_mps};
+      movers.push_back({map_from_odom * m.at, velocity.x_m, velocity.y_m, m.radius_m});
+    }
   }
   return movers;
 }
@@ -108,7 +112,7 @@ const std::vector<planning::Mover<Map>>& true_movers(CycleState& state, Stamp no
   constexpr double kGapS = 1.0;
   auto& stirring = state.block.stirring;
   std::erase_if(stirring, [&](const Stirring& s) { return to_seconds(now - s.last) > kGapS; });
-  auto& movers = movers_on_map(state);
+  auto& movers = movers_on_map(state, now, config);
   std::erase_if(movers,
                 [&](const auto& m) { return stays(stirring, m.at, now, config.mover_stays_after_s); });
   return movers;

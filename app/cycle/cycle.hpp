@@ -50,6 +50,8 @@ struct CycleConfig {
   planning::GuardOptions guard;
   double sure_range_m =
       planning::PathCheck::kFree;  ///< within which a standing body is sure to be seen ahead
+  double sure_low_m = planning::PathCheck::kFree;  ///< likewise who lies on the floor
+  std::string low_bodies_guarded_by;  ///< what else guards him, as the site says; empty: nothing does
   planning::FieldOptions field;
   planning::MoverOptions movers;
   planning::WaypointOptions waypoints;
@@ -72,6 +74,7 @@ struct CycleConfig {
   double back_out_after_s = 12.0;      ///< a wedged vehicle goes back the way it came
   double back_out_m = 0.8;             ///< ... so far
   double back_out_mps = 0.15;          ///< ... so fast
+  double out_of_field_mps = 0.15;      ///< by hand, while a protective field is interrupted
   double trail_fresh_s = 60.0;         ///< something may have been put behind a vehicle that stood for longer
   double forget_block_s = 180.0;       ///< a leg that was found blocked counts as free again
   double clear_for_s = 0.6;            ///< the way must have been free so long before the vehicle goes on
@@ -159,6 +162,13 @@ struct Hearing {
   std::array<std::optional<Stamp>, kBearings> seen;
 };
 
+/// Who moves, as one lidar sees it. Its looks are compared with its own: two lidars see two sides of a person,
+/// at two moments, and one that looks elsewhere has not lost him.
+struct MoverWatch {
+  Stamp looked{};  ///< of its newest sweep that was looked at
+  planning::MovingObjects objects;
+};
+
 /// Room that the stages of a step work in. Nothing in it lasts: it is kept so that a step asks the heap for
 /// none.
 struct Workbench {
@@ -184,7 +194,7 @@ struct CycleState {
   control::SentCommands sent;
   Transform2<Map, Base> command_pose;  ///< where the vehicle will be when it obeys what is sent in this step
   planning::ObstacleField obstacles;
-  planning::MovingObjects movers;
+  std::vector<MoverWatch> movers;  ///< of each lidar
   control::wire::Status drive;
   std::optional<Stamp> drive_heard;
   sensors::DeviceClock drive_clock;
@@ -192,7 +202,6 @@ struct CycleState {
   bool drive_restarted = false;       ///< in this step: it was without power
   std::vector<Hearing> lidars_heard;  ///< each
   std::optional<Stamp> lidar_heard;   ///< since when something that driving needs is missing
-  Stamp looked{};                     ///< of the newest sweep that the way was checked with
   std::optional<Stamp> previous;
   std::optional<Stamp> gap;  ///< the first step after a time without steps, until something was measured anew
   Stamp begun{};             ///< of the first step: before, no device could be heard
@@ -217,6 +226,7 @@ struct CycleState {
   int unarmed_steps = 0;                                 ///< enabled in a row while the drive stayed idle
   MountingWatch mounting;
   std::vector<char> lidars_missed;  ///< each: it is silent, and that was said
+  bool floor_unseen = false;        ///< it drives slowly since nobody sees who lies before it; that was said
   Workbench bench;
 };
 

@@ -67,6 +67,12 @@ bool is_led_into(const CycleState& state, const std::vector<Point2<Map>>& obstac
 
 }  // namespace
 
+double outline_mps(const planning::VehicleOutline& vehicle, const VelocityCommand& command) {
+  const double turn = std::abs(command.angular_radps);
+  const double sideways = turn * std::max(vehicle.front_m, vehicle.rear_m);
+  return std::hypot(std::abs(command.linear_mps) + turn * vehicle.half_width_m, sideways);
+}
+
 void watch_wheels(CycleState& state, const CycleConfig& config) {
   const Stamp now = state.odometry.reading().stamp;
   const double step_s = to_seconds(now - std::exchange(state.wheels_at, now));

@@ -4,6 +4,7 @@
 #include "app/cycle/stages.hpp"
 #include "core/angle.hpp"
 #include "core/fill_in.hpp"
+#include "planning/obstacle_check/sure_sight.hpp"
 
 namespace madori::app {
 namespace {
@@ -42,6 +43,21 @@ bool is_missed(const CycleState& state, std::size_t lidar, Stamp now, const Cycl
   return is_silent(std::max({heard, state.gap, std::optional(state.begun)}), now, patience_s(config, lidar));
 }
 
+/// The best that a lidar does which is heard; as configured while all are.
+template <class RangeOf>
+double of_those_heard(const CycleState& state, Stamp now, const CycleConfig& config, double all_m,
+                      const RangeOf& range_of) {
+  double heard_m = 0.0;
+  bool any_missed = false;
+  for (std::size_t i = 0; i < config.lidars.size(); ++i) {
+    if (is_missed(state, i, now, config))
+      any_missed = true;
+    else
+      heard_m = std::max(heard_m, range_of(config.lidars[i]));
+  }
+  return any_missed ? std::min(all_m, heard_m) : all_m;
+}
+
 }  // namespace
 
 bool tells_place(const std::vector<LidarModel>& lidars, std::size_t lidar) {
@@ -78,15 +94,27 @@ std::string silent_lidars(const CycleState& state, Stamp now, const CycleConfig&
 }
 
 double sure_range_m(const CycleState& state, Stamp now, const CycleConfig& config) {
-  double heard_m = 0.0;
-  bool any_missed = false;
-  for (std::size_t i = 0; i < config.lidars.size(); ++i) {
-    if (is_missed(state, i, now, config))
-      any_missed = true;
-    else
-      heard_m = std::max(heard_m, planning::sure_ahead_m(config.lidars[i], config.check.vehicle.front_m));
-  }
-  return any_missed ? std::min(config.sure_range_m, heard_m) : config.sure_range_m;
+  return of_those_heard(state, now, config, config.sure_range_m, [&](const LidarModel& lidar) {
+    return planning::sure_ahead_m(lidar, config.check.vehicle.front_m);
+  });
+}
+
+double low_bodies_mps(const CycleState& state, Stamp now, const CycleConfig& config) {
+  if (!config.low_bodies_guarded_by.empty()) return planning::PathCheck::kFree;
+  const double sure_m =
+      of_those_heard(state, now, config, config.sure_low_m, [&](const LidarModel& lidar) {
+        return planning::sure_low_m(lidar, config.check.vehicle.front_m, config.field.reach_m);
+      });
+  return std::max(planning::kUnseenPersonMps, config.check.braking.speed_within(sure_m));
+}
+
+void say_floor_unseen(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                      CycleOutput& output) {
+  const bool unseen = low_bodies_mps(state, input.now, config) <= planning::kUnseenPersonMps;
+  if (!drives(state.mode) || unseen == state.floor_unseen) return;
+  state.floor_unseen = unseen;
+  const CatalogueEntry& words = unseen ? kFloorUnseenEvent : kFloorSeenEvent;
+  output.events.push_back(fill_in(words.english, {{"speed", two_decimals(planning::kUnseenPersonMps)}}));
 }
 
 void say_missed_lidars(CycleState& state, const CycleInput& input, const CycleConfig& config,

@@ -96,7 +96,7 @@ void follow_drawing(CycleState& state, const CycleConfig& config) {
 }
 
 /// One sweep to everybody who looks. A lidar that is faster than the way need be checked tells the obstacles
-/// of every sweep, and the movers, whose speeds want time between two looks, of some.
+/// of every sweep, and its movers, whose speeds want time between two looks, of some.
 void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleInput& input,
                 const CycleConfig& config, CycleOutput& output) {
   constexpr double kLookAgainS = 0.08;
@@ -111,11 +111,12 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
   state.localization->on_cloud(base, odom_from_base);
   state.pose = state.localization->on_odometry(state.odometry.reading());
   state.obstacles.update(base, planning::SensorView::of(config.lidars[cloud.lidar]), odom_from_base);
-  const double since_s = to_seconds(base.stamp - state.looked);
+  MoverWatch& watch = state.movers[cloud.lidar];
+  const double since_s = to_seconds(base.stamp - watch.looked);
   if (since_s >= 0.0 && since_s < kLookAgainS) return;
-  state.looked = base.stamp;
+  watch.looked = base.stamp;
   output.computed_lidar = true;
-  state.movers.update(state.obstacles.columns(), base.stamp);
+  watch.objects.update(state.obstacles.columns(), base.stamp);
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"confirm", "confirm"},
     CatalogueEntry{"wait-for-place", "wait, drive it by hand, or show its place: Where am I?"},
     CatalogueEntry{"check-lidar", "check the lidar's power and network cable"},
-    CatalogueEntry{"clear-field", "clear the field"},
+    CatalogueEntry{"clear-field", "clear the field, or drive the vehicle out of it by hand"},
     CatalogueEntry{"go-on", "goes on by itself, or press Go on"},
     CatalogueEntry{"by-itself", "goes on by itself"},
     CatalogueEntry{"clear-or-draw", "clear the way, or draw a route"},
@@ -192,6 +192,14 @@ inline constexpr CatalogueEntry kLidarLostEvent{
     "lidar {name} is silent: the vehicle goes on with the others, as "
     "fast as they allow"};
 inline constexpr CatalogueEntry kLidarBackEvent{"event.lidar-back", "lidar {name} is heard again"};
+
+/// No lidar that is heard sees who lies on the floor ahead.
+inline constexpr CatalogueEntry kFloorUnseenEvent{
+    "event.floor-unseen",
+    "no lidar sees who lies on the floor ahead: at most {speed} m/s are driven; mount a lidar at 0.2 m or "
+    "lower, or enter in site.yaml what else guards him (low_bodies_guarded_by)"};
+inline constexpr CatalogueEntry kFloorSeenEvent{
+    "event.floor-seen", "a lidar sees who lies on the floor ahead: {speed} m/s are no limit any more"};
 
 [[nodiscard]] const CatalogueEntry& entry(Cause cause);
 [[nodiscard]] const CatalogueEntry& entry(Remedy remedy);

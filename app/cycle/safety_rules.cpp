@@ -12,10 +12,6 @@ bool after_a_gap(const CycleState& state, const CycleInput& /*input*/, const Cyc
   return state.gap.has_value();
 }
 
-bool field_is_entered(const CycleState& /*state*/, const CycleInput& input, const CycleConfig& /*config*/) {
-  return input.protective_stop;
-}
-
 bool drive_is_silent(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   return is_silent(state.drive_heard, input.now, config.drive_silent_s);
 }
@@ -39,10 +35,14 @@ Notice who_is_silent(const CycleState& state, const CycleInput& input, const Cyc
 
 }  // namespace
 
+bool field_is_entered(const CycleState& /*state*/, const CycleInput& input, const CycleConfig& /*config*/) {
+  return input.protective_stop;
+}
+
 std::vector<SafetyRule> standard_safety_rules() {
   return {
       {entry(Cause::TimeGap), entry(Remedy::ByItself), true, after_a_gap},
-      {entry(Cause::ProtectiveField), entry(Remedy::ClearField), true, field_is_entered},
+      {entry(Cause::ProtectiveField), entry(Remedy::ClearField), false, field_is_entered},
       {entry(Cause::DriveSilent), entry(Remedy::CheckDrive), true, drive_is_silent},
       {entry(Cause::LidarSilent), entry(Remedy::CheckLidar), false, lidar_is_silent, who_is_silent},
       {entry(Cause::LidarHeight), entry(Remedy::CorrectMounting), false, mounting_is_wrong, what_is_wrong},

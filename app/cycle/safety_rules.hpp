@@ -21,6 +21,11 @@ struct SafetyRule {
   Notice (*said)(const CycleState&, const CycleInput&, const CycleConfig&) = nullptr;
 };
 
+/// A safety scanner's protective field is interrupted. A person may drive the vehicle out of it by hand,
+/// slowly: the scanner, which acts on the drive itself, must have been switched to let him.
+[[nodiscard]] bool field_is_entered(const CycleState& state, const CycleInput& input,
+                                    const CycleConfig& config);
+
 /// Those of the product, in the order in which they are said (docs/how-to/add-a-safety-rule.md).
 [[nodiscard]] std::vector<SafetyRule> standard_safety_rules();
 

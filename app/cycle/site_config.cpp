@@ -19,6 +19,7 @@ void take_lidars(std::vector<LidarModel> lidars, CycleConfig& config) {
   }
   config.field.top_m = top_m + kHeadroomM;
   config.sure_range_m = sure_ahead_m(lidars, config.check.vehicle.front_m);
+  config.sure_low_m = sure_low_m(lidars, config.check.vehicle.front_m, config.field.reach_m);
   config.lidars = std::move(lidars);
 }
 
@@ -51,9 +52,12 @@ void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
   config.movers.top_speed_mps = v.max_speed_mps;
 }
 
+/// What else guards people: fields of safety scanners, which must stay free, and what the integrator names.
 void take_protection(const mapping::Site& site, CycleConfig& config) {
+  auto& field = config.check.protective;
   for (const auto& sensor : site.sensors)
-    config.check.protective_m = std::max(config.check.protective_m, sensor.protective_m);
+    field = {std::max(field.ahead_m, sensor.protective_m), std::max(field.beside_m, sensor.protective_side_m)};
+  config.low_bodies_guarded_by = site.low_bodies_guarded_by;
 }
 
 }  // namespace
@@ -69,7 +73,8 @@ CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem
   CycleConfig config = vehicle_config(setup.vehicle, lidars_of(setup, where));
   take_protection(setup, config);
   config.mapping = true;
-  for (SafetyRule& rule : config.safety_rules) rule.by_hand = true;
+  for (SafetyRule& rule : config.safety_rules)
+    rule.by_hand = rule.by_hand || rule.holds != field_is_entered;
   return config;
 }
 

@@ -31,6 +31,15 @@ void say_missed_lidars(CycleState& state, const CycleInput& input, const CycleCo
 [[nodiscard]] std::string silent_lidars(const CycleState& state, Stamp now, const CycleConfig& config);
 /// How far ahead a leg is sure to be seen by the lidars that are heard.
 [[nodiscard]] double sure_range_m(const CycleState& state, Stamp now, const CycleConfig& config);
+/// As fast as any point of the vehicle may move by itself, for the sake of who lies on the floor: as the
+/// lidars that are heard are sure to have seen him, and where they look over him as slowly as a vehicle that
+/// does not see him may drive. No limit where something else guards him.
+[[nodiscard]] double low_bodies_mps(const CycleState& state, Stamp now, const CycleConfig& config);
+/// Says that this limit holds, and why; once.
+void say_floor_unseen(CycleState& state, const CycleInput& input, const CycleConfig& config,
+                      CycleOutput& output);
+/// The fastest point of the vehicle's outline at a command.
+[[nodiscard]] double outline_mps(const planning::VehicleOutline& vehicle, const VelocityCommand& command);
 /// Notices a wheel that does not do what it was told.
 void watch_wheels(CycleState& state, const CycleConfig& config);
 /// Notices that the vehicle does not get on although it drives; what holds it is remembered as a body.

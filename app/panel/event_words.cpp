@@ -72,6 +72,8 @@ bool take_clock(std::string_view text, hmi::EventView& view) {
   if (!known) known = said_by_any(kClockEvents, text);
   if (!known) known = said_by(kLidarLostEvent, text);
   if (!known) known = said_by(kLidarBackEvent, text);
+  if (!known) known = said_by(kFloorUnseenEvent, text);
+  if (!known) known = said_by(kFloorSeenEvent, text);
   if (!known) return false;
   view.what = shown(*known);
   view.severity = "warning";

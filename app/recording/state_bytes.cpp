@@ -9,7 +9,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 14;
+constexpr std::uint32_t kFormat = 15;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -130,10 +130,10 @@ void each_of_sight(Bytes& bytes, Sight& s) {
 template <class Bytes, class State>
 void each_of(Bytes& bytes, State& s) {
   auto& [mode, standstill, odometry, track, localization, site, pose, sent, command_pose, obstacles, movers,
-         drive, drive_heard, drive_clock, drive_us, drive_restarted, lidars_heard, lidar_heard, looked,
+         drive, drive_heard, drive_clock, drive_us, drive_restarted, lidars_heard, lidar_heard,
          previous, gap, begun, stopped, stopped_order, jog, jog_heard, jog_held, errand, way, progress, ahead,
          block, detour, trail, trail_at, effort, limits, wheels, wheels_at, disobedient, unarmed_steps,
-         mounting, lidars_missed, bench] = s;
+         mounting, lidars_missed, floor_unseen, bench] = s;
   static_cast<void>(bench);                                    // nothing in it lasts
   static_cast<void>(command_pose);                             // each step anew
   static_cast<void>(standstill), static_cast<void>(jog_held);  // for people, each step anew
@@ -142,9 +142,9 @@ void each_of(Bytes& bytes, State& s) {
   static_cast<void>(obstacles), static_cast<void>(movers);  // below: they guard their fields
   bytes(sent.sent());
   each(bytes, mode, odometry, track, drive, drive_heard, drive_clock, drive_us, drive_restarted, lidars_heard,
-       lidar_heard, looked, previous, gap, begun, stopped, stopped_order, jog, jog_heard, progress, ahead,
+       lidar_heard, previous, gap, begun, stopped, stopped_order, jog, jog_heard, progress, ahead,
        trail, trail_at, effort, limits, wheels, wheels_at, disobedient, unarmed_steps, mounting,
-       lidars_missed);
+       lidars_missed, floor_unseen);
   each_of_errand(bytes, errand);
   each_of_way(bytes, way);
   each_of_block(bytes, block);
@@ -160,10 +160,28 @@ std::string state_bytes(const CycleState& state) {
   bytes(state.obstacles.columns());
   bytes(static_cast<std::uint64_t>(state.obstacles.sights().sights().size()));
   for (const auto& sight : state.obstacles.sights().sights()) each_of_sight(bytes, sight);
-  bytes(static_cast<std::uint64_t>(state.movers.tracks().size()));
-  for (const auto& track : state.movers.tracks()) bytes(track.sightings), bytes(track.radius_m);
+  for (const MoverWatch& watch : state.movers) {
+    bytes(watch.looked);
+    bytes(static_cast<std::uint64_t>(watch.objects.tracks().size()));
+    for (const auto& track : watch.objects.tracks()) bytes(track.sightings), bytes(track.radius_m);
+  }
   return bytes.take();
 }
+
+namespace {
+
+void restore_watch(BytesIn& bytes, MoverWatch& watch, std::size_t most) {
+  std::uint64_t count = 0;
+  bytes(watch.looked), bytes(count);
+  std::vector<planning::MovingObjects::Track> tracks;
+  for (std::uint64_t i = 0; i < count && i < most; ++i) {
+    auto& track = tracks.emplace_back();
+    bytes(track.sightings), bytes(track.radius_m);
+  }
+  watch.objects.restore(std::move(tracks));
+}
+
+}  // namespace
 
 void restore_state(CycleState& state, const std::string& text, const CycleConfig& config) {
   BytesIn bytes(text);
@@ -178,13 +196,7 @@ void restore_state(CycleState& state, const std::string& text, const CycleConfig
   Ring<planning::SightHistory::Sight> sights;
   for (std::uint64_t i = 0; i < count && i < text.size(); ++i) each_of_sight(bytes, sights.add());
   state.obstacles.restore(std::move(columns), std::move(sights));
-  bytes(count);
-  std::vector<planning::MovingObjects::Track> tracks;
-  for (std::uint64_t i = 0; i < count && i < text.size(); ++i) {
-    auto& track = tracks.emplace_back();
-    bytes(track.sightings), bytes(track.radius_m);
-  }
-  state.movers.restore(std::move(tracks));
+  for (MoverWatch& watch : state.movers) restore_watch(bytes, watch, text.size());
   if (!bytes.at_end()) BytesIn::fail();
   const Path& path = state.way.plain;
   state.way.path =

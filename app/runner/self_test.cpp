@@ -42,22 +42,44 @@ std::string look_at_sight(const CycleConfig& config) {
   throw Error("site.yaml", text, mend);
 }
 
-/// Who lies on the floor must be seen, or the vehicle be so slow that its bumper may find him (ISO 3691-4:
-/// 0.3 m/s without personnel detection).
+/// Who lies on the floor must be seen or guarded by something else, or the vehicle be so slow that its bumper
+/// may find him (ISO 3691-4: 0.3 m/s without personnel detection). The cycle keeps to that.
 std::string look_at_low_bodies(const CycleConfig& config) {
-  constexpr double kBumperMps = 0.3;
+  constexpr double kBumperMps = planning::kUnseenPersonMps;
   const double lowest_m = lowest_ahead_m(config.lidars), speed_mps = config.limits.max_speed_mps;
   char text[200];
-  if (lowest_m <= kLyingM) {
-    std::snprintf(text, sizeof text, "a body of %.1f m that lies ahead is seen", kLyingM);
+  if (config.sure_low_m > 0.0) {
+    std::snprintf(text, sizeof text, "a body of %.1f m that lies ahead is sure to %.1f m", kLyingM,
+                  config.sure_low_m);
     return text;
   }
   std::snprintf(text, sizeof text,
                 "a body of %.1f m that lies ahead is not seen: the lowest lidar looks over it, at %.2f m",
                 kLyingM, lowest_m);
+  if (!config.low_bodies_guarded_by.empty())
+    return std::string(text) + "; the site says what guards it: " + config.low_bodies_guarded_by;
   if (speed_mps <= kBumperMps) return std::string(text) + "; at this speed the bumper may find it";
-  throw Error("site.yaml", text,
-              "mount a lidar at 0.2 m or lower, or set max_speed_mps to 0.3 and rely on the bumper");
+  throw Error("site.yaml", std::string(text) + "; no faster than 0.3 m/s is driven, at which a bumper may find it",
+              "mount a lidar at 0.2 m or lower, set max_speed_mps to 0.3, or enter what else guards it: "
+              "low_bodies_guarded_by");
+}
+
+/// The field of a safety scanner is known to its own configuration alone: routes keep free what site.yaml says.
+std::string look_at_fields(const SiteForDriving& loaded) {
+  std::string text;
+  for (const auto& sensor : loaded.site.sensors) {
+    if (!sensors::lidar_of(sensor.type, sensor.name).has_field) continue;
+    if (!(sensor.protective_m > 0.0))
+      throw Error("site.yaml",
+                  "sensor " + sensor.name + " has a protective field, and nothing says how far it reaches: "
+                  "routes lead so near to things that it stops the vehicle",
+                  "enter protective_m (and protective_side_m) as the scanner is configured");
+    char line[160];
+    std::snprintf(line, sizeof line, "%s%s: %.2f m ahead, %.2f m beside", text.empty() ? "" : "; ",
+                  sensor.name.c_str(), sensor.protective_m, sensor.protective_side_m);
+    text += line;
+  }
+  return text.empty() ? "no safety scanner" : "routes keep the protective field free, " + text;
 }
 
 std::string look_at_disk(const fs::path& site) {
@@ -95,6 +117,7 @@ SelfTest look_at_site(const fs::path& site) {
   if (test.site) found.push_back(look("routes", [&] { return look_at_routes(site, *test.site); }));
   if (test.site) found.push_back(look("sight", [&] { return look_at_sight(test.site->config); }));
   if (test.site) found.push_back(look("floor", [&] { return look_at_low_bodies(test.site->config); }));
+  if (test.site) found.push_back(look("field", [&] { return look_at_fields(*test.site); }));
   found.push_back(look("orders", [&] { return look_at_orders(site); }));
   found.push_back(look("disk", [&] { return look_at_disk(site); }));
   return test;

@@ -39,6 +39,7 @@ std::vector<mapping::SensorRecord> sensors_from(const json& wire,
     for (const auto& old : before)
       if (old.name == sensors.back().name && old.type == sensors.back().type) {
         sensors.back().protective_m = old.protective_m;
+        sensors.back().protective_side_m = old.protective_side_m;
         sensors.back().address = old.address;
         sensors.back().settings = old.settings;
       }

@@ -80,6 +80,7 @@ SensorRecord read_sensor(StrictYaml& yaml) {
   record.z_m = yaml.number_or("z_m", 0.0, -5.0, 20.0);
   record.yaw_deg = yaml.number_or("yaw_deg", 0.0, -360.0, 360.0);
   record.protective_m = yaml.number_or("protective_m", 0.0, 0.0, 5.0);
+  record.protective_side_m = yaml.number_or("protective_side_m", 0.0, 0.0, 5.0);
   record.address = yaml.text_or("address", "");
   if (const YAML::Node settings = yaml.raw("settings"))
     record.settings = settings.as<std::map<std::string, std::string>>();
@@ -113,6 +114,8 @@ void emit_sensor(YAML::Emitter& out, const SensorRecord& s) {
   out << YAML::Key << "x_m" << YAML::Value << s.x_m << YAML::Key << "y_m" << YAML::Value << s.y_m;
   out << YAML::Key << "z_m" << YAML::Value << s.z_m << YAML::Key << "yaw_deg" << YAML::Value << s.yaw_deg;
   if (s.protective_m > 0.0) out << YAML::Key << "protective_m" << YAML::Value << s.protective_m;
+  if (s.protective_side_m > 0.0)
+    out << YAML::Key << "protective_side_m" << YAML::Value << s.protective_side_m;
   if (!s.address.empty()) out << YAML::Key << "address" << YAML::Value << s.address;
   if (!s.settings.empty()) out << YAML::Key << "settings" << YAML::Value << YAML::Flow << s.settings;
   out << YAML::EndMap;
@@ -144,6 +147,7 @@ Site read_site_file(const std::filesystem::path& file) {
   for (StrictYaml& sensor : yaml.list("sensors")) site.sensors.push_back(read_sensor(sensor));
   site.shortest_routes = read_route_metric(yaml);
   site.camera = yaml.text_or("camera", "");
+  site.low_bodies_guarded_by = yaml.text_or("low_bodies_guarded_by", "");
   yaml.refuse_unknown_keys();
   return site;
 }
@@ -195,6 +199,8 @@ std::string site_yaml(const Site& site) {
     out << YAML::EndSeq;
   }
   if (!site.camera.empty()) out << YAML::Key << "camera" << YAML::Value << site.camera;
+  if (!site.low_bodies_guarded_by.empty())
+    out << YAML::Key << "low_bodies_guarded_by" << YAML::Value << site.low_bodies_guarded_by;
   out << YAML::EndMap;
   return std::string(out.c_str()) + "\n";
 }

@@ -88,6 +88,7 @@ struct SensorRecord {
       0.0;  ///< of a safety scanner: how far its protective field reaches ahead of the vehicle's front
   std::string address{};                          ///< HOST:PORT or serial port; empty: the kind's usual one
   std::map<std::string, std::string> settings{};  ///< of its kind, e.g. rate_hz
+  double protective_side_m = 0.0;                 ///< ... and how far it reaches beside the vehicle
 
   friend bool operator==(const SensorRecord&, const SensorRecord&) = default;
 };
@@ -104,6 +105,9 @@ struct Site {
   /// Where the verification camera's pictures come from: a URL (http, rtsp) or a device such as /dev/video0;
   /// empty: there is no camera.
   std::string camera;
+  /// What guards who lies on the floor, where no lidar sees him: a bumper, a safety field that is not
+  /// Madori's, people who are kept out. Empty: nothing does, and the vehicle drives as slowly as that asks.
+  std::string low_bodies_guarded_by;
 };
 
 /// Reads and checks `folder`/site.yaml; throws Error with file, line and mend.

@@ -57,7 +57,8 @@ class Search {
     driving_.ends_margin_m = ends_margin_m(check, options.speed_mps);
     turning_.ends_margin_m = turning_.sides_margin_m = check.turn_margin_m;
     find_bounds();
-    const double reach_m = check.vehicle.reach_m() + check.ends_margin_m;
+    const double reach_m = check.vehicle.reach_m() + std::max(check.ends_margin_m, check.protective.ahead_m) +
+                           check.field_margin_m;
     for (const Point2<Map>& p : obstacles)
       if (p.x_m > low_.x_m - reach_m && p.x_m < high_.x_m + reach_m && p.y_m > low_.y_m - reach_m &&
           p.y_m < high_.y_m + reach_m)

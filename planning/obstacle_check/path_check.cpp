@@ -17,17 +17,30 @@ struct Contact {
   bool by_wall = false;
 };
 
-/// A vehicle's outline with margins, and the published cylinder.
+/// What a scanner's protective field covers, from the vehicle's front on; nothing where there is none.
+std::optional<VehicleOutline> field_of(const CheckOptions& o) {
+  if (!(o.protective.ahead_m > 0.0)) return std::nullopt;
+  const VehicleOutline& v = o.vehicle;
+  return VehicleOutline{v.front_m + o.protective.ahead_m + o.field_margin_m, -v.front_m,
+                        v.half_width_m + o.protective.beside_m + o.field_margin_m, v.height_m};
+}
+
+/// A vehicle's outline with margins, the published cylinder, and the protective field.
 struct Zone {
   VehicleOutline outline;
+  std::optional<VehicleOutline> field;
   double radius_m;
 
   Zone(const CheckOptions& o, double ends_m, double sides_m)
-      : outline(o.vehicle.grown(std::max(ends_m, o.protective_m), ends_m, sides_m)),
+      : outline(o.vehicle.grown(ends_m, sides_m)),
+        field(field_of(o)),
         radius_m(o.vehicle.half_width_m + sides_m) {}
-  [[nodiscard]] double reach_m() const { return std::max(outline.reach_m(), radius_m); }
+  [[nodiscard]] double reach_m() const {
+    return std::max({outline.reach_m(), radius_m, field ? field->reach_m() : 0.0});
+  }
   [[nodiscard]] bool holds(const Point2<Base>& p) const {
-    return outline.contains(p) || p.x_m * p.x_m + p.y_m * p.y_m <= radius_m * radius_m;
+    return outline.contains(p) || p.x_m * p.x_m + p.y_m * p.y_m <= radius_m * radius_m ||
+           (field && field->contains(p));
   }
 };
 
@@ -51,12 +64,14 @@ std::optional<Contact> meets_point(const Transform2<Map, Base>& pose,
 
 std::optional<Contact> meets_wall(const Transform2<Map, Base>& pose, const WallGrid& walls,
                                   const CheckOptions& options) {
-  const VehicleOutline outline = options.vehicle.grown(std::max(options.wall_margin_m, options.protective_m),
-                                                       options.wall_margin_m, options.wall_margin_m);
+  const VehicleOutline outline = options.vehicle.grown(options.wall_margin_m, options.wall_margin_m);
+  const auto field = field_of(options);
   const auto base_from_map = pose.inverse();
   std::optional<Contact> contact;
-  walls.any_near(pose.translation(), outline.reach_m(), [&](const Segment2<Map>& wall) {
-    if (!outline.touches(base_from_map * wall)) return false;
+  const double reach_m = std::max(outline.reach_m(), field ? field->reach_m() : 0.0);
+  walls.any_near(pose.translation(), reach_m, [&](const Segment2<Map>& wall) {
+    const Segment2<Base> seen = base_from_map * wall;
+    if (!outline.touches(seen) && !(field && field->touches(seen))) return false;
     contact = {nearest_point(wall, pose.translation()), true};
     return true;
   });

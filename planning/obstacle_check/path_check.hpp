@@ -35,6 +35,12 @@ struct BrakingModel {
   }
 };
 
+/// Where a safety scanner stops the vehicle: before its front, in its width and beside it.
+struct ProtectiveField {
+  double ahead_m = 0.0;  ///< of the front; 0: there is none
+  double beside_m = 0.0;
+};
+
 struct CheckOptions {
   VehicleOutline vehicle;
   BrakingModel braking;
@@ -42,7 +48,8 @@ struct CheckOptions {
   double sides_margin_m = 0.06;  ///< ... beside it
   double turn_margin_m = 0.06;   ///< ... on all sides during a slow turn on the spot
   double care_margin_m = 0.15;   ///< something within this much more only slows the vehicle
-  double protective_m = 0.0;     ///< kept free before the vehicle, of walls too: a scanner's protective field
+  ProtectiveField protective;    ///< kept free as if it were part of the vehicle, of walls too
+  double field_margin_m = 0.05;  ///< around it: scanners err, and no path is followed exactly
   double wall_margin_m = 0.03;   ///< to drawn walls, which lie as exactly as the drawing
   double step_m = 0.15;          ///< waypoints nearer together than this are checked once
   double turn_step_rad = 0.15;   ///< between the checked headings of a turn on the spot

@@ -35,9 +35,19 @@ bool SensorView::sees(const Point2<Base>& place, double low_m, double high_m) co
          low_m <= z_m + away_m * std::tan(max_elevation_rad);
 }
 
+const SightHistory::Sight* SightHistory::last_of(const SensorView& view) const {
+  for (std::size_t i = sights_.size(); i-- > 0;)
+    if (sights_[i].view == view) return &sights_[i];
+  return nullptr;
+}
+
 bool SightHistory::begin(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp stamp) {
-  if (!sights_.empty() && stamp < sights_.back().stamp) sights_.clear();  // the clock was set
-  if (!sights_.empty() && to_seconds(stamp - sights_.back().stamp) < options_.apart_s) return false;
+  const Sight* last = last_of(view);
+  if (last != nullptr && stamp < last->stamp) {
+    sights_.clear();  // the clock was set
+    last = nullptr;
+  }
+  if (last != nullptr && to_seconds(stamp - last->stamp) < options_.apart_s) return false;
   while (!sights_.empty() && to_seconds(stamp - sights_.front().stamp) > options_.memory_s)
     sights_.pop_front();
   Sight& sight = sights_.add();
@@ -73,7 +83,7 @@ bool SightHistory::was_empty(const Point2<Odom>& place, double side_m, double lo
                              Stamp now) const {
   int empty = 0;
   for (const Sight& sight : sights_) {
-    if (to_seconds(now - sight.stamp) < options_.youngest_s) break;
+    if (to_seconds(now - sight.stamp) < options_.youngest_s) continue;
     if (shows_empty(sight, place, side_m, low_m, high_m)) ++empty;
     if (empty >= options_.fewest_scans) return true;
   }

@@ -30,20 +30,13 @@ struct SensorView {
   [[nodiscard]] bool looks_at(double bearing_rad) const;
   /// Whether something from `low_m` to `high_m` above the floor would be hit by this sensor at that place.
   [[nodiscard]] bool sees(const Point2<Base>& place, double low_m, double high_m) const;
-};
 
-/// The narrowest standing body that must be seen: a leg (test body of IEC 61496-3).
-inline constexpr double kLegM = 0.07;
-/// How far before the vehicle's front this lidar is sure to see a leg straight ahead; 0 where it looks
-/// elsewhere.
-[[nodiscard]] inline double sure_ahead_m(const LidarModel& lidar, double front_m) {
-  if (!SensorView::of(lidar).looks_at(0.0)) return 0.0;
-  return std::fmax(0.0, lidar.mounting.x_m + lidar.sure_range_m(kLegM) - front_m);
-}
+  friend bool operator==(const SensorView&, const SensorView&) = default;
+};
 
 struct SightOptions {
   double memory_s = 1.5;    ///< what was seen longer ago is forgotten
-  double apart_s = 0.15;    ///< between two scans that are kept
+  double apart_s = 0.15;    ///< between two scans of one sensor that are kept
   double youngest_s = 0.3;  ///< scans more recent than this are not asked
   int fewest_scans = 2;     ///< that must have seen a place empty
   double margin_m = 0.25;   ///< before the nearest thing: noise of the ranges, corners of the cells
@@ -63,7 +56,8 @@ class SightHistory {
 
   explicit SightHistory(const SightOptions& options = {}) : options_(options) {}
 
-  /// Begins a scan; whether it is kept, and add() wanted.
+  /// Begins a scan; whether it is kept, and add() wanted. Each sensor's scans are kept for themselves: what
+  /// one has seen says nothing of where only another one looks, and they come in no order of their stamps.
   bool begin(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp stamp);
   /// A return of the scan begun last, relative to the sensor's mount on the floor, along the Base axes. One
   /// that is no `body` only tells that nothing stood before it.
@@ -82,6 +76,8 @@ class SightHistory {
  private:
   static constexpr int kDirections = 512;
   static constexpr float kNothing = 1e9F;
+  /// The newest scan of that sensor; null where it has none.
+  [[nodiscard]] const Sight* last_of(const SensorView& view) const;
   [[nodiscard]] bool shows_empty(const Sight& sight, const Point2<Odom>& place, double side_m, double low_m,
                                  double high_m) const;
   /// Diamond angle: as monotone as the angle, at the price of a division.

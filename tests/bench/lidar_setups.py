@@ -21,6 +21,7 @@ import report  # noqa: E402
 import sample_site  # noqa: E402
 
 THIRD = "keep_every_firing: 3"
+FIELD = "protective_m: 0.7, protective_side_m: 0.05"  # as the virtual scanners are configured
 TOP = "type: vlp16, x_m: 0.3, z_m: {}"
 # name: (what the table calls it, lidars of site.yaml, sections of the scenario)
 SETUPS = {
@@ -34,8 +35,8 @@ SETUPS = {
                  [f"vlp16: {{{THIRD}, roll_deg: 1}}"]),
     "lms": ("LMS111 alone, 50 Hz, 0.25 m high", ["type: lms1xx, x_m: 0.75, z_m: 0.25"], []),
     "two_s300": ("two S300 at opposite corners, 0.15 m high",
-                 ["type: s300, x_m: 0.75, y_m: 0.25, z_m: 0.15, yaw_deg: 45",
-                  "type: s300, x_m: -0.15, y_m: -0.25, z_m: 0.15, yaw_deg: -135, address: /dev/ttyUSB2"], []),
+                 [f"type: s300, x_m: 0.75, y_m: 0.25, z_m: 0.15, yaw_deg: 45, {FIELD}",
+                  f"type: s300, x_m: -0.15, y_m: -0.25, z_m: 0.15, yaw_deg: -135, address: /dev/ttyUSB2, {FIELD}"], []),
 }
 
 

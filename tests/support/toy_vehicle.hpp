@@ -62,6 +62,7 @@ class ToyVehicle {
     if (++ticks_ % 5 == 0 && !lidar_silent)
       input.clouds.push_back(cloud(input.now - duration_from_seconds(cloud_age_s)));
     input.commands = std::exchange(commands, {});
+    input.protective_stop = protective_stop;
     if (order && order->state == app::OrderState::Running) input.order = order;
     input.detour = std::exchange(detour_, std::nullopt);
     if (record) inputs.push_back(input);
@@ -118,6 +119,7 @@ class ToyVehicle {
   app::CycleConfig config;
   RollingVehicle rolling;
   ToyLidar lidar;
+  bool protective_stop = false;
   bool emergency_stop = false, bumper = false, drive_silent = false, lidar_silent = false;
   std::uint16_t drive_faults = 0;
   std::uint16_t battery_mv = 25'000;

@@ -1,6 +1,7 @@
 // Test bodies on the way and persons across it, in the virtual factory: real VLP-16 bytes, real localization,
 // the whole cycle, lock-step. The vehicle may stand when touched, never drive or turn. Exit 1 where it moved,
-// or where a body did not stop it.
+// or where a body did not stop it. Who lies where no lidar of the vehicle sees him may be touched no faster than
+// a vehicle drives that does not see him (0.3 m/s): that counts as refused by speed.
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -48,16 +49,20 @@ bool report(const std::map<std::string, Tally>& tallies, nlohmann::json& figures
   bool good = true;
   for (const auto& [name, t] : tallies) {
     std::printf(
-        "%s: %d met at up to %.2f m/s, %d stopped the vehicle, %d touched it moving, %d standing, nearest "
-        "%.3f m\n",
-        name.c_str(), t.met, t.fastest_mps, t.stopped, t.contacts, t.others_touched, t.nearest_m);
+        "%s: %d met at up to %.2f m/s, %d stopped the vehicle, %d touched it moving (%d refused by speed, "
+        "fastest %.2f m/s), %d standing, nearest %.3f m\n",
+        name.c_str(), t.met, t.fastest_mps, t.stopped, t.contacts, t.refused, t.touch_mps, t.others_touched,
+        t.nearest_m);
     figures[name] = {{"met", t.met},
                      {"stopped", t.stopped},
                      {"contacts", t.contacts},
+                     {"refused_by_speed", t.refused},
+                     {"touch_mps", t.touch_mps},
                      {"others_touched", t.others_touched},
                      {"nearest_m", t.nearest_m},
                      {"fastest_mps", t.fastest_mps}};
-    good = good && t.contacts == 0 && (kKinds.at(name) == MoverKind::Person || t.stopped == t.met);
+    good = good && t.contacts == t.refused &&
+           (kKinds.at(name) == MoverKind::Person || t.stopped + t.refused >= t.met);
   }
   return good;
 }

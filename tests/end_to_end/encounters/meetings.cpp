@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
+
+#include "app/cycle/stages.hpp"
+#include "planning/obstacle_check/sure_sight.hpp"
 
 namespace madori::encounters {
 namespace {
@@ -10,10 +14,36 @@ namespace {
 using simulation::MoverKind;
 
 constexpr double kStanding_mps = 0.01;
+constexpr double kRounding_mps = 0.01;  ///< of a speed that is kept: wheels slip
+constexpr double kTick_s = 0.02;
+
+/// What the vehicle did over the last tenth of a second: a single step of the factory is all slip.
+class Pace {
+ public:
+  void add(const Transform2<Map, Base>& pose) {
+    poses_.push_back(pose);
+    if (poses_.size() > kSteps + 1) poses_.erase(poses_.begin());
+  }
+  [[nodiscard]] VelocityCommand now() const {
+    if (poses_.size() < 2) return {};
+    const double time_s = kTick_s * static_cast<double>(poses_.size() - 1);
+    const auto way = poses_.front().inverse() * poses_.back();
+    return {std::hypot(way.x_m(), way.y_m()) / time_s, std::abs(way.yaw_rad()) / time_s};
+  }
+
+ private:
+  static constexpr std::size_t kSteps = 5;
+  std::vector<Transform2<Map, Base>> poses_;
+};
 
 /// Whether the vehicle was in motion at the touch: driving, or turning on the spot.
 bool moved(const simulation::Collision& c) {
   return c.speed_mps >= kStanding_mps || c.turn_radps >= kStanding_mps;
+}
+
+/// Whether nobody sees who lies before the vehicle, so that it drives as slowly as that asks.
+bool looks_over(const app::CycleConfig& config) {
+  return config.sure_low_m <= 0.0 && config.low_bodies_guarded_by.empty();
 }
 
 }  // namespace
@@ -32,7 +62,7 @@ Meetings::Meetings(const MeetingOptions& options)
 }
 
 void Meetings::meet(MoverKind kind, int count, Tally& tally) {
-  Placements placements(*run_, random_, options_.speed_mps);
+  Placements placements(*run_, random_, driven_mps());
   for (int met = 0; met < count;) {
     go_on();
     const auto placement = kind == MoverKind::Person ? placements.crossing() : placements.standing(kind);
@@ -46,7 +76,7 @@ void Meetings::meet(MoverKind kind, int count, Tally& tally) {
 }
 
 void Meetings::pass_carts(int count, CartTally& tally) {
-  Placements placements(*run_, random_, options_.speed_mps);
+  Placements placements(*run_, random_, driven_mps());
   while (tally.met < count) {
     go_on();
     const auto placement = placements.standing(MoverKind::Cart);
@@ -82,7 +112,7 @@ void Meetings::go_on() {
         if (!order_ || run_->orders->find(*order_)->state != app::OrderState::Running)
           if (run_->orders->list(true).empty()) order_ = run_->order_somewhere(random_);
         return run_->state().mode == app::Mode::Driving &&
-               run_->factory->truth().linear_mps > 0.5 * options_.speed_mps;
+               run_->factory->truth().linear_mps > 0.5 * driven_mps();
       },
       120.0);
 }
@@ -92,13 +122,18 @@ int Meetings::contacts_since(std::size_t before) const {
   return static_cast<int>(std::count_if(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(), moved));
 }
 
+double Meetings::driven_mps() const {
+  return looks_over(site_.config) ? std::min(options_.speed_mps, planning::kUnseenPersonMps)
+                                  : options_.speed_mps;
+}
+
 void Meetings::encounter(const Placement& placement, Tally& tally) {
-  constexpr double kTick_s = 0.02;
   auto& factory = *run_->factory;
   const bool walks = placement.mover.kind == MoverKind::Person;
   const std::size_t touched = factory.collisions().size();
   double nearest_m = 10.0, fastest_mps = 0.0, stood_s = 0.0;
   bool stopped = false;
+  Pace pace;
   factory.add_mover(placement.mover);
   run_->run_until(
       [&] {
@@ -108,7 +143,8 @@ void Meetings::encounter(const Placement& placement, Tally& tally) {
             test::distance_between(factory.vehicle().footprint(truth.building_from_base), outline);
         const bool moves =
             std::abs(truth.linear_mps) > kStanding_mps || std::abs(truth.angular_radps) > kStanding_mps;
-        fastest_mps = std::max(fastest_mps, std::abs(truth.linear_mps));
+        pace.add(truth.map_from_base);
+        fastest_mps = std::max(fastest_mps, pace.now().linear_mps);
         if (moves) nearest_m = std::min(nearest_m, away_m);
         stood_s = run_->stands() ? stood_s + kTick_s : 0.0;
         stopped = stopped || (run_->stands() && run_->state().mode == app::Mode::Waiting);
@@ -119,20 +155,28 @@ void Meetings::encounter(const Placement& placement, Tally& tally) {
   ++tally.met;
   tally.stopped += stopped;
   tally.contacts += contacts > 0;
+  const double touch_mps =
+      contacts > 0 ? app::outline_mps(site_.config.check.vehicle, pace.now()) : 0.0;
+  tally.touch_mps = std::max(tally.touch_mps, touch_mps);
+  tally.refused += contacts > 0 && placement.mover.kind == MoverKind::LyingBody &&
+                   looks_over(site_.config) &&
+                   touch_mps <= planning::kUnseenPersonMps + kRounding_mps;
   tally.others_touched += contacts == 0 && factory.collisions().size() > touched;
   tally.nearest_m = std::min(tally.nearest_m, nearest_m);
   tally.fastest_mps = std::max(tally.fastest_mps, fastest_mps);
   if (contacts > 0 || (!stopped && !walks) || options_.verbose)
-    report(placement, stopped, contacts > 0, nearest_m);
+    report(placement, stopped, touch_mps, nearest_m);
   clear();
 }
 
-void Meetings::report(const Placement& placement, bool stopped, bool contact, double nearest_m) const {
+void Meetings::report(const Placement& placement, bool stopped, double touch_mps, double nearest_m) const {
+  char touch[60] = "";
+  if (touch_mps > 0.0) std::snprintf(touch, sizeof touch, ", CONTACT at %.2f m/s", touch_mps);
   const auto truth = run_->factory->truth().map_from_base;
   std::printf("%8.2f s %s at (%.2f, %.2f), %.2f m/s: %s%s, nearest %.3f m; vehicle (%.2f, %.2f, %.0f deg)\n",
               run_->time_s(), placement.mover.name.c_str(), placement.at.x_m, placement.at.y_m,
               placement.mover.kind == MoverKind::Person ? placement.mover.speed_mps : 0.0,
-              stopped ? "stopped" : "NOT STOPPED", contact ? ", CONTACT" : "", nearest_m, truth.x_m(),
+              stopped ? "stopped" : "NOT STOPPED", touch, nearest_m, truth.x_m(),
               truth.y_m(), to_deg(truth.yaw_rad()));
   std::fflush(stdout);
 }

@@ -24,6 +24,8 @@ struct Tally {
   int met = 0;
   int stopped = 0;
   int contacts = 0;         ///< that began while the vehicle drove or turned
+  int refused = 0;          ///< of them: who lies there was not seen, and touched no faster than that allows
+  double touch_mps = 0.0;   ///< of the outline's fastest point, at the fastest of the contacts
   int others_touched = 0;   ///< that began while it stood: the other one walked into it
   double nearest_m = 10.0;  ///< while the vehicle moved
   double fastest_mps = 0.0;
@@ -50,10 +52,12 @@ class Meetings {
  private:
   void go_on();
   void encounter(const Placement& placement, Tally& tally);
-  void report(const Placement& placement, bool stopped, bool contact, double nearest_m) const;
+  void report(const Placement& placement, bool stopped, double touch_mps, double nearest_m) const;
   void clear();
   /// Contacts since the first `before` that began while the vehicle moved.
   [[nodiscard]] int contacts_since(std::size_t before) const;
+  /// As fast as the vehicle drives with what it sees by.
+  [[nodiscard]] double driven_mps() const;
 
   MeetingOptions options_;
   app::SiteForDriving site_;

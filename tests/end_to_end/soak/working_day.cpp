@@ -166,6 +166,7 @@ void WorkingDay::befall(const Delivery& delivery, Stamp began) {
 
 /// The operator: confirms what only a person may confirm, and takes away what blocks every way.
 void WorkingDay::look_after(const Delivery& delivery) {
+  if (by_hand_) return drive_back(delivery);
   const auto& state = run_->state();
   pressed_ = state.mode == app::Mode::EmergencyStop && (pressed_ || state.drive.bumper);
   const std::string because = std::string(to_string(state.mode)) + ": " + state.standstill.cause.text;
@@ -189,6 +190,9 @@ void WorkingDay::look_after(const Delivery& delivery) {
   } else if (state.mode == app::Mode::Waiting && state.block.height_unseen && stood_s > kLooksAfterS) {
     run_->say({app::OperatorWord::GoOn, {}, {}});  // a planar lidar's vehicle asks before every door
     stands_since_ = factory_->now();
+  } else if (state.mode == app::Mode::Waiting && stood_s > kLooksAfterS &&
+             state.standstill.cause == app::notice(app::Cause::ProtectiveField)) {
+    free_field(delivery, because);
   } else if (state.mode == app::Mode::Waiting && (state.block.unseen || state.block.felt) &&
              stood_s > kLooksAfterS) {
     // "look, clear the way, then press Resume": who cannot clear it does not press.
@@ -211,6 +215,31 @@ void WorkingDay::look_after(const Delivery& delivery) {
       tell_place();
     help(delivery, because, false);
   }
+}
+
+void WorkingDay::free_field(const Delivery& delivery, const std::string& because) {
+  constexpr double kInFieldM = 0.4;
+  const auto truth = factory_->truth().map_from_base;
+  const double front_m = run_->config().check.vehicle.front_m;
+  help(delivery, because, false);
+  if (surprises_->take_away_near(truth * Point2<Base>{front_m + kInFieldM, 0.0})) return;
+  run_->say({app::OperatorWord::ManualOn, {}, {}});
+  by_hand_ = {factory_->now(), truth};
+}
+
+/// Straight back, as long as a person who stands beside it sees room behind it.
+void WorkingDay::drive_back(const Delivery& delivery) {
+  constexpr double kFarM = 0.6, kLongS = 10.0, kRoomM = 0.06, kNothingM = 0.1;
+  const auto truth = factory_->truth().map_from_base;
+  const double gone_m = distance_m(truth.translation(), by_hand_->second.translation());
+  const bool over = to_seconds(factory_->now() - by_hand_->first) > kLongS;
+  if (gone_m < kFarM && !over && (gone_m < kNothingM || clearance_m(*factory_) > kRoomM))
+    return run_->say({app::OperatorWord::Jog, {-run_->config().out_of_field_mps, 0.0}, {}});
+  by_hand_.reset();
+  run_->say({app::OperatorWord::ManualOff, {}, {}});
+  if (gone_m >= kNothingM) return;
+  surprises_->carry_away(chance_, true);  // wedged: pushed to where it can turn
+  help(delivery, "it did not get out of the field by hand", false);
 }
 
 /// As a person taps it: not exactly.

@@ -50,6 +50,9 @@ class WorkingDay {
   void wait(double seconds);
   void look_after(const Delivery& delivery);
   void tell_place();
+  /// The field is cleared where something was put into it, else the vehicle driven back out of it.
+  void free_field(const Delivery& delivery, const std::string& because);
+  void drive_back(const Delivery& delivery);
   void help(const Delivery& delivery, const std::string& reason, bool every_way_blocked);
   void note_delivered(const Delivery& delivery, Stamp began);
   void watch_map(app::LocalizerPoseOptions& options);
@@ -73,6 +76,7 @@ class WorkingDay {
   bool kidnapping_due_ = false, pallet_due_ = false, person_due_ = false;
   std::string stands_because_;
   Stamp stands_since_{};
+  std::optional<std::pair<Stamp, Transform2<Map, Base>>> by_hand_;  ///< since when and from where
   bool pressed_ = false;     ///< the bumper was, in this emergency stop
   bool told_place_ = false;  ///< in this standstill
   std::uint64_t ticks_ = 0;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/cycle/stages.hpp"
 #include "tests/unit/app/corridor_vehicle.hpp"
 
 // What stands in the way: waiting, driving around, another route.
@@ -129,6 +130,53 @@ TEST(AutonomyCycle, ADoorThatStaysShutIsLeftOutOfANewRouteAfterAWhile) {
   EXPECT_THAT(v.events, Not(Contains(HasSubstr("taking another route")))) << "it may open";
   EXPECT_TRUE(v.run_until([&] { return v.delivered(); }, 90.0)) << ::testing::PrintToString(v.events);
   EXPECT_THAT(v.events, Contains(HasSubstr("taking another route")));
+}
+
+// Turns included: the nose of a vehicle that turns on the spot is as fast as a vehicle that drives.
+TEST(AutonomyCycle, WhereNobodySeesWhoLiesThereNoPointOfTheVehicleIsFast) {
+  for (const bool guarded : {false, true}) {
+    auto v = corridor_vehicle();
+    v->config.sure_low_m = 0.0;
+    if (guarded) v->config.low_bodies_guarded_by = "a bumper";
+    double fastest_mps = 0.0;
+    v->each_step = [&] {
+      fastest_mps = std::max(fastest_mps, outline_mps(v->config.check.vehicle, v->output.command));
+    };
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    ASSERT_TRUE(v->run_until([&] { return v->delivered(); }, 200.0));
+    EXPECT_EQ(fastest_mps > 0.3 + 1e-9, guarded) << fastest_mps;
+    EXPECT_GT(fastest_mps, 0.25);
+    const auto said = Contains(HasSubstr("no lidar sees who lies on the floor ahead: at most 0.30 m/s"));
+    if (guarded)
+      EXPECT_THAT(v->events, Not(said));
+    else
+      EXPECT_THAT(v->events, said);
+  }
+}
+
+TEST(AutonomyCycle, AVehicleIsDrivenByHandOutOfAProtectiveFieldSlowly) {
+  auto v = corridor_vehicle();
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.pose().x_m() > 2.0; }, 20.0));
+  v->protective_stop = true;
+  ASSERT_TRUE(v->run_until([&] { return v->state().mode == Mode::Waiting; }, 1.0));
+  v->run_until([] { return false; }, 3.0);
+  const double stood_m = v->rolling.pose().x_m();
+  EXPECT_EQ(v->state().standstill.cause, notice(Cause::ProtectiveField));
+  EXPECT_THAT(v->state().standstill.remedy.text, HasSubstr("by hand"));
+  v->run_until([] { return false; }, 2.0);
+  EXPECT_NEAR(v->rolling.pose().x_m(), stood_m, 1e-3) << "by itself it stands";
+  v->say(OperatorWord::ManualOn);
+  double fastest_mps = 0.0;
+  v->each_step = [&] {
+    v->commands.push_back({OperatorWord::Jog, {-0.5, 0.0}});
+    fastest_mps = std::max(fastest_mps, std::abs(v->output.command.linear_mps));
+  };
+  v->run_until([] { return false; }, 3.0);
+  EXPECT_LT(v->rolling.pose().x_m(), stood_m - 0.2);
+  EXPECT_LE(fastest_mps, v->config.out_of_field_mps + 1e-9);
 }
 
 // The edge of something remembered, or somebody who works beside the way.

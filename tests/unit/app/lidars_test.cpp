@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "app/cycle/recoveries.hpp"
+#include "app/cycle/site_config.hpp"
+#include "app/cycle/stages.hpp"
 #include "app/runner/socket_link.hpp"
 #include "core/angle.hpp"
 #include "core/result.hpp"
@@ -107,6 +110,44 @@ TEST(Lidars, WhoLiesOnTheFloorIsSeenByWhatLooksDownOrStandsLow) {
   EXPECT_EQ(lowest_m({kFront, kLeft}), 0.15);
   EXPECT_EQ(lowest_m({kFront, backwards}), 0.25);
   EXPECT_GT(lowest_m({backwards}), 100.0) << "nothing looks ahead";
+}
+
+TEST(Lidars, HowFarAheadWhoLiesThereIsSureFollowsFromHeightAndBeams) {
+  const auto sure_m = [](std::vector<mapping::SensorRecord> sensors) {
+    return sure_low_m(lidars_of(site_with(std::move(sensors)), "hall"), 0.8, 8.0);
+  };
+  const auto top_at = [](double z_m) {
+    auto top = kTop;
+    top.z_m = z_m;
+    return top;
+  };
+  auto low = kFront;
+  low.z_m = 0.18;
+  EXPECT_EQ(sure_m({kFront}), 0.0) << "it looks over him";
+  EXPECT_NEAR(sure_m({low}), 8.0, 0.1) << "a body of 200 mm between two beams";
+  EXPECT_NEAR(sure_m({top_at(1.2)}), 1.0 / std::tan(to_rad(15.0)) - 0.5, 0.01) << "where the lowest beam passes over";
+  EXPECT_GT(sure_m({top_at(2.2)}), 6.5);
+  EXPECT_EQ(sure_m({top_at(2.6)}), 0.0) << "farther away than what was seen is remembered";
+  EXPECT_EQ(sure_m({kFront, top_at(1.2)}), sure_m({top_at(1.2)}));
+}
+
+TEST(Lidars, WhoLooksOverTheFloorDrivesSlowlyUnlessTheSiteSaysWhatElseGuards) {
+  const auto fastest_mps = [](std::vector<LidarModel> lidars, const std::string& guard) {
+    CycleConfig config = vehicle_config({}, std::move(lidars));
+    config.low_bodies_guarded_by = guard;
+    CycleState state(config, nullptr);
+    const Stamp now = state.begun = stamp_from_seconds(1.0);
+    state.lidars_heard.assign(config.lidars.size(), Hearing{now, {}});
+    CycleInput input;
+    input.now = now;
+    return allowed_mps(state, input, config);
+  };
+  auto low = kFront;
+  low.z_m = 0.18;
+  EXPECT_DOUBLE_EQ(fastest_mps({lidar_model(kFront)}, ""), 0.3);
+  EXPECT_GT(fastest_mps({lidar_model(kFront)}, "bumper of 0.5 m"), 1.0);
+  EXPECT_GT(fastest_mps({lidar_model(low)}, ""), 1.0);
+  EXPECT_GT(fastest_mps({lidar_model(kTop)}, ""), 1.0) << "it has seen him before he is too near";
 }
 
 TEST(Lidars, TheCommandLineSaysWhereTheyAre) {

@@ -38,16 +38,34 @@ TEST(PathCheck, AnObstacleLeavesRoomForTheVehiclesFront) {
 
 TEST(PathCheck, TheScannersProtectiveFieldStaysFree) {
   CheckOptions options;
-  options.protective_m = 0.8;
+  options.protective.ahead_m = 0.8;
   const auto check = check_path(straight(8), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options);
   ASSERT_TRUE(check.blocked());
-  EXPECT_LE(check.free_m, 5.0 - options.vehicle.front_m - options.protective_m);
-  EXPECT_GE(check.free_m, 5.0 - options.vehicle.front_m - options.protective_m - 2.0 * options.step_m);
+  EXPECT_LE(check.free_m, 5.0 - options.vehicle.front_m - options.protective.ahead_m);
+  EXPECT_GE(check.free_m, 5.0 - options.vehicle.front_m - options.protective.ahead_m - 2.0 * options.step_m);
   EXPECT_FALSE(check_path(straight(3.3), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options).blocked());
   EXPECT_TRUE(check_path(straight(3.5), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options).blocked());
   const WallGrid walls(std::vector<Segment2<Map>>{{{5.0, -2.0}, {5.0, 2.0}}});
   EXPECT_FALSE(check_path(straight(3.3), 0, 7.0, {}, walls, options).blocked());
   EXPECT_TRUE(check_path(straight(3.5), 0, 7.0, {}, walls, options).by_wall) << "the scanner sees walls too";
+}
+
+TEST(PathCheck, TheFieldIsSweptByATurnAndReachesBesideTheVehicle) {
+  CheckOptions options;
+  options.protective = {0.7, 0.1};
+  Path turn;
+  turn.points.assign(2, PathPoint{{0.0, 0.0}, 0.0});
+  turn.points.back().heading_rad = to_rad(90.0);
+  const std::vector<Point2<Map>> within{{1.0, 1.0}}, beyond{{1.3, 1.3}}, aside{{1.0, -0.6}};
+  EXPECT_TRUE(check_path(turn, 1, 0.0, within, kNoWalls, options).blocked()) << "the front passes, not the field";
+  EXPECT_FALSE(check_path(turn, 1, 0.0, within, kNoWalls, kOptions).blocked());
+  EXPECT_FALSE(check_path(turn, 1, 0.0, beyond, kNoWalls, options).blocked());
+  EXPECT_FALSE(check_path(turn, 1, 0.0, aside, kNoWalls, options).blocked()) << "it turns the other way";
+  const double half_m = options.vehicle.half_width_m;
+  EXPECT_FALSE(is_free({}, {{1.0, half_m + 0.12}}, kNoWalls, options));
+  EXPECT_TRUE(is_free({}, {{1.0, half_m + 0.2}}, kNoWalls, options) &&
+              is_free({}, {{0.2, half_m + 0.1}}, kNoWalls, options))
+      << "beside the field, and beside the vehicle, where no field is";
 }
 
 TEST(PathCheck, SomethingBesideTheWayOnlyAsksForCare) {

@@ -52,6 +52,23 @@ TEST(SightHistory, OneScanIsNotEnoughAndOldOnesAreForgotten) {
   EXPECT_FALSE(sights.was_empty({2.0, 0.0}, 0.1, 0.1, 1.5, at(9.5)));
 }
 
+TEST(SightHistory, EachSensorIsRememberedForItselfThoughTheirScansComeInNoOrder) {
+  SensorView left = kVlp, right = kVlp;
+  left.facing_rad = to_rad(90.0), right.facing_rad = to_rad(-90.0);
+  left.half_view_rad = right.half_view_rad = to_rad(80.0);
+  SightHistory sights;
+  for (int i = 0; i < 30; ++i)
+    for (const SensorView& view : {left, right}) {  // the right one's scans are older than the left one's
+      if (!sights.begin(view, {}, at(0.04 * i - (view == right ? 0.01 : 0.0)))) continue;
+      for (double deg = -80.0; deg <= 80.0; deg += 0.3)
+        sights.add(6.0 * std::cos(view.facing_rad + to_rad(deg)), 6.0 * std::sin(view.facing_rad + to_rad(deg)),
+                   true);
+    }
+  EXPECT_TRUE(sights.was_empty({0.0, 3.0}, 0.1, 0.1, 1.5, at(1.2)));
+  EXPECT_TRUE(sights.was_empty({0.0, -3.0}, 0.1, 0.1, 1.5, at(1.2)));
+  EXPECT_FALSE(sights.was_empty({3.0, 0.0}, 0.1, 0.1, 1.5, at(1.2))) << "nobody looks there";
+}
+
 TEST(SightHistory, EveryDirectionAndItsNeighboursAreTold) {
   SightHistory sights;
   for (const double t : {0.0, 0.2}) {

@@ -309,6 +309,9 @@ export const de: Record<TextKey, string> = {
   "cause.lidar-yaw": "Das Fahrzeug kommt dahin, wohin Lidar {name} bei {found} Grad blickte, eingetragen sind {typed}",
   "remedy.correct-mounting": "Anbau im Schritt Fahrzeug berichtigen, oder dort Anbau messen drücken",
   "event.lidar-lost": "Lidar {name} schweigt: Das Fahrzeug fährt mit den anderen weiter, so schnell sie erlauben",
+  "event.floor-unseen":
+    "Kein Lidar sieht, wer voraus am Boden liegt: Es wird höchstens {speed} m/s gefahren. Ein Lidar auf 0,2 m oder tiefer anbringen, oder in site.yaml eintragen, was ihn sonst schützt (low_bodies_guarded_by)",
+  "event.floor-seen": "Ein Lidar sieht, wer voraus am Boden liegt: {speed} m/s sind keine Grenze mehr",
   "event.lidar-back": "Lidar {name} ist wieder zu hören",
   "locate.places": "Orte, zu denen der Scan passt",
   "locate.place": "x {x} m, y {y} m, {yaw}°",
@@ -411,7 +414,7 @@ export const de: Record<TextKey, string> = {
   "remedy.confirm": "Bestätigen",
   "remedy.wait-for-place": "Warten, von Hand fahren, oder den Ort zeigen: Wo bin ich?",
   "remedy.check-lidar": "Strom und Netzkabel des Lidars prüfen",
-  "remedy.clear-field": "Das Feld räumen",
+  "remedy.clear-field": "Das Feld räumen, oder das Fahrzeug von Hand herausfahren",
   "remedy.look-and-go-on": "Nachsehen, ob offen ist, dann Weiterfahren drücken",
   "remedy.uncover-lidar": "Den Lidar reinigen, wegnehmen, was ihn verdeckt, sein Netzwerkkabel prüfen",
   "remedy.look-at-wheel": "Das Rad frei machen oder Motor oder Geber reparieren lassen, dann bestätigen",

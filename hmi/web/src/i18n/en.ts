@@ -324,6 +324,9 @@ export const en = {
   "cause.lidar-yaw": "The vehicle gets where lidar {name} would look at {found} degrees, and {typed} was typed",
   "remedy.correct-mounting": "Correct its mounting in the vehicle step, or press Measure the mounting there",
   "event.lidar-lost": "Lidar {name} is silent: the vehicle goes on with the others, as fast as they allow",
+  "event.floor-unseen":
+    "No lidar sees who lies on the floor ahead: at most {speed} m/s are driven. Mount a lidar at 0.2 m or lower, or enter in site.yaml what else guards him (low_bodies_guarded_by)",
+  "event.floor-seen": "A lidar sees who lies on the floor ahead: {speed} m/s are no limit any more",
   "event.lidar-back": "Lidar {name} is heard again",
 
   "locate.places": "Places that fit the scan",
@@ -432,7 +435,7 @@ export const en = {
   "remedy.confirm": "Confirm",
   "remedy.wait-for-place": "Wait, drive it by hand, or show its place: Where am I?",
   "remedy.check-lidar": "Check the lidar's power and network cable",
-  "remedy.clear-field": "Clear the field",
+  "remedy.clear-field": "Clear the field, or drive the vehicle out of it by hand",
   "remedy.look-and-go-on": "Look whether it is open, then press Go on",
   "remedy.uncover-lidar": "Clean the lidar, take away what covers it, check its network cable",
   "remedy.look-at-wheel": "Free the wheel, or have its motor or encoder mended, then confirm",

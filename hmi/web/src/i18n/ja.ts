@@ -325,6 +325,9 @@ export const ja: Record<TextKey, string> = {
   "cause.lidar-yaw": "車両の動きからライダー {name} の向きは {found} 度ですが、入力値は {typed} 度です",
   "remedy.correct-mounting": "車両の手順で取付けを直すか、「取付けを測定」を押してください",
   "event.lidar-lost": "ライダー {name} が応答しません。他のライダーで可能な速度で走行を続けます",
+  "event.floor-unseen":
+    "前方の床に倒れている人を検知できるライダーがないため、最高 {speed} m/s で走行します。ライダーを高さ 0.2 m 以下に取り付けるか、他の保護手段を site.yaml (low_bodies_guarded_by) に記入してください",
+  "event.floor-seen": "前方の床に倒れている人をライダーで検知できるため、{speed} m/s の制限を解除しました",
   "event.lidar-back": "ライダー {name} が復帰しました",
 
   "locate.places": "スキャンに合う場所",
@@ -433,7 +436,7 @@ export const ja: Record<TextKey, string> = {
   "remedy.confirm": "確認してください",
   "remedy.wait-for-place": "待つか、手動で動かすか、「現在地は?」で位置を示してください",
   "remedy.check-lidar": "ライダーの電源と通信ケーブルを調べてください",
-  "remedy.clear-field": "領域を空けてください",
+  "remedy.clear-field": "領域を空けるか、手動で車両を領域の外へ動かしてください",
   "remedy.look-and-go-on": "開いていることを確かめて「先へ進む」を押してください",
   "remedy.uncover-lidar": "ライダーを拭き、覆っている物を取り除き、通信ケーブルを確認してください",
   "remedy.look-at-wheel": "車輪の引っかかりを取り除くか、モーターまたはエンコーダーを修理してから、確認を押してください",
