@@ -113,7 +113,8 @@ std::vector<LidarModel> lidars_of(const mapping::Site& site, const std::filesyst
     check_mounting(sensor, site.vehicle, where);
     const bool field = sensor.protective_m > 0.0 || sensor.protective_side_m > 0.0;
     if (field && !sensors::lidar_of(sensor.type, where).has_field)
-      throw Error(where, "sensor " + sensor.name + " has no protective field", "take protective_m and protective_side_m away");
+      throw Error(where, "sensor " + sensor.name + " has no protective field",
+                  "take protective_m and protective_side_m away");
     lidars.push_back(lidar_model(sensor));
   }
   check_apart(site.sensors, where);

@@ -19,6 +19,8 @@ function(madori_test name)
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE madori_options ${TEST_USES} GTest::gmock GTest::gtest_main)
   target_include_directories(${name} SYSTEM PRIVATE ${TEST_INCLUDES})
+  # What a test measures is compiled in its room; the tests themselves take a fifth less of the build so.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${name} PRIVATE
     MADORI_SOURCE_DIR="${PROJECT_SOURCE_DIR}" MADORI_BINARY_DIR="${PROJECT_BINARY_DIR}"
     MADORI_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")

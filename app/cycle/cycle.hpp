@@ -49,7 +49,7 @@ struct CycleConfig {
   planning::CheckOptions check;
   planning::GuardOptions guard;
   double sure_range_m =
-      planning::PathCheck::kFree;  ///< within which a standing body is sure to be seen ahead
+      planning::PathCheck::kFree;                  ///< within which a standing body is sure to be seen ahead
   double sure_low_m = planning::PathCheck::kFree;  ///< likewise who lies on the floor
   std::string low_bodies_guarded_by;  ///< what else guards him, as the site says; empty: nothing does
   planning::FieldOptions field;
@@ -162,8 +162,8 @@ struct Hearing {
   std::array<std::optional<Stamp>, kBearings> seen;
 };
 
-/// Who moves, as one lidar sees it. Its looks are compared with its own: two lidars see two sides of a person,
-/// at two moments, and one that looks elsewhere has not lost him.
+/// Who moves, as one lidar sees it. Its looks are compared with its own: two lidars see two sides of a
+/// person, at two moments, and one that looks elsewhere has not lost him.
 struct MoverWatch {
   Stamp looked{};  ///< of its newest sweep that was looked at
   planning::MovingObjects objects;

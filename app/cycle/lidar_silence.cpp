@@ -101,10 +101,9 @@ double sure_range_m(const CycleState& state, Stamp now, const CycleConfig& confi
 
 double low_bodies_mps(const CycleState& state, Stamp now, const CycleConfig& config) {
   if (!config.low_bodies_guarded_by.empty()) return planning::PathCheck::kFree;
-  const double sure_m =
-      of_those_heard(state, now, config, config.sure_low_m, [&](const LidarModel& lidar) {
-        return planning::sure_low_m(lidar, config.check.vehicle.front_m, config.field.reach_m);
-      });
+  const double sure_m = of_those_heard(state, now, config, config.sure_low_m, [&](const LidarModel& lidar) {
+    return planning::sure_low_m(lidar, config.check.vehicle.front_m, config.field.reach_m);
+  });
   return std::max(planning::kUnseenPersonMps, config.check.braking.speed_within(sure_m));
 }
 

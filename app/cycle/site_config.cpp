@@ -56,7 +56,8 @@ void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
 void take_protection(const mapping::Site& site, CycleConfig& config) {
   auto& field = config.check.protective;
   for (const auto& sensor : site.sensors)
-    field = {std::max(field.ahead_m, sensor.protective_m), std::max(field.beside_m, sensor.protective_side_m)};
+    field = {std::max(field.ahead_m, sensor.protective_m),
+             std::max(field.beside_m, sensor.protective_side_m)};
   config.low_bodies_guarded_by = site.low_bodies_guarded_by;
 }
 
@@ -73,8 +74,7 @@ CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem
   CycleConfig config = vehicle_config(setup.vehicle, lidars_of(setup, where));
   take_protection(setup, config);
   config.mapping = true;
-  for (SafetyRule& rule : config.safety_rules)
-    rule.by_hand = rule.by_hand || rule.holds != field_is_entered;
+  for (SafetyRule& rule : config.safety_rules) rule.by_hand = rule.by_hand || rule.holds != field_is_entered;
   return config;
 }
 

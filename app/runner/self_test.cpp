@@ -59,20 +59,23 @@ std::string look_at_low_bodies(const CycleConfig& config) {
   if (!config.low_bodies_guarded_by.empty())
     return std::string(text) + "; the site says what guards it: " + config.low_bodies_guarded_by;
   if (speed_mps <= kBumperMps) return std::string(text) + "; at this speed the bumper may find it";
-  throw Error("site.yaml", std::string(text) + "; no faster than 0.3 m/s is driven, at which a bumper may find it",
+  throw Error("site.yaml",
+              std::string(text) + "; no faster than 0.3 m/s is driven, at which a bumper may find it",
               "mount a lidar at 0.2 m or lower, set max_speed_mps to 0.3, or enter what else guards it: "
               "low_bodies_guarded_by");
 }
 
-/// The field of a safety scanner is known to its own configuration alone: routes keep free what site.yaml says.
+/// The field of a safety scanner is known to its own configuration alone: routes keep free what site.yaml
+/// says.
 std::string look_at_fields(const SiteForDriving& loaded) {
   std::string text;
   for (const auto& sensor : loaded.site.sensors) {
     if (!sensors::lidar_of(sensor.type, sensor.name).has_field) continue;
     if (!(sensor.protective_m > 0.0))
       throw Error("site.yaml",
-                  "sensor " + sensor.name + " has a protective field, and nothing says how far it reaches: "
-                  "routes lead so near to things that it stops the vehicle",
+                  "sensor " + sensor.name +
+                      " has a protective field, and nothing says how far it reaches: "
+                      "routes lead so near to things that it stops the vehicle",
                   "enter protective_m (and protective_side_m) as the scanner is configured");
     char line[160];
     std::snprintf(line, sizeof line, "%s%s: %.2f m ahead, %.2f m beside", text.empty() ? "" : "; ",

@@ -22,7 +22,8 @@ constexpr double kThickestM = 0.45;  ///< of a wall drawn with two faces
 constexpr double kThinnestM = 0.03;  ///< nearer lines are one face, drawn twice
 constexpr double kParallel = 0.98;   ///< cosine between a wall's faces
 constexpr double kStepM = 0.1;
-constexpr double kShortestM = 0.6;  ///< seen beside a hidden stretch: no wall joins it and no corner ends there
+constexpr double kShortestM =
+    0.6;  ///< seen beside a hidden stretch: no wall joins it and no corner ends there
 
 Box box_of(const Segment2<Map>& s, double margin_m) {
   const auto [left, right] = std::minmax(s.a.x_m, s.b.x_m);

@@ -11,8 +11,8 @@
 namespace madori::localization {
 
 /// The nearest drawn wall that runs as a seen surface does and can be seen from where it was seen: furniture
-/// beside a wall, or the wall across a corner, seldom runs the way the surface runs, and the far face of a wall
-/// is seen by nobody. One table of nearest walls a direction, walls within 30 degrees in each.
+/// beside a wall, or the wall across a corner, seldom runs the way the surface runs, and the far face of a
+/// wall is seen by nobody. One table of nearest walls a direction, walls within 30 degrees in each.
 class WallIndex {
  public:
   static constexpr double kRadiusM = 1.5;  ///< farther from every wall, a surface belongs to none

@@ -1,7 +1,7 @@
 // Test bodies on the way and persons across it, in the virtual factory: real VLP-16 bytes, real localization,
 // the whole cycle, lock-step. The vehicle may stand when touched, never drive or turn. Exit 1 where it moved,
-// or where a body did not stop it. Who lies where no lidar of the vehicle sees him may be touched no faster than
-// a vehicle drives that does not see him (0.3 m/s): that counts as refused by speed.
+// or where a body did not stop it. Who lies where no lidar of the vehicle sees him may be touched no faster
+// than a vehicle drives that does not see him (0.3 m/s): that counts as refused by speed.
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>

@@ -155,11 +155,9 @@ void Meetings::encounter(const Placement& placement, Tally& tally) {
   ++tally.met;
   tally.stopped += stopped;
   tally.contacts += contacts > 0;
-  const double touch_mps =
-      contacts > 0 ? app::outline_mps(site_.config.check.vehicle, pace.now()) : 0.0;
+  const double touch_mps = contacts > 0 ? app::outline_mps(site_.config.check.vehicle, pace.now()) : 0.0;
   tally.touch_mps = std::max(tally.touch_mps, touch_mps);
-  tally.refused += contacts > 0 && placement.mover.kind == MoverKind::LyingBody &&
-                   looks_over(site_.config) &&
+  tally.refused += contacts > 0 && placement.mover.kind == MoverKind::LyingBody && looks_over(site_.config) &&
                    touch_mps <= planning::kUnseenPersonMps + kRounding_mps;
   tally.others_touched += contacts == 0 && factory.collisions().size() > touched;
   tally.nearest_m = std::min(tally.nearest_m, nearest_m);
@@ -176,8 +174,8 @@ void Meetings::report(const Placement& placement, bool stopped, double touch_mps
   std::printf("%8.2f s %s at (%.2f, %.2f), %.2f m/s: %s%s, nearest %.3f m; vehicle (%.2f, %.2f, %.0f deg)\n",
               run_->time_s(), placement.mover.name.c_str(), placement.at.x_m, placement.at.y_m,
               placement.mover.kind == MoverKind::Person ? placement.mover.speed_mps : 0.0,
-              stopped ? "stopped" : "NOT STOPPED", touch, nearest_m, truth.x_m(),
-              truth.y_m(), to_deg(truth.yaw_rad()));
+              stopped ? "stopped" : "NOT STOPPED", touch, nearest_m, truth.x_m(), truth.y_m(),
+              to_deg(truth.yaw_rad()));
   std::fflush(stdout);
 }
 

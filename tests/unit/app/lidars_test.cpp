@@ -125,7 +125,8 @@ TEST(Lidars, HowFarAheadWhoLiesThereIsSureFollowsFromHeightAndBeams) {
   low.z_m = 0.18;
   EXPECT_EQ(sure_m({kFront}), 0.0) << "it looks over him";
   EXPECT_NEAR(sure_m({low}), 8.0, 0.1) << "a body of 200 mm between two beams";
-  EXPECT_NEAR(sure_m({top_at(1.2)}), 1.0 / std::tan(to_rad(15.0)) - 0.5, 0.01) << "where the lowest beam passes over";
+  EXPECT_NEAR(sure_m({top_at(1.2)}), 1.0 / std::tan(to_rad(15.0)) - 0.5, 0.01)
+      << "where the lowest beam passes over";
   EXPECT_GT(sure_m({top_at(2.2)}), 6.5);
   EXPECT_EQ(sure_m({top_at(2.6)}), 0.0) << "farther away than what was seen is remembered";
   EXPECT_EQ(sure_m({kFront, top_at(1.2)}), sure_m({top_at(1.2)}));

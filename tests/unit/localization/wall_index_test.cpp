@@ -57,10 +57,13 @@ TEST(WallIndex, ARowOfShiftsSeesWhatEachPlaceSees) {
   EXPECT_GT(seen, 1000u);
 }
 
-/// A wall of 0.25 m along x with two faces, the room in the south, and a partition of two faces that joins it.
+/// A wall of 0.25 m along x with two faces, the room in the south, and a partition of two faces that joins
+/// it.
 mapping::Walls walls_with_faces() {
-  return {{1, {{0.0, 5.0}, {10.0, 5.0}}},   {2, {{-0.25, 5.25}, {10.25, 5.25}}},
-          {3, {{4.0, 0.0}, {4.0, 5.0}}},    {4, {{4.2, 0.0}, {4.2, 5.0}}},
+  return {{1, {{0.0, 5.0}, {10.0, 5.0}}},
+          {2, {{-0.25, 5.25}, {10.25, 5.25}}},
+          {3, {{4.0, 0.0}, {4.0, 5.0}}},
+          {4, {{4.2, 0.0}, {4.2, 5.0}}},
           {5, {{12.0, 0.0}, {12.0, 5.0}}}};
 }
 

@@ -57,7 +57,8 @@ TEST(PathCheck, TheFieldIsSweptByATurnAndReachesBesideTheVehicle) {
   turn.points.assign(2, PathPoint{{0.0, 0.0}, 0.0});
   turn.points.back().heading_rad = to_rad(90.0);
   const std::vector<Point2<Map>> within{{1.0, 1.0}}, beyond{{1.3, 1.3}}, aside{{1.0, -0.6}};
-  EXPECT_TRUE(check_path(turn, 1, 0.0, within, kNoWalls, options).blocked()) << "the front passes, not the field";
+  EXPECT_TRUE(check_path(turn, 1, 0.0, within, kNoWalls, options).blocked())
+      << "the front passes, not the field";
   EXPECT_FALSE(check_path(turn, 1, 0.0, within, kNoWalls, kOptions).blocked());
   EXPECT_FALSE(check_path(turn, 1, 0.0, beyond, kNoWalls, options).blocked());
   EXPECT_FALSE(check_path(turn, 1, 0.0, aside, kNoWalls, options).blocked()) << "it turns the other way";

@@ -61,8 +61,8 @@ TEST(SightHistory, EachSensorIsRememberedForItselfThoughTheirScansComeInNoOrder)
     for (const SensorView& view : {left, right}) {  // the right one's scans are older than the left one's
       if (!sights.begin(view, {}, at(0.04 * i - (view == right ? 0.01 : 0.0)))) continue;
       for (double deg = -80.0; deg <= 80.0; deg += 0.3)
-        sights.add(6.0 * std::cos(view.facing_rad + to_rad(deg)), 6.0 * std::sin(view.facing_rad + to_rad(deg)),
-                   true);
+        sights.add(6.0 * std::cos(view.facing_rad + to_rad(deg)),
+                   6.0 * std::sin(view.facing_rad + to_rad(deg)), true);
     }
   EXPECT_TRUE(sights.was_empty({0.0, 3.0}, 0.1, 0.1, 1.5, at(1.2)));
   EXPECT_TRUE(sights.was_empty({0.0, -3.0}, 0.1, 0.1, 1.5, at(1.2)));
