@@ -46,7 +46,7 @@ void scale_by_one_dimension(const fs::path& sample, mapping::ImportOptions& opti
   auto scan = meta.section("scan");
   auto known = scan.section("known_length");
   const double metres = known.number("metres", 0.1, 1e5);
-  const auto px = known.raw("pixels").as<std::vector<double>>();
+  const std::vector<double> px = known.numbers("pixels");
   if (px.size() != 4) throw known.error("pixels", "is not u1, v1, u2, v2");
   options.m_per_px = metres / std::hypot(px[2] - px[0], px[3] - px[1]);
   options.scale_method = "known";

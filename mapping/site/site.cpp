@@ -34,9 +34,8 @@ ScaleRecord read_scale(StrictYaml yaml) {
   record.relative_uncertainty = yaml.number_or("relative_uncertainty", 0.0, 0.0, 1.0);
   record.residual_m = yaml.number_or("residual_m", 0.0, 0.0, 1e6);
   record.date = yaml.text_or("date", "");
-  if (const YAML::Node inputs = yaml.raw("inputs")) record.inputs = inputs.as<std::vector<std::string>>();
-  if (const YAML::Node residuals = yaml.raw("residuals_m"))
-    record.residuals_m = residuals.as<std::vector<double>>();
+  record.inputs = yaml.texts("inputs");
+  record.residuals_m = yaml.numbers("residuals_m");
   yaml.refuse_unknown_keys();
   return record;
 }
@@ -82,8 +81,7 @@ SensorRecord read_sensor(StrictYaml& yaml) {
   record.protective_m = yaml.number_or("protective_m", 0.0, 0.0, 5.0);
   record.protective_side_m = yaml.number_or("protective_side_m", 0.0, 0.0, 5.0);
   record.address = yaml.text_or("address", "");
-  if (const YAML::Node settings = yaml.raw("settings"))
-    record.settings = settings.as<std::map<std::string, std::string>>();
+  record.settings = yaml.pairs("settings");
   yaml.refuse_unknown_keys();
   return record;
 }

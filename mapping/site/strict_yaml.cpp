@@ -116,6 +116,22 @@ std::vector<StrictYaml> StrictYaml::list(const std::string& key) {
   return items;
 }
 
+std::vector<std::string> StrictYaml::texts(const std::string& key) {
+  known_.insert(key);
+  return has(key) ? get<std::vector<std::string>>(key, "a list of texts") : std::vector<std::string>{};
+}
+
+std::vector<double> StrictYaml::numbers(const std::string& key) {
+  known_.insert(key);
+  return has(key) ? get<std::vector<double>>(key, "a list of numbers") : std::vector<double>{};
+}
+
+std::map<std::string, std::string> StrictYaml::pairs(const std::string& key) {
+  known_.insert(key);
+  if (!has(key)) return {};
+  return get<std::map<std::string, std::string>>(key, "a mapping of names to texts");
+}
+
 YAML::Node StrictYaml::raw(const std::string& key) {
   known_.insert(key);
   return node_[key];

@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -35,6 +36,10 @@ class StrictYaml {
   StrictYaml section(const std::string& key);
   /// The items of a list of mappings; empty where the key is absent.
   std::vector<StrictYaml> list(const std::string& key);
+  /// The items of a list, the pairs of a mapping; none where the key is absent.
+  std::vector<std::string> texts(const std::string& key);
+  std::vector<double> numbers(const std::string& key);
+  std::map<std::string, std::string> pairs(const std::string& key);
   /// A raw value, marked as known.
   YAML::Node raw(const std::string& key);
 

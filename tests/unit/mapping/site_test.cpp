@@ -81,6 +81,15 @@ TEST(Site, RefusesValuesOutOfRange) {
               HasSubstr("m_per_px"));
 }
 
+TEST(Site, RefusesListsAndMappingsOfOtherThings) {
+  const std::string site = kMinimal, scale = site + "scale: {m_per_px: 1, method: option, ";
+  EXPECT_THAT(error_of(scale + "inputs: [a, [b]]}\n"), HasSubstr("scale.inputs: is not a list of texts"));
+  EXPECT_THAT(error_of(scale + "inputs: a}\n"), HasSubstr("scale.inputs"));
+  EXPECT_THAT(error_of(scale + "residuals_m: [a]}\n"), HasSubstr("scale.residuals_m"));
+  EXPECT_THAT(error_of(site + "sensors: [{name: a, type: vlp16, settings: [b]}]\n"), HasSubstr("settings"));
+  EXPECT_THAT(error_of(site + "? [a, b]\n: 1\n"), HasSubstr("no plain word"));
+}
+
 TEST(Site, RefusesASizeThatNoBuildingHas) {
   for (const char* scale : {"1e-300", "5.6e-10", "0.0001", "100000"})
     EXPECT_THAT(error_of("madori_site: 1\nname: hall\ndrawing: {file: a.png, width_px: 1000, height_px: 5}\n"
