@@ -74,7 +74,7 @@ CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem
   CycleConfig config = vehicle_config(setup.vehicle, lidars_of(setup, where));
   take_protection(setup, config);
   config.mapping = true;
-  for (SafetyRule& rule : config.safety_rules) rule.by_hand = rule.by_hand || rule.holds != field_is_entered;
+  for (SafetyRule& rule : config.safety_rules) rule.by_hand = rule.holds != field_is_entered;
   return config;
 }
 

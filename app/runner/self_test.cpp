@@ -45,7 +45,6 @@ std::string look_at_sight(const CycleConfig& config) {
 /// Who lies on the floor must be seen or guarded by something else, or the vehicle be so slow that its bumper
 /// may find him (ISO 3691-4: 0.3 m/s without personnel detection). The cycle keeps to that.
 std::string look_at_low_bodies(const CycleConfig& config) {
-  constexpr double kBumperMps = planning::kUnseenPersonMps;
   const double lowest_m = lowest_ahead_m(config.lidars), speed_mps = config.limits.max_speed_mps;
   char text[200];
   if (config.sure_low_m > 0.0) {
@@ -58,7 +57,8 @@ std::string look_at_low_bodies(const CycleConfig& config) {
                 kLyingM, lowest_m);
   if (!config.low_bodies_guarded_by.empty())
     return std::string(text) + "; the site says what guards it: " + config.low_bodies_guarded_by;
-  if (speed_mps <= kBumperMps) return std::string(text) + "; at this speed the bumper may find it";
+  if (speed_mps <= planning::kUnseenPersonMps)
+    return std::string(text) + "; at this speed the bumper may find it";
   throw Error("site.yaml",
               std::string(text) + "; no faster than 0.3 m/s is driven, at which a bumper may find it",
               "mount a lidar at 0.2 m or lower, set max_speed_mps to 0.3, or enter what else guards it: "

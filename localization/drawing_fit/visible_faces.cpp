@@ -7,7 +7,6 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 
 namespace madori::localization {

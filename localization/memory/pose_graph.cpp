@@ -32,14 +32,10 @@ class RelativeCost final : public ceres::SizedCostFunction<3, 3, 3> {
     Eigen::Map<Eigen::Vector3d>{residuals} = root_ * e;
     using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
     if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Matrix3d j;
-      j << -c, -s, -s * dx + c * dy, s, -c, -c * dx - s * dy, 0, 0, -1;
-      Eigen::Map<RowMajor>{jacobians[0]} = root_ * j;
+      Eigen::Map<RowMajor>{jacobians[0]} = root_ * relative_jacobians(p[0][2], dx, dy).by_from;
     }
     if (jacobians != nullptr && jacobians[1] != nullptr) {
-      Eigen::Matrix3d j;
-      j << c, s, 0, -s, c, 0, 0, 0, 1;
-      Eigen::Map<RowMajor>{jacobians[1]} = root_ * j;
+      Eigen::Map<RowMajor>{jacobians[1]} = root_ * relative_jacobians(p[0][2], dx, dy).by_to;
     }
     return true;
   }
@@ -92,6 +88,14 @@ ceres::Solver::Options solver_options(const GraphOptions& options) {
 }
 
 }  // namespace
+
+RelativeJacobians relative_jacobians(double yaw_rad, double dx_m, double dy_m) {
+  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  RelativeJacobians j;
+  j.by_from << -c, -s, -s * dx_m + c * dy_m, s, -c, -c * dx_m - s * dy_m, 0, 0, -1;
+  j.by_to << c, s, 0, -s, c, 0, 0, 0, 1;
+  return j;
+}
 
 Eigen::Vector3d relative_error(const RelativeFactor& factor, const Transform2<Map, Base>& from,
                                const Transform2<Map, Base>& to) {

@@ -36,6 +36,13 @@ struct GraphOptions {
 bool optimise_graph(std::vector<Transform2<Map, Base>>& poses, const std::vector<RelativeFactor>& relative,
                     const std::vector<UnaryFactor>& unary, const GraphOptions& options = {});
 
+/// Derivatives of a motion, (x, y, yaw) in the axes of `from`, by either pose, Map axes.
+struct RelativeJacobians {
+  Eigen::Matrix3d by_from, by_to;
+};
+/// Where `to` lies (dx, dy) from `from`, which is turned by `yaw_rad`.
+[[nodiscard]] RelativeJacobians relative_jacobians(double yaw_rad, double dx_m, double dy_m);
+
 /// The error of a factor in its own axes (x, y, yaw).
 [[nodiscard]] Eigen::Vector3d relative_error(const RelativeFactor& factor, const Transform2<Map, Base>& from,
                                              const Transform2<Map, Base>& to);

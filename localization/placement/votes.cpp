@@ -32,7 +32,7 @@ WallPieces wall_pieces(const MemoryCloud& cloud) {
     const auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x_m / kPieceM)));
     const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.y_m / kPieceM)));
     const std::uint64_t key = (std::uint64_t{u} << 33U) ^ (std::uint64_t{v} << 2U) ^
-                              static_cast<std::uint64_t>(p.direction % 8 / 2);
+                              static_cast<std::uint64_t>(p.direction % (WallIndex::kDirections / 2) / 2);
     pieces.of_surface.push_back(known.try_emplace(key, static_cast<int>(known.size())).first->second);
   }
   pieces.count = known.size();

@@ -30,9 +30,27 @@ struct PointMap::Tree {
 
 namespace {
 
+/// The points near a place.
+using Near = std::vector<std::pair<std::uint32_t, double>>;
+template <class Tree>
+void find_near(const Tree& tree, double x_m, double y_m, double radius_m, Near& near) {
+  const double query[2] = {x_m, y_m};
+  near.clear();
+  tree.index.radiusSearch(query, radius_m * radius_m, near, nanoflann::SearchParams(0, 0.0F, false));
+}
+
+/// Which way points with these second moments run, and how flat they lie.
+void take_line(PointSurface& surface, double xx, double xy, double yy) {
+  const double spread = std::hypot(0.5 * (xx - yy), xy);
+  const double large = 0.5 * (xx + yy) + spread;
+  const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  surface.normal_x = -std::sin(direction);
+  surface.normal_y = std::cos(direction);
+  surface.flatness = large > 0.0 ? 2.0 * spread / large : 0.0;
+}
+
 /// Total least squares over the points at `near`.
-PointSurface surface_of(const std::vector<Point2<Map>>& points,
-                        const std::vector<std::pair<std::uint32_t, double>>& near) {
+PointSurface surface_of(const std::vector<Point2<Map>>& points, const Near& near) {
   PointSurface surface;
   const auto n = static_cast<double>(near.size());
   for (const auto& [i, squared] : near) {
@@ -47,22 +65,9 @@ PointSurface surface_of(const std::vector<Point2<Map>>& points,
     xy += dx * dy;
     yy += dy * dy;
   }
-  const double spread = std::hypot(0.5 * (xx - yy), xy);
-  const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
-  surface.normal_x = -std::sin(direction);
-  surface.normal_y = std::cos(direction);
-  const double large = 0.5 * (xx + yy) + spread;
-  surface.flatness = near.size() > 2 && large > 0.0 ? 2.0 * spread / large : 0.0;
+  take_line(surface, xx, xy, yy);
+  if (near.size() <= 2) surface.flatness = 0.0;
   return surface;
-}
-
-/// The points near a place.
-using Near = std::vector<std::pair<std::uint32_t, double>>;
-template <class Tree>
-void find_near(const Tree& tree, double x_m, double y_m, double radius_m, Near& near) {
-  const double query[2] = {x_m, y_m};
-  near.clear();
-  tree.index.radiusSearch(query, radius_m * radius_m, near, nanoflann::SearchParams(0, 0.0F, false));
 }
 
 /// One step to the ridge: weighted total least squares in a round window, moved across the line alone.
@@ -77,12 +82,7 @@ void step_to_ridge(const Tree& tree, const Near& near, double window_m, PointSur
   if (n <= 0.0) return;
   x /= n, y /= n;
   xx = xx / n - x * x, xy = xy / n - x * y, yy = yy / n - y * y;
-  const double spread = std::hypot(0.5 * (xx - yy), xy);
-  const double large = 0.5 * (xx + yy) + spread;
-  const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
-  surface.normal_x = -std::sin(direction);
-  surface.normal_y = std::cos(direction);
-  surface.flatness = large > 0.0 ? 2.0 * spread / large : 0.0;
+  take_line(surface, xx, xy, yy);
   const double off = x * surface.normal_x + y * surface.normal_y;
   surface.x_m += off * surface.normal_x;
   surface.y_m += off * surface.normal_y;
@@ -148,9 +148,8 @@ const PointSurface& PointMap::surface(std::size_t i) const {
   if (tree_->noise_m > 0.0) {
     surface = ridge_at(*tree_, p);
   } else if (radius > 0.0) {
-    const double query[2] = {p.x_m, p.y_m};
-    std::vector<std::pair<std::uint32_t, double>> near;
-    tree_->index.radiusSearch(query, radius * radius, near, nanoflann::SearchParams(0, 0.0F, false));
+    Near near;
+    find_near(*tree_, p.x_m, p.y_m, radius, near);
     surface = surface_of(tree_->points, near);
   }
   return *surface;

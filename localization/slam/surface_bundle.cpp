@@ -242,13 +242,7 @@ void add_motion(const RelativeFactor& motion, const std::vector<Pose>& poses, Eq
   const Pose& a = poses[from];
   const Pose& b = poses[to];
   const Eigen::Vector3d error = relative_error(motion, a, b);
-  const double c = std::cos(a.yaw_rad()), s = std::sin(a.yaw_rad());
-  const double dx = b.x_m() - a.x_m(), dy = b.y_m() - a.y_m();
-  Eigen::Matrix3d by_to;
-  by_to << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
-  Eigen::Matrix3d by_from = -by_to;
-  by_from(0, 2) = -s * dx + c * dy;
-  by_from(1, 2) = -c * dx - s * dy;
+  const auto [by_from, by_to] = relative_jacobians(a.yaw_rad(), b.x_m() - a.x_m(), b.y_m() - a.y_m());
   const Eigen::Matrix3d& w = motion.information;
   equations.block(from, from) += by_from.transpose() * w * by_from;
   equations.block(to, to) += by_to.transpose() * w * by_to;

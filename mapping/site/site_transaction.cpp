@@ -30,7 +30,7 @@ fs::path journal_of(const fs::path& site) {
   return site / kStaging / kJournal;
 }
 
-bool sync(const fs::path& path) {
+void sync(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool good = descriptor >= 0 && ::fsync(descriptor) == 0;
   const int error = errno;
@@ -38,7 +38,6 @@ bool sync(const fs::path& path) {
   if (!good)
     throw Error(path.string(), std::string("cannot be saved: ") + std::strerror(error),
                 "check the disk and its free space");
-  return good;
 }
 
 int take_lock(const fs::path& site, bool wait) {
@@ -125,7 +124,7 @@ void SiteTransaction::read_back() const {
 void SiteTransaction::commit() {
   read_back();
   stage_version(*this, site_, site_ / kStaging, puts_, removals_, sentence_);
-  at_once(puts_, [&](const std::string& name) { return sync(site_ / kStaging / name); });
+  at_once(puts_, [&](const std::string& name) { sync(site_ / kStaging / name); });
   std::string journal;
   for (const auto& name : removals_) journal += "- " + name + "\n";
   for (const auto& name : puts_) journal += "+ " + name + "\n";

@@ -50,16 +50,13 @@ std::vector<std::string> keep_objects(const fs::path& site, const std::vector<fs
   const std::vector<std::string> contents = at_once(files, file_content);
   std::map<std::string_view, std::string> names;  // a file that came again as it was has its name already
   for (const std::string& content : contents) names[content];
-  at_once(names, [](auto& content) { return (content.second = name_of(content.first)).size(); });
+  at_once(names, [](auto& content) { content.second = name_of(content.first); });
   std::map<fs::path, std::string_view> missing;
   for (const auto& [content, name] : names)
     if (const fs::path object = site / "versions/objects" / name; !fs::exists(object))
       missing[object] = content;
   if (!missing.empty()) fs::create_directories(site / "versions/objects");
-  at_once(missing, [](const auto& object) {
-    write_file_atomically(object.first, object.second);
-    return true;
-  });
+  at_once(missing, [](const auto& object) { write_file_atomically(object.first, object.second); });
   std::vector<std::string> kept;
   for (const std::string& content : contents) kept.push_back(names.at(content));
   return kept;

@@ -9,7 +9,8 @@ namespace madori::sensors {
 
 void LidarSettings::refuse_others(std::initializer_list<const char*> keys) const {
   for (const auto& [key, value] : values) {
-    if (std::any_of(keys.begin(), keys.end(), [&key = key](const char* known) { return key == known; })) continue;
+    if (std::any_of(keys.begin(), keys.end(), [&key = key](const char* known) { return key == known; }))
+      continue;
     std::string known;
     for (const char* word : keys) known += std::string(known.empty() ? "" : ", ") + word;
     throw Error("sensor " + name, "the setting \"" + key + "\" is not known",

@@ -19,7 +19,7 @@
 #include "localization/slam/graph_mapper.hpp"
 #include "localization/slam/slow_lidar_mapper.hpp"
 #include "sensors/carmen/reader.hpp"
-#include "tests/support/rigid_alignment.hpp"
+#include "tests/support/rigid_fit.hpp"
 
 namespace madori::bench {
 namespace {

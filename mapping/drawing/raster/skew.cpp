@@ -8,7 +8,7 @@ namespace madori::mapping {
 namespace {
 
 constexpr int kBins = 900;
-constexpr double kBin = 90.0 / kBins;  // degrees
+constexpr double kBin = 90.0 / kBins;   // degrees
 constexpr int kPeakReach = 5;           // bins to either side of the peak that share in the mean
 constexpr double kLargestShift = 0.75;  // pixels at the end of a wall
 constexpr double kDegree = std::numbers::pi / 180;

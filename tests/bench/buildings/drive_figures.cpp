@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "tests/bench/buildings/rigid_fit.hpp"
+#include "tests/support/rigid_fit.hpp"
 
 namespace madori::bench {
 namespace {
@@ -47,7 +47,7 @@ Transform2<Map, Map> alignment(const std::vector<PoseSample>& samples) {
   std::vector<std::pair<Point2<Map>, Point2<Map>>> pairs;
   for (const PoseSample& s : samples)
     if (drives(s.state)) pairs.emplace_back(s.pose.translation(), s.truth.translation());
-  return fit_rigidly(pairs);
+  return test::fit_rigidly(pairs);
 }
 
 nlohmann::json to_json(const StationVisit& v) {

@@ -7,7 +7,7 @@
 #include "localization/slam/slow_lidar_mapper.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"
-#include "tests/support/rigid_alignment.hpp"
+#include "tests/support/rigid_fit.hpp"
 
 namespace madori::localization {
 namespace {

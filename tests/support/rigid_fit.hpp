@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/frames.hpp"
 #include "core/transform2.hpp"
 
-namespace madori::bench {
+namespace madori::test {
 
 /// The rigid motion that lays `from` on `onto` with the least squares (closed form; S. Umeyama, PAMI 13,
 /// 1991, without scale). Identity for fewer than two pairs.
@@ -33,4 +34,14 @@ template <class To, class From>
   return {b.x_m - turned.x_m, b.y_m - turned.y_m, turn.yaw_rad()};
 }
 
-}  // namespace madori::bench
+/// What lays the first poses' positions on those of the second: a map has no place of its own, and noise in
+/// its first scans turns all of it.
+inline Transform2<Map, Map> laid_on(const std::vector<Transform2<Map, Base>>& from,
+                                    const std::vector<Transform2<Map, Base>>& to) {
+  std::vector<std::pair<Point2<Map>, Point2<Map>>> pairs;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    pairs.emplace_back(from[i].translation(), to[i].translation());
+  return fit_rigidly<Map, Map>(pairs);
+}
+
+}  // namespace madori::test
