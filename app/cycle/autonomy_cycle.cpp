@@ -13,7 +13,7 @@ CycleState::CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> so
       localization(std::move(source)),
       site(std::make_shared<const SiteInBuilding>(config.routes, config.walls)),
       obstacles(config.field),
-      movers(config.lidars.size(), MoverWatch{{}, planning::MovingObjects(config.movers)}) {
+      movers(config.lidars.size(), MoverWatch{{}, planning::MovingObjects(config.movers), {}}) {
   pose.health = {LocalizationState::Lost, "no scan yet"};
 }
 
@@ -51,12 +51,12 @@ VelocityCommand wanted_command(CycleState& state, const CycleInput& input, const
   return pursued.command;
 }
 
-/// No point of the vehicle faster than it may be: by itself for the sake of who lies on the floor, by hand
+/// No point of the vehicle faster than it may be: by itself for the sake of whom it does not see, by hand
 /// while it is driven out of a protective field.
 VelocityCommand slowed(const CycleState& state, const VelocityCommand& wanted, const CycleInput& input,
                        const CycleConfig& config) {
   double most_mps = planning::PathCheck::kFree;
-  if (drives(state.mode)) most_mps = low_bodies_mps(state, input.now, config);
+  if (drives(state.mode)) most_mps = unseen_bodies_mps(state, input.now, config);
   if (state.mode == Mode::Manual && input.protective_stop) most_mps = config.out_of_field_mps;
   const double fastest_mps = outline_mps(config.check.vehicle, wanted);
   const double share = fastest_mps > most_mps ? most_mps / fastest_mps : 1.0;

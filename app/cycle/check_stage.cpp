@@ -124,6 +124,9 @@ bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now, con
   const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
   const Point2<Odom> place = map_from_odom.inverse() * where;
   bool known = false;
+  for (const MoverWatch& watch : state.movers)
+    for (const Point2<Odom>& p : watch.out_of_sight.points())
+      known = known || distance_m(p, place) < 0.5 * config.field.cell_m;
   for (const planning::Column& c : state.obstacles.columns()) {
     const double dx = std::max(
         {0.0, static_cast<double>(c.min_x_m) - place.x_m, place.x_m - static_cast<double>(c.max_x_m)});
@@ -200,6 +203,19 @@ void note_held(CycleState& state, const std::vector<Point2<Map>>& obstacles, con
   state.ahead.held = state.ahead.held_since && to_seconds(input.now - *state.ahead.held_since) >= kMomentS;
 }
 
+/// The operator has looked at what was said to stand in the way, and at what the vehicle stands against. What
+/// is remembered elsewhere, out of the lidar's sight, is still there.
+void forget_what_was_looked_at(CycleState& state) {
+  constexpr double kAroundM = 1.0;
+  const auto odom_from_base = state.odometry.reading().odom_from_base;
+  const auto odom_from_map = odom_from_base * state.pose.map_from_base.inverse();
+  state.block.felt = false;
+  for (MoverWatch& watch : state.movers) watch.out_of_sight.clear();
+  state.obstacles.forget_near(odom_from_base.translation(), kAroundM);
+  if (state.ahead.check.blocked())
+    state.obstacles.forget_near(odom_from_map * state.ahead.check.where, kAroundM);
+}
+
 }  // namespace
 
 const std::vector<Point2<Map>>& obstacle_points(CycleState& state) {
@@ -213,6 +229,8 @@ const std::vector<Point2<Map>>& obstacle_points(CycleState& state) {
     for (const double px : x)
       for (const double py : y) points.push_back(map_from_odom * Point2<Odom>{px, py});
   }
+  for (const MoverWatch& watch : state.movers)
+    for (const Point2<Odom>& p : watch.out_of_sight.points()) points.push_back(map_from_odom * p);
   return points;
 }
 
@@ -222,8 +240,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
   for (const auto& command : input.commands)
     if (command.word == OperatorWord::ForgetObstacles ||
         (command.word == OperatorWord::Resume && state.mode == Mode::Waiting)) {
-      state.block.felt = false;
-      state.obstacles.clear();  // the operator has looked; what is seen comes back with the next scan
+      forget_what_was_looked_at(state);
       if (state.way.rejoin_m) take_path(state, {}, config);  // nothing to drive around any more: planned anew
     }
   if (state.way.path.empty() || state.errand.arrived || !output.computed_lidar) return;

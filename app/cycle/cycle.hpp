@@ -28,6 +28,7 @@
 #include "planning/obstacle_check/motion_guard.hpp"
 #include "planning/obstacle_check/moving_objects.hpp"
 #include "planning/obstacle_check/obstacle_field.hpp"
+#include "planning/obstacle_check/out_of_sight.hpp"
 #include "planning/route_graph/route_search.hpp"
 #include "planning/route_graph/vehicle_fit.hpp"
 #include "planning/waypoints/waypoints.hpp"
@@ -167,6 +168,7 @@ struct Hearing {
 struct MoverWatch {
   Stamp looked{};  ///< of its newest sweep that was looked at
   planning::MovingObjects objects;
+  planning::OutOfSight out_of_sight;
 };
 
 /// Room that the stages of a step work in. Nothing in it lasts: it is kept so that a step asks the heap for

@@ -107,6 +107,13 @@ double low_bodies_mps(const CycleState& state, Stamp now, const CycleConfig& con
   return std::max(planning::kUnseenPersonMps, config.check.braking.speed_within(sure_m));
 }
 
+double unseen_bodies_mps(const CycleState& state, Stamp now, const CycleConfig& config) {
+  const bool walker =
+      std::ranges::any_of(state.movers, [](const MoverWatch& watch) { return watch.out_of_sight.anyone(); });
+  const double low_mps = low_bodies_mps(state, now, config);
+  return walker ? std::min(planning::kUnseenPersonMps, low_mps) : low_mps;
+}
+
 void say_floor_unseen(CycleState& state, const CycleInput& input, const CycleConfig& config,
                       CycleOutput& output) {
   const bool unseen = low_bodies_mps(state, input.now, config) <= planning::kUnseenPersonMps;

@@ -134,7 +134,7 @@ void recover(CycleState& state, const CycleInput& input, const CycleConfig& conf
 
 double allowed_mps(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   double most = std::min(config.check.braking.speed_within(sure_range_m(state, input.now, config)),
-                         low_bodies_mps(state, input.now, config));
+                         unseen_bodies_mps(state, input.now, config));
   for (const Recovery& recovery : kRecoveries)
     if (recovery.most_mps != nullptr && recovery.due(state, input, config))
       most = std::min(most, recovery.most_mps(state, config));

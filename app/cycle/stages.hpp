@@ -35,7 +35,9 @@ void say_missed_lidars(CycleState& state, const CycleInput& input, const CycleCo
 /// lidars that are heard are sure to have seen him, and where they look over him as slowly as a vehicle that
 /// does not see him may drive. No limit where something else guards him.
 [[nodiscard]] double low_bodies_mps(const CycleState& state, Stamp now, const CycleConfig& config);
-/// Says that this limit holds, and why; once.
+/// The same, and for the sake of who has come too near to be seen.
+[[nodiscard]] double unseen_bodies_mps(const CycleState& state, Stamp now, const CycleConfig& config);
+/// Says that no lidar sees who lies on the floor; once.
 void say_floor_unseen(CycleState& state, const CycleInput& input, const CycleConfig& config,
                       CycleOutput& output);
 /// The fastest point of the vehicle's outline at a command.

@@ -9,7 +9,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 15;
+constexpr std::uint32_t kFormat = 16;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -163,7 +163,9 @@ std::string state_bytes(const CycleState& state) {
   for (const MoverWatch& watch : state.movers) {
     bytes(watch.looked);
     bytes(static_cast<std::uint64_t>(watch.objects.tracks().size()));
-    for (const auto& track : watch.objects.tracks()) bytes(track.sightings), bytes(track.radius_m);
+    for (const auto& track : watch.objects.tracks())
+      bytes(track.sightings), bytes(track.radius_m), bytes(track.high_m);
+    bytes(watch.out_of_sight.walkers()), bytes(watch.out_of_sight.points());
   }
   return bytes.take();
 }
@@ -176,9 +178,13 @@ void restore_watch(BytesIn& bytes, MoverWatch& watch, std::size_t most) {
   std::vector<planning::MovingObjects::Track> tracks;
   for (std::uint64_t i = 0; i < count && i < most; ++i) {
     auto& track = tracks.emplace_back();
-    bytes(track.sightings), bytes(track.radius_m);
+    bytes(track.sightings), bytes(track.radius_m), bytes(track.high_m);
   }
   watch.objects.restore(std::move(tracks));
+  std::vector<planning::LostMover> walkers;
+  std::vector<Point2<Odom>> points;
+  bytes(walkers), bytes(points);
+  watch.out_of_sight.restore(std::move(walkers), std::move(points));
 }
 
 }  // namespace

@@ -62,12 +62,13 @@ std::optional<ColumnGroups::Group> ColumnGroups::compact(const std::vector<Colum
     box.max_x_m = std::max(box.max_x_m, columns[i].max_x_m);
     box.min_y_m = std::min(box.min_y_m, columns[i].min_y_m);
     box.max_y_m = std::max(box.max_y_m, columns[i].max_y_m);
+    box.high_m = std::max(box.high_m, columns[i].high_m);
   }
   const double width_m = static_cast<double>(std::max(box.max_x_m - box.min_x_m, box.max_y_m - box.min_y_m));
   if (width_m > widest_m) return std::nullopt;
   return Group{{0.5 * static_cast<double>(box.min_x_m + box.max_x_m),
                 0.5 * static_cast<double>(box.min_y_m + box.max_y_m)},
-               std::max(0.1, width_m / 2.0)};
+               std::max(0.1, width_m / 2.0), static_cast<double>(box.high_m)};
 }
 
 }  // namespace madori::planning

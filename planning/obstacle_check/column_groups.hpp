@@ -17,6 +17,7 @@ class ColumnGroups {
   struct Group {
     Point2<Odom> centre;
     double radius_m = 0.0;
+    double high_m = 0.0;  ///< above the floor
   };
 
   /// Those of the columns of a scan, sorted by rows, that are no wider than `widest_m`. Good until the next

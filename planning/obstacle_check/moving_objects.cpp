@@ -34,17 +34,27 @@ MovingObjects::Track* MovingObjects::followed_by(const ColumnGroups::Group& grou
 }
 
 void MovingObjects::update(const std::vector<Column>& columns, Stamp stamp) {
+  lost_.clear();
+  appeared_.clear();
   for (const ColumnGroups::Group& group : groups_.find(columns, stamp, options_.widest_m)) {
     Track* before = followed_by(group, stamp);
     Track track = spare_.take();
-    if (before != nullptr) std::swap(track, *before);
+    if (before != nullptr)
+      std::swap(track, *before);
+    else
+      appeared_.push_back(group.centre);
     track.sightings.push_back({stamp, group.centre});
     track.radius_m = group.radius_m;
+    track.high_m = std::max(track.high_m, group.high_m);
     while (to_seconds(stamp - track.sightings.front().stamp) > options_.history_s)
       track.sightings.pop_front();
     followed_.push_back(std::move(track));
   }
-  for (Track& track : tracks_) spare_.give(std::move(track));
+  for (Track& track : tracks_) {
+    if (const auto mover = moves(track))
+      lost_.push_back({*mover, track.high_m, track.sightings.back().stamp});
+    spare_.give(std::move(track));
+  }
   tracks_.clear();
   std::swap(tracks_, followed_);
   find_movers();
@@ -55,14 +65,18 @@ void MovingObjects::restore(std::vector<Track> tracks) {
   find_movers();
 }
 
+std::optional<Mover<Odom>> MovingObjects::moves(const Track& track) const {
+  if (static_cast<int>(track.sightings.size()) < options_.fewest_sightings) return std::nullopt;
+  const Mover<Odom> mover = track.mover();
+  const double speed = std::hypot(mover.vx_mps, mover.vy_mps);
+  if (speed < options_.slowest_mps || speed > options_.fastest_mps) return std::nullopt;
+  return mover;
+}
+
 void MovingObjects::find_movers() {
   movers_.clear();
-  for (const Track& track : tracks_) {
-    if (static_cast<int>(track.sightings.size()) < options_.fewest_sightings) continue;
-    const Mover<Odom> mover = track.mover();
-    const double speed = std::hypot(mover.vx_mps, mover.vy_mps);
-    if (speed >= options_.slowest_mps && speed <= options_.fastest_mps) movers_.push_back(mover);
-  }
+  for (const Track& track : tracks_)
+    if (const auto mover = moves(track)) movers_.push_back(*mover);
 }
 
 MovingObjects::Track MovingObjects::Spare::take() {
@@ -70,6 +84,7 @@ MovingObjects::Track MovingObjects::Spare::take() {
   Track track = std::move(tracks_.back());
   tracks_.pop_back();
   track.sightings.clear();
+  track.high_m = 0.0;
   return track;
 }
 

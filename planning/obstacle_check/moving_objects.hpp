@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,13 @@ struct Mover {
   double vx_mps = 0.0;
   double vy_mps = 0.0;
   double radius_m = 0.0;
+};
+
+/// One that is seen no more.
+struct LostMover {
+  Mover<Odom> last;     ///< as it was last seen
+  double high_m = 0.0;  ///< as high as it was ever seen to be, above the floor
+  Stamp seen{};
 };
 
 struct MoverOptions {
@@ -46,6 +54,7 @@ class MovingObjects {
   struct Track {
     Ring<Sighting> sightings;
     double radius_m = 0.0;
+    double high_m = 0.0;  ///< as high as it was ever seen to be
     [[nodiscard]] Mover<Odom> mover() const;
   };
 
@@ -54,6 +63,9 @@ class MovingObjects {
   /// `columns` after a scan taken at `stamp`.
   void update(const std::vector<Column>& columns, Stamp stamp);
   [[nodiscard]] const std::vector<Mover<Odom>>& movers() const { return movers_; }
+  /// Movers that no group of the last update went on with, and where groups began a track in it.
+  [[nodiscard]] const std::vector<LostMover>& lost() const { return lost_; }
+  [[nodiscard]] const std::vector<Point2<Odom>>& appeared() const { return appeared_; }
   [[nodiscard]] const MoverOptions& options() const { return options_; }
   /// What is remembered, and going on with what was remembered at another time.
   [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
@@ -72,11 +84,14 @@ class MovingObjects {
   /// The track that a group goes on with; null where it begins one.
   [[nodiscard]] Track* followed_by(const ColumnGroups::Group& group, Stamp stamp);
   void find_movers();
+  [[nodiscard]] std::optional<Mover<Odom>> moves(const Track& track) const;
 
   MoverOptions options_;
   ColumnGroups groups_;
   std::vector<Track> tracks_, followed_;  ///< followed_: empty between two updates
   std::vector<Mover<Odom>> movers_;       ///< of the tracks
+  std::vector<LostMover> lost_;
+  std::vector<Point2<Odom>> appeared_;
   Spare spare_;
 };
 

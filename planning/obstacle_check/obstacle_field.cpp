@@ -122,6 +122,10 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
   std::swap(columns_, merged_);
 }
 
+void ObstacleField::forget_near(const Point2<Odom>& place, double radius_m) {
+  std::erase_if(columns_, [&](const Column& c) { return distance_m(c.centre(), place) < radius_m; });
+}
+
 void ObstacleField::add_felt(const std::vector<Point2<Odom>>& places, Stamp now) {
   constexpr double kHighM = 0.3;
   const auto cell = [&](double at_m) {

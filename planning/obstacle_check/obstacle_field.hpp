@@ -38,7 +38,8 @@ class ObstacleField {
   /// Takes one scan. Points and view in the Base frame at the scan, `odom_from_base` the pose at the scan.
   void update(const PointCloud<Base>& scan, const SensorView& view,
               const Transform2<Odom, Base>& odom_from_base);
-  void clear() { columns_.clear(); }
+  /// What stands so near to a place; what is seen comes back with the next scan.
+  void forget_near(const Point2<Odom>& place, double radius_m);
   /// What the vehicle has run against without having seen it: low bodies that are remembered like those that
   /// have come too near to be seen.
   void add_felt(const std::vector<Point2<Odom>>& places, Stamp now);

@@ -1,0 +1,130 @@
+#include "planning/obstacle_check/out_of_sight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/angle.hpp"
+#include "tests/support/toy_lidar.hpp"
+
+namespace madori::planning {
+namespace {
+
+/// A person of 1.75 m is over-looked within 1.68 m of it.
+LidarModel mast() {
+  LidarModel lidar{};
+  lidar.kind = LidarKind::Spinning;
+  lidar.mounting.z_m = 2.2;
+  lidar.min_elevation_rad = to_rad(-15.0);
+  lidar.max_elevation_rad = to_rad(15.0);
+  lidar.from_rad = -kPi;
+  lidar.to_rad = kPi;
+  return lidar;
+}
+
+/// A standing vehicle with a lidar on a mast, and one person.
+struct Scene {
+  std::vector<LidarModel> lidars{mast()};
+  test::ToyLidar lidar;
+  ObstacleField field{[] {
+    FieldOptions options;
+    options.top_m = 2.3;
+    return options;
+  }()};
+  MovingObjects objects;
+  OutOfSight out_of_sight;
+  std::mt19937 random{3};
+  double at_s = 0.0;
+
+  Scene() {
+    lidar.height_m = 2.2;
+    lidar.posts.push_back({{3.5, 0.3}, 0.2, 1.75});
+  }
+  Point2<Map>& person() { return lidar.posts[0].at; }
+  void look() {
+    const Stamp stamp = stamp_from_seconds(at_s += 0.1);
+    field.update(lidar.scan({}, stamp, random), SensorView::of(lidars[0]), {});
+    objects.update(field.columns(), stamp);
+    out_of_sight.update(objects.lost(), objects.appeared(), lidars, {}, stamp);
+  }
+  /// At 1 m/s.
+  void walk_to(const Point2<Map>& goal) {
+    for (double left = distance_m(person(), goal); left > 0.05; left = distance_m(person(), goal)) {
+      const double share = std::min(1.0, 0.1 / left);
+      person().x_m += share * (goal.x_m - person().x_m);
+      person().y_m += share * (goal.y_m - person().y_m);
+      look();
+    }
+  }
+  void stand(double time_s) {
+    for (double t = 0.0; t < time_s; t += 0.1) look();
+  }
+  [[nodiscard]] bool covers(const Point2<Map>& place) const {
+    double nearest = 1e9;
+    for (const auto& p : out_of_sight.points())
+      nearest = std::min(nearest, std::hypot(p.x_m - place.x_m, p.y_m - place.y_m));
+    return nearest < 0.4;
+  }
+};
+
+TEST(OutOfSight, WhoWalksUnderTheMastIsBelievedThereUntilHeIsSeenToLeave) {
+  Scene scene;
+  scene.stand(1.0);
+  scene.walk_to({0.9, 0.3});
+  EXPECT_TRUE(scene.out_of_sight.anyone());
+  EXPECT_TRUE(scene.covers(scene.person())) << "he walked on unseen";
+  scene.stand(8.0);
+  EXPECT_TRUE(scene.covers(scene.person())) << "and stood";
+  scene.walk_to({-3.5, 0.3});
+  EXPECT_FALSE(scene.out_of_sight.anyone()) << "seen to go on, behind the vehicle";
+  EXPECT_TRUE(scene.out_of_sight.points().empty());
+}
+
+TEST(OutOfSight, WhoTurnsBackIsSeenToLeave) {
+  Scene scene;
+  scene.stand(1.0);
+  scene.walk_to({1.0, 0.3});
+  EXPECT_TRUE(scene.out_of_sight.anyone());
+  scene.walk_to({3.5, 0.6});
+  EXPECT_FALSE(scene.out_of_sight.anyone());
+}
+
+TEST(OutOfSight, WhoPassesInSightIsNeverOutOfIt) {
+  Scene scene;
+  scene.person() = {2.6, -3.0};
+  scene.stand(1.0);
+  scene.walk_to({2.6, 3.0});
+  EXPECT_FALSE(scene.out_of_sight.anyone());
+}
+
+TEST(OutOfSight, AnotherLidarThatSeesHimThereKeepsHimInSight) {
+  Scene scene;
+  LidarModel low{};
+  low.kind = LidarKind::Planar;
+  low.mounting.z_m = 0.2;
+  low.from_rad = -kPi;
+  low.to_rad = kPi;
+  scene.lidars.push_back(low);
+  scene.stand(1.0);
+  scene.walk_to({0.9, 0.3});
+  EXPECT_FALSE(scene.out_of_sight.anyone());
+}
+
+/// He is somewhere near for a while where the way he had is empty by now: the vehicle has gone on.
+TEST(OutOfSight, WhoMayWalkBesideTheVehicleIsBelievedNearForAWhile) {
+  const std::vector<LidarModel> lidars{mast()};
+  OutOfSight out_of_sight;
+  const LostMover walker{{{1.2, 0.8}, -0.5, 0.0, 0.2}, 1.75, stamp_from_seconds(0.0)};
+  out_of_sight.update({walker}, {}, lidars, {}, stamp_from_seconds(0.1));
+  EXPECT_FALSE(out_of_sight.points().empty());
+  const Transform2<Odom, Base> gone_on(4.0, 0.0, 0.0);
+  out_of_sight.update({}, {}, lidars, gone_on, stamp_from_seconds(3.0));
+  EXPECT_TRUE(out_of_sight.points().empty());
+  EXPECT_TRUE(out_of_sight.anyone());
+  out_of_sight.update({}, {}, lidars, gone_on, stamp_from_seconds(20.0));
+  EXPECT_FALSE(out_of_sight.anyone());
+}
+
+}  // namespace
+}  // namespace madori::planning
