@@ -117,8 +117,7 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
   watch.looked = base.stamp;
   output.computed_lidar = true;
   watch.objects.update(state.obstacles.columns(), base.stamp);
-  watch.out_of_sight.update(watch.objects.lost(), watch.objects.appeared(), config.lidars, odom_from_base,
-                            base.stamp);
+  watch.out_of_sight.update(watch.objects, config.lidars, odom_from_base, base.stamp);
 }
 
 }  // namespace

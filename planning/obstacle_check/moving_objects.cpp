@@ -35,14 +35,13 @@ MovingObjects::Track* MovingObjects::followed_by(const ColumnGroups::Group& grou
 
 void MovingObjects::update(const std::vector<Column>& columns, Stamp stamp) {
   lost_.clear();
-  appeared_.clear();
   for (const ColumnGroups::Group& group : groups_.find(columns, stamp, options_.widest_m)) {
     Track* before = followed_by(group, stamp);
     Track track = spare_.take();
     if (before != nullptr)
       std::swap(track, *before);
     else
-      appeared_.push_back(group.centre);
+      track.since = stamp;
     track.sightings.push_back({stamp, group.centre});
     track.radius_m = group.radius_m;
     track.high_m = std::max(track.high_m, group.high_m);

@@ -55,6 +55,7 @@ class MovingObjects {
     Ring<Sighting> sightings;
     double radius_m = 0.0;
     double high_m = 0.0;  ///< as high as it was ever seen to be
+    Stamp since{};        ///< when it was first seen
     [[nodiscard]] Mover<Odom> mover() const;
   };
 
@@ -63,9 +64,8 @@ class MovingObjects {
   /// `columns` after a scan taken at `stamp`.
   void update(const std::vector<Column>& columns, Stamp stamp);
   [[nodiscard]] const std::vector<Mover<Odom>>& movers() const { return movers_; }
-  /// Movers that no group of the last update went on with, and where groups began a track in it.
+  /// Movers that no group of the last update went on with.
   [[nodiscard]] const std::vector<LostMover>& lost() const { return lost_; }
-  [[nodiscard]] const std::vector<Point2<Odom>>& appeared() const { return appeared_; }
   [[nodiscard]] const MoverOptions& options() const { return options_; }
   /// What is remembered, and going on with what was remembered at another time.
   [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
@@ -91,7 +91,6 @@ class MovingObjects {
   std::vector<Track> tracks_, followed_;  ///< followed_: empty between two updates
   std::vector<Mover<Odom>> movers_;       ///< of the tracks
   std::vector<LostMover> lost_;
-  std::vector<Point2<Odom>> appeared_;
   Spare spare_;
 };
 

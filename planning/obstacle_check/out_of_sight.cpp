@@ -56,10 +56,13 @@ void places(const LostMover& w, const Blind& blind, Stamp now, Visit&& visit) {
   }
 }
 
-/// Whether somebody who comes into sight there may be he: on the way that he had, or back where he went.
-bool may_be(const LostMover& w, const Point2<Odom>& there, Stamp now) {
-  constexpr double kSlackM = 0.5;      // from where he is seen until he is followed
+/// Whether someone who is followed since he was lost may be he: on the way that he had, or back where he
+/// went.
+bool may_be(const LostMover& w, const MovingObjects::Track& track, Stamp now) {
+  constexpr double kSlackM = 1.0;      // from where he was lost until he is surely in sight
   constexpr double kFastestMps = 2.0;  // of who has been out of sight
+  if (track.since <= w.seen) return false;
+  const Point2<Odom>& there = track.sightings.back().at;
   const double speed_mps = std::hypot(w.last.vx_mps, w.last.vy_mps);
   const double x = there.x_m - w.last.at.x_m, y = there.y_m - w.last.at.y_m;
   const double along_m = std::max(0.0, (x * w.last.vx_mps + y * w.last.vy_mps) / speed_mps);
@@ -84,19 +87,20 @@ void OutOfSight::clear() {
   points_.clear();
 }
 
-void OutOfSight::update(const std::vector<LostMover>& lost, const std::vector<Point2<Odom>>& appeared,
-                        std::span<const LidarModel> lidars, const Transform2<Odom, Base>& odom_from_base,
-                        Stamp now) {
+void OutOfSight::update(const MovingObjects& objects, std::span<const LidarModel> lidars,
+                        const Transform2<Odom, Base>& odom_from_base, Stamp now) {
   constexpr double kAboutS = 15.0;  // most walk out within 3 s; one in twenty is not noticed when he does
   constexpr double kAboutM = 2.0;   // he may have turned, or walk beside the vehicle
-  constexpr double kRimM = 0.5;  // of the places without sight, around them: he must be seen to be followed
+  constexpr double kRimM = 1.0;  // around the places without sight: who comes from elsewhere is another one
   const Blind blind(lidars, odom_from_base);
-  for (const Point2<Odom>& there : appeared) {
+  for (const auto& track : objects.tracks()) {
+    const Point2<Odom>& there = track.sightings.back().at;
     const auto he = std::find_if(walkers_.begin(), walkers_.end(), [&](const LostMover& w) {
-      return may_be(w, there, now) && blind.hides(there, w.high_m, kRimM);
+      return may_be(w, track, now) && !blind.hides(there, w.high_m) && blind.hides(there, w.high_m, kRimM);
     });
     if (he != walkers_.end()) walkers_.erase(he);
   }
+  const auto& lost = objects.lost();
   std::copy_if(lost.begin(), lost.end(), std::back_inserter(walkers_),
                [&](const LostMover& m) { return blind.hides(m.last.at, m.high_m); });
   points_.clear();

@@ -15,9 +15,9 @@ namespace madori::planning {
 /// could have come by now; and for a while somewhere near, if he turned.
 class OutOfSight {
  public:
-  /// After a look: movers that were lost in it, and where something appeared that nobody followed before.
-  void update(const std::vector<LostMover>& lost, const std::vector<Point2<Odom>>& appeared,
-              std::span<const LidarModel> lidars, const Transform2<Odom, Base>& odom_from_base, Stamp now);
+  /// After a look of one lidar at what moves.
+  void update(const MovingObjects& objects, std::span<const LidarModel> lidars,
+              const Transform2<Odom, Base>& odom_from_base, Stamp now);
   /// Outlines of all places where somebody may stand.
   [[nodiscard]] const std::vector<Point2<Odom>>& points() const { return points_; }
   /// Whether somebody may be near, unseen.

@@ -46,7 +46,7 @@ struct Scene {
     const Stamp stamp = stamp_from_seconds(at_s += 0.1);
     field.update(lidar.scan({}, stamp, random), SensorView::of(lidars[0]), {});
     objects.update(field.columns(), stamp);
-    out_of_sight.update(objects.lost(), objects.appeared(), lidars, {}, stamp);
+    out_of_sight.update(objects, lidars, {}, stamp);
   }
   /// At 1 m/s.
   void walk_to(const Point2<Map>& goal) {
@@ -113,17 +113,29 @@ TEST(OutOfSight, AnotherLidarThatSeesHimThereKeepsHimInSight) {
 
 /// He is somewhere near for a while where the way he had is empty by now: the vehicle has gone on.
 TEST(OutOfSight, WhoMayWalkBesideTheVehicleIsBelievedNearForAWhile) {
-  const std::vector<LidarModel> lidars{mast()};
-  OutOfSight out_of_sight;
-  const LostMover walker{{{1.2, 0.8}, -0.5, 0.0, 0.2}, 1.75, stamp_from_seconds(0.0)};
-  out_of_sight.update({walker}, {}, lidars, {}, stamp_from_seconds(0.1));
-  EXPECT_FALSE(out_of_sight.points().empty());
-  const Transform2<Odom, Base> gone_on(4.0, 0.0, 0.0);
-  out_of_sight.update({}, {}, lidars, gone_on, stamp_from_seconds(3.0));
-  EXPECT_TRUE(out_of_sight.points().empty());
-  EXPECT_TRUE(out_of_sight.anyone());
-  out_of_sight.update({}, {}, lidars, gone_on, stamp_from_seconds(20.0));
-  EXPECT_FALSE(out_of_sight.anyone());
+  Scene scene;
+  scene.stand(1.0);
+  scene.walk_to({1.2, 0.3});
+  ASSERT_FALSE(scene.out_of_sight.points().empty());
+  const MovingObjects nobody;
+  const Transform2<Odom, Base> gone_on(-2.5, 0.0, 0.0);
+  scene.out_of_sight.update(nobody, scene.lidars, gone_on, stamp_from_seconds(scene.at_s + 1.0));
+  EXPECT_TRUE(scene.out_of_sight.points().empty());
+  EXPECT_TRUE(scene.out_of_sight.anyone());
+  scene.out_of_sight.update(nobody, scene.lidars, gone_on, stamp_from_seconds(scene.at_s + 20.0));
+  EXPECT_FALSE(scene.out_of_sight.anyone());
+}
+
+/// His head comes and goes where the lowest laser passes just over it.
+TEST(OutOfSight, WhoStandsAtTheRimIsBelievedThere) {
+  Scene scene;
+  scene.stand(1.0);
+  scene.walk_to({1.55, 0.3});
+  for (int i = 0; i < 20; ++i) {
+    scene.person().x_m = i % 2 == 0 ? 1.7 : 1.55;
+    scene.stand(0.3);
+    EXPECT_TRUE(scene.out_of_sight.anyone()) << i;
+  }
 }
 
 }  // namespace
