@@ -130,14 +130,10 @@ class Sweep {
 
 }  // namespace
 
-EdgeMap::Pixels EdgeMap::memory(int width_px, int height_px) {
-  return std::make_unique_for_overwrite<std::int32_t[]>(static_cast<std::size_t>(width_px) *
-                                                        static_cast<std::size_t>(height_px));
-}
-
-EdgeMap::EdgeMap(int width_px, int height_px, Pixels memory)
-    : width_(width_px), height_(height_px), pixels_(std::move(memory)) {
-  std::fill_n(pixels_.get(), size(), -kFarthest);
+EdgeMap::EdgeMap(int width_px, int height_px)
+    : width_(width_px), height_(height_px), pixels_(std::make_unique_for_overwrite<std::int32_t[]>(size())) {
+  cv::parallel_for_({0, height_},
+                    [&](const cv::Range& some) { std::fill(row(some.start), row(some.end), -kFarthest); });
 }
 
 void EdgeMap::draw(const PixelSegment& edge, int number) {

@@ -16,14 +16,7 @@ class EdgeMap {
   static constexpr std::int32_t kUnit = 1 << 16;  ///< of distances, a pixel
 
   EdgeMap() = default;
-  using Pixels = std::unique_ptr<std::int32_t[]>;
-  /// Memory for a map. Whoever lets another thread make maps asks for it himself: each thread's own memory
-  /// comes from the system anew, and slowly.
-  [[nodiscard]] static Pixels memory(int width_px, int height_px);
-
-  /// No edge crosses it yet.
-  EdgeMap(int width_px, int height_px, Pixels memory);
-  EdgeMap(int width_px, int height_px) : EdgeMap(width_px, height_px, memory(width_px, height_px)) {}
+  EdgeMap(int width_px, int height_px);
 
   /// Edge `number`; what is drawn later lies above.
   void draw(const PixelSegment& edge, int number);
@@ -65,7 +58,7 @@ class EdgeMap {
   }
 
   int width_ = 0, height_ = 0;
-  Pixels pixels_;  // an edge's number, or a distance below 0
+  std::unique_ptr<std::int32_t[]> pixels_;  // an edge's number, or a distance below 0
 };
 
 }  // namespace madori::mapping

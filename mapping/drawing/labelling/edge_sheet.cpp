@@ -107,6 +107,7 @@ void draw_edges(EdgeSheet& sheet) {
                ? a.length_px < b.length_px
                : std::pair(a.segment.u1, a.segment.v1) < std::pair(b.segment.u1, b.segment.v1);
   });
+  sheet.map = EdgeMap(sheet.grey.width_px, sheet.grey.height_px);
   for (std::size_t i = 0; i < sheet.edges.size(); ++i)
     sheet.map.draw(sheet.edges[i].segment, static_cast<int>(i));
   sheet.map.measure_distances();
@@ -120,14 +121,10 @@ EdgeSheet find_edges(const GrayImage& drawing) {
   const Tones tones = tones_of(drawing);
   sheet.dark_ground = tones.dark_ground;
   sheet.grey = prepared(drawing, tones, sheet.factor);
-  auto memory = EdgeMap::memory(sheet.grey.width_px, sheet.grey.height_px);
-  auto beside = std::async(std::launch::async, [&] {  // most of the detector leaves a core
-    sheet.map = EdgeMap(sheet.grey.width_px, sheet.grey.height_px, std::move(memory));
-    sheet.ground = ground_of(sheet.grey);
-  });
-  auto segments = straight_edges(sheet.grey);
-  beside.get();
-  add_edges(sheet, std::move(segments));
+  auto ground =
+      std::async(std::launch::async, ground_of, std::cref(sheet.grey));  // the detector leaves a core
+  add_edges(sheet, straight_edges(sheet.grey));
+  sheet.ground = ground.get();
   draw_edges(sheet);
   return sheet;
 }
