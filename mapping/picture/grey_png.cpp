@@ -76,6 +76,45 @@ std::uint8_t paeth(int left, int above, int corner) {
   return static_cast<std::uint8_t>(by_above <= by_corner ? above : corner);
 }
 
+using Lanes [[gnu::vector_size(16)]] = std::uint8_t;
+
+Lanes load(const std::uint8_t* at) {
+  Lanes lanes;
+  std::memcpy(&lanes, at, sizeof(lanes));
+  return lanes;
+}
+
+/// Each pixel is told as what it has more than the one before it. Sixteen at once.
+void sum_along(const std::uint8_t* in, std::uint8_t* out, std::size_t width) {
+  constexpr Lanes kNone{};
+  std::uint8_t left = 0;
+  std::size_t i = 0;
+  for (; i + sizeof(Lanes) <= width; i += sizeof(Lanes)) {
+    Lanes sum = load(in + i);
+    sum +=
+        __builtin_shufflevector(kNone, sum, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30);
+    sum +=
+        __builtin_shufflevector(kNone, sum, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29);
+    sum +=
+        __builtin_shufflevector(kNone, sum, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27);
+    sum += __builtin_shufflevector(kNone, sum, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23);
+    const Lanes pixels = sum + left;
+    std::memcpy(out + i, &pixels, sizeof(pixels));
+    left = static_cast<std::uint8_t>(left + sum[sizeof(Lanes) - 1]);
+  }
+  for (; i < width; ++i) out[i] = left = static_cast<std::uint8_t>(in[i] + left);
+}
+
+/// Than the one above it.
+void sum_down(const std::uint8_t* in, const std::uint8_t* above, std::uint8_t* out, std::size_t width) {
+  std::size_t i = 0;
+  for (; i + sizeof(Lanes) <= width; i += sizeof(Lanes)) {
+    const Lanes pixels = load(in + i) + load(above + i);
+    std::memcpy(out + i, &pixels, sizeof(pixels));
+  }
+  for (; i < width; ++i) out[i] = static_cast<std::uint8_t>(in[i] + above[i]);
+}
+
 /// Takes the filter off a row; `out` may lie before `in` in the same memory. The left neighbour is carried
 /// in a register: reading it back from memory would take most of the time.
 bool unfilter(std::uint8_t filter, const std::uint8_t* in, const std::uint8_t* above, std::uint8_t* out,
@@ -90,10 +129,10 @@ bool unfilter(std::uint8_t filter, const std::uint8_t* in, const std::uint8_t* a
       std::memmove(out, in, width);
       return true;
     case 1:
-      each([&](std::uint8_t) { return left; });
+      sum_along(in, out, width);
       return true;
     case 2:
-      each([](std::uint8_t up) { return up; });
+      sum_down(in, above, out, width);
       return true;
     case 3:
       each([&](std::uint8_t up) { return (left + up) / 2; });

@@ -103,6 +103,9 @@ std::string file_content(const std::filesystem::path& file) {
   constexpr std::size_t kBlock = std::size_t{1} << 18U;
   std::ifstream stream(file, std::ios::binary);
   std::string content;
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(file, unknown);
+  if (!unknown) content.reserve(size + kBlock);
   for (std::size_t read = 0; stream; content.resize(read)) {
     content.resize(read + kBlock);
     stream.read(content.data() + read, static_cast<std::streamsize>(kBlock));

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "core/result.hpp"
@@ -91,6 +92,7 @@ SiteTransaction::SiteTransaction(fs::path site) : site_(std::move(site)) {
 
 SiteTransaction::~SiteTransaction() {
   std::error_code ignored;
+  syncs_.clear(), objects_.clear();  // waits for them
   if (!committed_) {
     fs::remove_all(site_ / kStaging, ignored);
     if (created_) fs::remove(site_ / kLock, ignored);
@@ -101,13 +103,27 @@ SiteTransaction::~SiteTransaction() {
 
 fs::path SiteTransaction::staged(const std::string& name) {
   if (std::find(puts_.begin(), puts_.end(), name) == puts_.end()) puts_.push_back(name);
+  syncs_.erase(name), objects_.erase(name);  // of what is there now
   fs::path file = site_ / kStaging / name;
   fs::create_directories(file.parent_path());
   return file;
 }
 
 void SiteTransaction::write(const std::string& name, std::string_view content) {
-  write_new_file(staged(name), content);  // commit() syncs it
+  const fs::path file = staged(name);
+  write_new_file(file, content);
+  syncs_[name] = std::async(std::launch::async, sync, file);
+  if (is_kept(name))
+    objects_[name] = std::async(std::launch::async, [file] { return object_name(file_content(file)); });
+}
+
+void SiteTransaction::sync_staged() {
+  std::vector<std::string> others;
+  std::ranges::copy_if(puts_, std::back_inserter(others),
+                       [&](const std::string& name) { return !syncs_.contains(name); });
+  at_once(others, [&](const std::string& name) { sync(site_ / kStaging / name); });
+  for (auto& [name, synced] : syncs_) synced.get();
+  syncs_.clear();
 }
 
 void SiteTransaction::remove(const std::string& name) {
@@ -123,8 +139,11 @@ void SiteTransaction::read_back() const {
 
 void SiteTransaction::commit() {
   read_back();
-  stage_version(*this, site_, site_ / kStaging, puts_, removals_, sentence_);
-  at_once(puts_, [&](const std::string& name) { sync(site_ / kStaging / name); });
+  std::map<std::string, std::string> objects;
+  for (auto& [name, object] : objects_) objects[name] = object.get();
+  objects_.clear();
+  stage_version(*this, site_, site_ / kStaging, {puts_, removals_, objects, sentence_});
+  sync_staged();
   std::string journal;
   for (const auto& name : removals_) journal += "- " + name + "\n";
   for (const auto& name : puts_) journal += "+ " + name + "\n";

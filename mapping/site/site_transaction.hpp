@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <future>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +23,7 @@ class SiteTransaction {
 
   /// Where to write the new version of `name` (relative, may have folders); counts as part of the change.
   [[nodiscard]] std::filesystem::path staged(const std::string& name);
+  /// Its syncing, and naming its content for a version, begin at once, beside what the caller does next.
   void write(const std::string& name, std::string_view content);
   /// The file disappears with the commit; a missing one is fine.
   void remove(const std::string& name);
@@ -33,11 +36,14 @@ class SiteTransaction {
 
  private:
   void read_back() const;
+  void sync_staged();
 
   std::filesystem::path site_;
   std::vector<std::string> puts_;
   std::vector<std::string> removals_;
   std::string sentence_;
+  std::map<std::string, std::future<std::string>> objects_;  // by their names, those of a version
+  std::map<std::string, std::future<void>> syncs_;
   int lock_ = -1;
   bool created_ = false;
   bool committed_ = false;

@@ -29,28 +29,22 @@ using nlohmann::json;
 std::mutex author_mutex;                   // NOLINT: of the one author of this program
 std::string author_name = "command line";  // NOLINT
 
-bool is_kept(const std::string& name) {
-  return name == "site.yaml" || name == "walls.csv" || name == "import.png" || name == "routes/tree.csv" ||
-         name == "routes/path.csv" || name.starts_with("drawing.");
-}
-
-/// FNV-1a of 128 bits, and the length: names contents, keeps no secret.
-std::string name_of(std::string_view content) {
-  __extension__ using Wide = unsigned __int128;
-  constexpr Wide kPrime = (static_cast<Wide>(0x1000000) << 64U) + 0x13BU;
-  Wide hash = (static_cast<Wide>(0x6C62272E07BB0142ULL) << 64U) + 0x62B821756295C58DULL;
-  for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * kPrime;
-  return fmt::format("{:016x}{:016x}-{}", static_cast<std::uint64_t>(hash >> 64U),
-                     static_cast<std::uint64_t>(hash), content.size());
-}
+struct KeptFile {
+  fs::path path;
+  std::string object{};  // its name, where that is known
+};
 
 /// What each of some files is kept as. Objects never change: one that is there is whole, for it got its name
 /// only when it was.
-std::vector<std::string> keep_objects(const fs::path& site, const std::vector<fs::path>& files) {
-  const std::vector<std::string> contents = at_once(files, file_content);
+std::vector<std::string> keep_objects(const fs::path& site, const std::vector<KeptFile>& files) {
+  const std::vector<std::string> contents =
+      at_once(files, [](const KeptFile& file) { return file_content(file.path); });
   std::map<std::string_view, std::string> names;  // a file that came again as it was has its name already
-  for (const std::string& content : contents) names[content];
-  at_once(names, [](auto& content) { content.second = name_of(content.first); });
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (std::string& name = names[contents[i]]; name.empty()) name = files[i].object;
+  at_once(names, [](auto& content) {
+    if (content.second.empty()) content.second = object_name(content.first);
+  });
   std::map<fs::path, std::string_view> missing;
   for (const auto& [content, name] : names)
     if (const fs::path object = site / "versions/objects" / name; !fs::exists(object))
@@ -136,6 +130,20 @@ std::string author() {
 
 }  // namespace
 
+bool is_kept(const std::string& name) {
+  return name == "site.yaml" || name == "walls.csv" || name == "import.png" || name == "routes/tree.csv" ||
+         name == "routes/path.csv" || name.starts_with("drawing.");
+}
+
+std::string object_name(std::string_view content) {
+  __extension__ using Wide = unsigned __int128;
+  constexpr Wide kPrime = (static_cast<Wide>(0x1000000) << 64U) + 0x13BU;
+  Wide hash = (static_cast<Wide>(0x6C62272E07BB0142ULL) << 64U) + 0x62B821756295C58DULL;
+  for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * kPrime;
+  return fmt::format("{:016x}{:016x}-{}", static_cast<std::uint64_t>(hash >> 64U),
+                     static_cast<std::uint64_t>(hash), content.size());
+}
+
 void set_version_author(const std::string& author) {
   const std::scoped_lock lock(author_mutex);
   author_name = author;
@@ -162,8 +170,8 @@ std::string version_file(const fs::path& site, const SiteVersion& version, const
 }
 
 void stage_version(SiteTransaction& change, const fs::path& site, const fs::path& staging,
-                   const std::vector<std::string>& puts, const std::vector<std::string>& removals,
-                   const std::string& sentence) {
+                   const StagedFiles& staged) {
+  const auto& [puts, removals, known, sentence] = staged;
   if (std::ranges::none_of(puts, is_kept) && std::ranges::none_of(removals, is_kept)) return;
   const auto versions = site_versions(site);
   auto before = versions.empty() ? std::map<std::string, std::string>() : versions.back().files;
@@ -180,10 +188,11 @@ void stage_version(SiteTransaction& change, const fs::path& site, const fs::path
   const std::vector<std::string> now = kept_now(site);
   std::vector<std::string> brought_now;
   std::ranges::copy_if(puts, std::back_inserter(brought_now), is_kept);
-  std::vector<fs::path> paths;
-  for (const auto& name : now) paths.push_back(site / name);
-  for (const auto& name : brought_now) paths.push_back(staging / name);
-  const auto objects = keep_objects(site, paths);
+  std::vector<KeptFile> kept;
+  for (const auto& name : now) kept.push_back({site / name});
+  for (const auto& name : brought_now)
+    kept.push_back({staging / name, known.contains(name) ? known.at(name) : ""});
+  const auto objects = keep_objects(site, kept);
   std::map<std::string, std::string> files;
   for (std::size_t i = 0; i < now.size(); ++i) files[now[i]] = objects[i];
   if (!files.empty())

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace madori::mapping {
@@ -22,11 +23,21 @@ struct SiteVersion {
 /// changed, `NNNNNN.json` names the objects of a version. SiteTransaction stages a version with every change,
 /// so that the change and its version happen together or not at all; what can be computed from walls.csv
 /// (walls.pcd, map.pgm) is not kept.
+struct StagedFiles {
+  const std::vector<std::string>&puts, &removals;
+  const std::map<std::string, std::string>& objects;  ///< what is known of the puts: name -> object_name
+  const std::string& sentence;
+};
+
 /// Stages the version that `change` will make: `puts` are staged below the folder `staging`, `removals` go.
 /// Nothing where no file of a version changes.
 void stage_version(SiteTransaction& change, const std::filesystem::path& site,
-                   const std::filesystem::path& staging, const std::vector<std::string>& puts,
-                   const std::vector<std::string>& removals, const std::string& sentence);
+                   const std::filesystem::path& staging, const StagedFiles& files);
+
+/// Whether a file of a site belongs to its versions.
+[[nodiscard]] bool is_kept(const std::string& name);
+/// The name of a content below versions/objects: FNV-1a of 128 bits, and the length; keeps no secret.
+[[nodiscard]] std::string object_name(std::string_view content);
 
 /// Stages the versions of a backup, given as the manifests that it holds: behind the site's own, those left
 /// out that the site has, or that cannot be read. In a folder without versions they keep their numbers.

@@ -9,8 +9,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "mapping/drawing/raster/tones.hpp"
-
 namespace madori::mapping {
 namespace {
 
@@ -59,10 +57,16 @@ class Builder {
     std::vector<double> pens;
     for (const double w : width_) pens.push_back(w > 0 ? w : 1e6);
     pen_ = std::clamp(quantile(pens, edges_, 0.25), 1.0, 0.01 * sheet.size_px() + 1);
-    measure_ground();
+    range_ = std::max(20.0, quantile(contrast_, edges_, 0.9));
   }
 
   FeatureTable build() {
+    Builder rest(*this);  // on another thread, into a table of its own
+    auto beside = std::async(std::launch::async, [&] {
+      rest.place();
+      rest.repeats();
+      rest.styles();
+    });
     own();
     sides();
     partners();
@@ -70,9 +74,8 @@ class Builder {
     openings();
     network();
     regions();
-    place();
-    repeats();
-    styles();
+    beside.get();
+    table_.add(rest.table_);
     m_.strokes = {std::move(width_), pen_};
     return std::move(table_);
   }
@@ -84,19 +87,6 @@ class Builder {
   }
   [[nodiscard]] double of_size(double px) const { return px / sheet_.size_px(); }
   [[nodiscard]] double of_pen(double px) const { return px / pen_; }
-
-  static double commonest(const std::vector<std::uint8_t>& plane) {
-    if (plane.empty()) return 128;
-    return commonest_tone(tone_counts(plane));
-  }
-
-  /// The brightness and colour that most of the sheet has, and how far its darkest and brightest edges reach.
-  void measure_ground() {
-    ground_ = commonest(sheet_.grey.pixels);
-    range_ = std::max(20.0, quantile(contrast_, edges_, 0.9));
-    ground_red_green_ = commonest(sheet_.grey.red_green);
-    ground_yellow_blue_ = commonest(sheet_.grey.yellow_blue);
-  }
 
   /// How far the colour beside an edge is from the ground's: 0 as it, 1 as far as colours go.
   [[nodiscard]] double colour(const SideView& side) const {
@@ -385,8 +375,9 @@ class Builder {
   const std::vector<Edge>& edges_;
   FeatureTable table_;
   std::vector<double> width_, contrast_;
-  double total_ = 0, pen_ = 1, ground_ = 255, range_ = 255, ground_red_green_ = 128,
-         ground_yellow_blue_ = 128;
+  double total_ = 0, pen_ = 1, range_ = 255;  // how far its darkest and brightest edges reach
+  const double ground_ = sheet_.ground.grey, ground_red_green_ = sheet_.ground.red_green,
+               ground_yellow_blue_ = sheet_.ground.yellow_blue;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <numbers>
 #include <numeric>
 
@@ -42,6 +43,7 @@ class Linker {
         chains_(sheet.edges.size()) {}
 
   std::vector<EdgeLinks> run(const std::vector<EdgeViews>& views) {
+    auto beside = std::async(std::launch::async, [&] { chains(); });
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const PixelSegment& s = sheet_.edges[i].segment;
       links_[i].ends = {end_at(i, s.u1, s.v1), end_at(i, s.u2, s.v2)};
@@ -50,7 +52,7 @@ class Linker {
       const int partner = views[i].dark.hits[0].edge;
       if (partner >= 0) clusters_.join(i, static_cast<std::size_t>(partner));
     }
-    chains();
+    beside.get();
     measure_clusters();
     return std::move(links_);
   }

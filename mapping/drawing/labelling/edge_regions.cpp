@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 
 namespace madori::mapping {
@@ -65,14 +64,21 @@ class Areas {
     for (std::size_t u = 0; u < width;) {
       while (u < width && !open(u)) ++u;
       const std::size_t from = u;
-      while (u < width && open(u)) ++u;
+      u = sheet_.map.end_of_clear(row + u, row + width, kBarrier) - row;
       if (from == u) break;
       const int left = static_cast<int>(from), right = static_cast<int>(u);
       const Sums sums{static_cast<double>(u - from),
-                      static_cast<double>(std::accumulate(grey + from, grey + u, 0)),
+                      static_cast<double>(sum_of(grey + from, grey + u)),
                       {left, v, right - left, 1}};
       runs_.push_back({left, right, runs_.size(), sums});
     }
+  }
+
+  static int sum_of(const std::uint8_t* from, const std::uint8_t* to) {
+    int sum = 0;
+#pragma omp simd reduction(+ : sum)
+    for (const std::uint8_t* at = from; at < to; ++at) sum += *at;
+    return sum;
   }
 
   /// Runs of two rows, from `above` to `here` and from `here` on, that touch are of one region.

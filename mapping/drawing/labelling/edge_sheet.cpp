@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -72,15 +73,31 @@ double brightness(const EdgeSheet& sheet, const Edge& edge, double off) {
   return seen > 0 ? sum / seen : 0;
 }
 
-void append(EdgeSheet& sheet, const PixelSegment& segment) {
+Edge edge_along(const EdgeSheet& sheet, const PixelSegment& segment) {
   Edge edge{.segment = segment, .length_px = segment.length_px()};
-  if (edge.length_px < std::max(kShortest, kShortestDrawn * sheet.factor)) return;
   edge.normal = {-(segment.v2 - segment.v1) / edge.length_px, (segment.u2 - segment.u1) / edge.length_px};
   if (brightness(sheet, edge, kBeside) > brightness(sheet, edge, -kBeside)) edge.normal = -edge.normal;
   const double angle = std::atan2(segment.v2 - segment.v1, segment.u2 - segment.u1);
   edge.angle_rad = std::fmod(angle + 2 * std::numbers::pi, std::numbers::pi);
-  sheet.edges.push_back(edge);
-  sheet.box.add(segment);
+  return edge;
+}
+
+void add_edges(EdgeSheet& sheet, std::vector<PixelSegment> segments) {
+  const double shortest = std::max(kShortest, kShortestDrawn * sheet.factor);
+  std::erase_if(segments, [&](const PixelSegment& s) { return s.length_px() < shortest; });
+  sheet.edges.resize(segments.size());
+  cv::parallel_for_({0, static_cast<int>(segments.size())}, [&](const cv::Range& some) {
+    for (auto i = static_cast<std::size_t>(some.start); i < static_cast<std::size_t>(some.end); ++i)
+      sheet.edges[i] = edge_along(sheet, segments[i]);
+  });
+  for (const PixelSegment& s : segments) sheet.box.add(s);
+}
+
+EdgeSheet::Ground ground_of(const GrayImage& picture) {
+  const auto commonest = [](const std::vector<std::uint8_t>& plane) {
+    return plane.empty() ? 128 : commonest_tone(tone_counts(plane));
+  };
+  return {commonest(picture.pixels), commonest(picture.red_green), commonest(picture.yellow_blue)};
 }
 
 /// Long edges are drawn last: they are what a ray meets where two share a pixel.
@@ -104,7 +121,10 @@ EdgeSheet find_edges(const GrayImage& drawing) {
   const Tones tones = tones_of(drawing);
   sheet.dark_ground = tones.dark_ground;
   sheet.grey = prepared(drawing, tones, sheet.factor);
-  for (const PixelSegment& s : straight_edges(sheet.grey)) append(sheet, s);
+  auto ground =
+      std::async(std::launch::async, ground_of, std::cref(sheet.grey));  // the detector leaves a core
+  add_edges(sheet, straight_edges(sheet.grey));
+  sheet.ground = ground.get();
   draw_edges(sheet);
   return sheet;
 }

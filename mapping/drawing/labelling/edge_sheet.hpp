@@ -24,6 +24,9 @@ struct EdgeSheet {
   GrayImage grey;  ///< the drawing, with its colours, at the resolution that edges are looked for in; greys
                    ///< spread from 0 to 255, turned round where the ground is dark
   bool dark_ground = false;
+  struct Ground {
+    int grey = 255, red_green = 128, yellow_blue = 128;
+  } ground;           ///< what most of the sheet is
   double factor = 1;  ///< its pixels for one of the drawing
   std::vector<Edge> edges;
   EdgeMap map;   ///< where they are

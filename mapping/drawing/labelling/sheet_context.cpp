@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <map>
 #include <numeric>
 #include <string>
@@ -36,6 +37,11 @@ class Context {
   }
 
   FeatureTable build() {
+    Context rest(*this);  // on another thread, into a table of its own
+    auto beside = std::async(std::launch::async, [&] {
+      rest.around("near", 0.03);
+      rest.around("area", 0.1);
+    });
     whole_sheet();
     const std::array<std::string, 4> names{"style", "look", "chain", "cluster"};
     for (std::size_t k = 0; k < names.size(); ++k) group(names[k], groups_.together[k], k < 2);
@@ -44,8 +50,8 @@ class Context {
         const int partner = groups_.partner[k][i];
         return partner < 0 ? -1.0 : p_[static_cast<std::size_t>(partner)];
       });
-    around("near", 0.03);
-    around("area", 0.1);
+    beside.get();
+    table_.add(rest.table_);
     return std::move(table_);
   }
 

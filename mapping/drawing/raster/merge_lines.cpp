@@ -15,12 +15,21 @@ constexpr double kCell = 64;  // pixels, of the index
 // Between pieces of one line: sideways, pixels, and 2 degrees. Two faces of a wall are further apart.
 constexpr double kLargestOffset = 1.5, kLargestAngle = 0.035;
 
-/// The line through both, weighted by length; nothing where they are not one line.
+/// Measured once: most lines are compared with many that run another way.
+struct Measured {
+  explicit Measured(const DrawnLine& line) : length_px(line.length_px()), angle_rad(line.angle_rad()) {}
+  double length_px, angle_rad;
+};
+
+bool run_alike(const Measured& a, const Measured& b) {
+  const double blur = kLargestOffset / std::max(1.0, std::min(a.length_px, b.length_px));
+  return !(angle_between(a.angle_rad, b.angle_rad) > kLargestAngle + blur);
+}
+
+/// The line through both, which run alike, weighted by length; nothing where they are not one line.
 std::optional<DrawnLine> joined(const DrawnLine& a, const DrawnLine& b, double largest_gap_px) {
   const DrawnLine& longer = a.length_px() >= b.length_px() ? a : b;
   const DrawnLine& shorter = &longer == &a ? b : a;
-  const double blur = kLargestOffset / std::max(1.0, shorter.length_px());
-  if (angle_between(a.angle_rad(), b.angle_rad()) > kLargestAngle + blur) return std::nullopt;
   const FittedLine line = line_through(longer.segment);
   const PixelSegment& s = shorter.segment;
   const double off1 = line.across(s.u1, s.v1), off2 = line.across(s.u2, s.v2);
@@ -45,10 +54,10 @@ bool merge_once(DrawnLines& lines, double largest_gap_px) {
   const LineIndex index(lines, kCell);
   std::vector<std::size_t> order(lines.size());
   std::iota(order.begin(), order.end(), 0);
-  std::vector<double> lengths;
-  for (const DrawnLine& line : lines) lengths.push_back(line.length_px());
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return lengths[a] > lengths[b]; });
+  std::vector<Measured> measured(lines.begin(), lines.end());
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return measured[a].length_px > measured[b].length_px;
+  });
   std::vector<bool> gone(lines.size(), false);
   bool changed = false;
   for (const std::size_t i : order) {
@@ -56,10 +65,11 @@ bool merge_once(DrawnLines& lines, double largest_gap_px) {
     const PixelSegment around = lines[i].segment;
     index.near(around, largest_gap_px + 1, [&](std::size_t j) {
       if (j == i || gone[j] || gone[i] || lines[i].solid_face != lines[j].solid_face ||
-          lines[i].rejected != lines[j].rejected)
+          lines[i].rejected != lines[j].rejected || !run_alike(measured[i], measured[j]))
         return;
       if (const auto both = joined(lines[i], lines[j], largest_gap_px)) {
         lines[i] = *both;
+        measured[i] = Measured(*both);
         gone[j] = changed = true;
       }
     });

@@ -137,6 +137,23 @@ TEST(EdgeMap, MeasuresAsOpenCvOnAnyNumberOfThreads) {
   cv::setNumThreads(threads);
 }
 
+TEST(EdgeMap, MeasuresAsOpenCvInRowsOfAnyLength) {
+  for (int width = 1; width <= 35; ++width) {
+    const int height = 1 + width % 7;
+    EdgeMap map(width, height);
+    const double u = width * 5 % 11 % width + 0.5, v = width % 3 % height + 0.5;
+    map.draw({u, v, u, v}, 0);
+    map.measure_distances();
+    cv::Mat free(height, width, CV_8UC1, cv::Scalar(255)), expected;
+    free.at<std::uint8_t>(static_cast<int>(v), static_cast<int>(u)) = 0;
+    cv::distanceTransform(free, expected, cv::DIST_L2, 3);
+    for (int pixel = 0; pixel < width * height; ++pixel)
+      ASSERT_EQ(map.clear_px(static_cast<std::size_t>(pixel)),
+                expected.at<float>(pixel / width, pixel % width))
+          << width << " at " << pixel;
+  }
+}
+
 TEST(EdgeRegions, AreTheConnectedComponentsBetweenEdges) {
   const EdgeSheet sheet = random_sheet(4);
   const cv::Mat clear = clear_of(sheet);
