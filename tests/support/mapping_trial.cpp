@@ -139,8 +139,12 @@ MappingTrialResult run_mapping_trial(const MappingTrial& trial) {
   HandDrive drive(setup, random_hand(random));
   drive.map();
   MappingTrialResult result;
-  constexpr double kPatienceS = 40.0;  // somebody stands in the way: another goal
-  for (const auto& goal : round) result.missed += drive.drive_to(goal, kPatienceS) ? 0 : 1;
+  constexpr double kPatienceS = 40.0;  // somebody or a corner is in the way: back, another goal
+  for (const auto& goal : round) {
+    if (drive.drive_to(goal, kPatienceS)) continue;
+    ++result.missed;
+    drive.jog_for(2.0, {-0.3, 0.0});
+  }
   const auto begun = std::chrono::steady_clock::now();
   (void)drive.finish();
   result.finish_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

@@ -27,7 +27,7 @@ struct PhantomPiece {
 };
 
 struct MappingTrialResult {
-  int missed = 0;  ///< goals given up: somebody stood in the way
+  int missed = 0;  ///< goals given up: somebody or a corner was in the way
   double driven_m = 0.0;
   std::size_t keyframes = 0, walls = 0;
   double map_to_building_m = 0.0;  ///< mean, as `madori evaluate --map --align anywhere`
