@@ -12,6 +12,7 @@
 #include "app/trajectory_plot.hpp"
 #include "core/median.hpp"
 #include "core/result.hpp"
+#include "localization/drawing_fit/standing.hpp"
 #include "localization/slam/graph_mapper.hpp"
 #include "localization/slam/rbpf_mapper.hpp"
 #include "localization/slam/slow_lidar_mapper.hpp"
@@ -68,7 +69,7 @@ void map_log(const MapArguments& arguments) {
   const auto log = sensors::open_log(arguments.log, log_options({}, arguments.wheels));
   const MappingRun run = run_mapper(*log, log_lidar({}), *mapper);
   const localization::Memory& memory = run.map.memory;
-  const MappedSite mapped = map_site(localization::memory_cloud(memory), arguments.log);
+  const MappedSite mapped = map_site(localization::standing_cloud(memory), arguments.log);
   const std::string name =
       arguments.name.empty() ? std::filesystem::path(arguments.log).stem().string() : arguments.name;
   save_mapped_site(mapped, arguments.out, {name, arguments.log});

@@ -7,6 +7,7 @@
 #include "app/lidars.hpp"
 #include "app/mapped_site.hpp"
 #include "core/result.hpp"
+#include "localization/drawing_fit/standing.hpp"
 #include "localization/drawing_fit/wall_lines.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site_file.hpp"
@@ -114,7 +115,7 @@ std::size_t make_site_of_drive(MappingDesk& desk, const fs::path& site, const st
   progress("last-look", 0.1);
   const localization::FinishedMap map = desk.finish();
   progress("walls", 0.7);
-  const localization::MemoryCloud cloud = localization::memory_cloud(map.memory);
+  const localization::MemoryCloud cloud = localization::standing_cloud(map.memory);
   if (localization::wall_lines(cloud).empty())
     throw NoMap("mapping-no-wall",
                 "no straight wall was seen twice - drive slowly along the walls, then finish");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <unordered_set>
 
+#include "localization/drawing_fit/standing.hpp"
 #include "localization/drawing_fit/wall_lines.hpp"
 
 namespace madori::app {
@@ -33,7 +34,7 @@ std::vector<Point2<Map>> points_of(const localization::Memory& memory) {
 }  // namespace
 
 MappingPicture picture_of(const localization::Memory& memory) {
-  return {0, points_of(memory), localization::wall_lines(localization::memory_cloud(memory))};
+  return {0, points_of(memory), localization::wall_lines(localization::standing_cloud(memory))};
 }
 
 }  // namespace madori::app

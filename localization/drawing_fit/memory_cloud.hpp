@@ -15,10 +15,11 @@ struct CloudSurface {
   double y_m = 0.0;
   double normal_x = 0.0;
   double normal_y = 0.0;
-  int keyframe = 0;     ///< whose sight of it counts: the one that saw it from the nearest
-  int direction = 0;    ///< of its normal, WallIndex::direction_of
-  int sightings = 1;    ///< keyframes that saw it
-  double weight = 0.0;  ///< 0..1, how long and straight the surface runs on: walls more than furniture
+  int keyframe = 0;       ///< whose sight of it counts: the one that saw it from the nearest
+  int direction = 0;      ///< of its normal, WallIndex::direction_of
+  int sightings = 1;      ///< keyframes that saw it
+  double standing = 1.0;  ///< 0..1, share of the views of its place that met a surface there (weigh_standing)
+  double weight = 0.0;    ///< 0..1, how long and straight the surface runs on: walls more than furniture
 };
 using MemoryCloud = std::vector<CloudSurface>;
 

@@ -140,17 +140,24 @@ Line fitted(const Line& line, const Members& members) {
   return out;
 }
 
-MemoryCloud believed(const MemoryCloud& cloud, int least_sightings) {
+MemoryCloud believed(const MemoryCloud& cloud, const WallLineOptions& options) {
   MemoryCloud kept;
-  std::copy_if(cloud.begin(), cloud.end(), std::back_inserter(kept),
-               [=](const CloudSurface& p) { return p.sightings >= least_sightings; });
+  std::copy_if(cloud.begin(), cloud.end(), std::back_inserter(kept), [&](const CloudSurface& p) {
+    return p.sightings >= options.least_sightings && p.standing >= options.least_standing;
+  });
   return kept;
+}
+
+double mean_standing(const Members& members) {
+  double sum = 0.0;
+  for (const CloudSurface* p : members) sum += p->standing;
+  return sum / static_cast<double>(members.size());
 }
 
 }  // namespace
 
 mapping::Walls wall_lines(const MemoryCloud& all, const WallLineOptions& options) {
-  const MemoryCloud cloud = believed(all, options.least_sightings);
+  const MemoryCloud cloud = believed(all, options);
   mapping::Walls walls;
   if (cloud.empty()) return walls;
   Votes votes(cloud);
@@ -170,7 +177,7 @@ mapping::Walls wall_lines(const MemoryCloud& all, const WallLineOptions& options
       votes.give_up_best();
       continue;
     }
-    walls.push_back({0, {line.at(from), line.at(to)}});
+    walls.push_back({0, {line.at(from), line.at(to)}, mean_standing(run)});
     for (std::size_t i = 0; i < cloud.size(); ++i) {  // with what lies just beside: the same wall seen worse
       const double t = line.along(cloud[i]);
       if (taken[i] == 0 && t > from - 0.1 && t < to + 0.1 && line.has(cloud[i], 1.5 * options.reach_m)) {

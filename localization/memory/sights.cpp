@@ -19,6 +19,10 @@ double turn_of(double dx, double dy) {
   return turn < 0.0 ? turn + 1.0 : turn;
 }
 
+double margin_m(double distance_m) {
+  return kMarginM + kMarginShare * distance_m;
+}
+
 }  // namespace
 
 void SightRing::mark(std::size_t bin, double range_m) {
@@ -35,6 +39,7 @@ SightRing::SightRing(const SurfaceScan& scan) : sensor_(scan.sensor), bins_(kBin
     const double turn = turn_of(dx, dy), range = std::hypot(dx, dy);
     const auto at = static_cast<std::size_t>(turn * kBins);
     mark(at, range);
+    reach_m_ = std::max(reach_m_, range);
     const double gap = (turn - last_turn) * 2.0 * kPi;
     if (last_range >= 0.0 && gap > 0.0 && (gap < kGapRad || gap * range < kGapM)) {
       for (auto k = static_cast<std::size_t>(last_turn * kBins) + 1; k < at; ++k) {
@@ -47,31 +52,45 @@ SightRing::SightRing(const SurfaceScan& scan) : sensor_(scan.sensor), bins_(kBin
   }
 }
 
+/// The bin of a direction with what is seen right beside it.
+SightRing::Bin SightRing::towards(double dx, double dy) const {
+  const auto at = static_cast<std::size_t>(turn_of(dx, dy) * kBins);
+  Bin b = bins_[at % kBins];
+  if (b.far_m < 0.0F) return b;
+  for (const Bin* beside : {&bins_[(at + 1) % kBins], &bins_[(at + kBins - 1) % kBins]}) {
+    if (beside->far_m < 0.0F) continue;
+    b.near_m = std::min(b.near_m, beside->near_m);
+    b.far_m = std::max(b.far_m, beside->far_m);
+  }
+  return b;
+}
+
 SightCount SightRing::of(const SurfaceScan& other, const Transform2<Base, Base>& here_from_there) const {
   SightCount count;
   for (const SurfacePoint& p : other.points) {
     const Point2<Base> q = here_from_there * Point2<Base>{p.x_m, p.y_m};
     const double dx = q.x_m - sensor_.x_m, dy = q.y_m - sensor_.y_m;
     const double distance = std::hypot(dx, dy);
-    const auto at = static_cast<std::size_t>(turn_of(dx, dy) * kBins);
-    const Bin& b = bins_[at % kBins];
-    const Bin& left = bins_[(at + 1) % kBins];
-    const Bin& right = bins_[(at + kBins - 1) % kBins];
-    if (b.far_m < 0.0F) continue;
-    float near = b.near_m, far = b.far_m;
-    for (const Bin* beside : {&left, &right}) {
-      if (beside->far_m < 0.0F) continue;
-      near = std::min(near, beside->near_m);
-      far = std::max(far, beside->far_m);
-    }
-    const double margin = kMarginM + kMarginShare * distance;
-    if (distance < near - margin) {
+    const Bin seen = towards(dx, dy);
+    if (seen.far_m < 0.0F) continue;
+    if (distance < seen.near_m - margin_m(distance)) {
       ++count.through;
-    } else if (distance < far + margin) {
+    } else if (distance < seen.far_m + margin_m(distance)) {
       ++count.agree;
     }
   }
   return count;
+}
+
+Look SightRing::at(const Point2<Base>& place) const {
+  const double dx = place.x_m - sensor_.x_m, dy = place.y_m - sensor_.y_m;
+  const double distance = std::hypot(dx, dy);
+  const Bin seen = towards(dx, dy);
+  if (seen.far_m < 0.0F) return Look::Nothing;
+  const double margin = margin_m(distance);
+  if (distance < seen.near_m - margin) return Look::Through;
+  const bool hit = std::abs(distance - seen.near_m) < margin || std::abs(distance - seen.far_m) < margin;
+  return hit ? Look::Hit : Look::Nothing;
 }
 
 }  // namespace madori::localization

@@ -26,6 +26,13 @@ struct SightCount {
   }
 };
 
+/// What a scan says of a place.
+enum class Look {
+  Nothing,  ///< hidden, out of view, or between what it saw at several distances in that direction
+  Hit,      ///< a surface is there
+  Through,  ///< all that was seen in that direction lies beyond
+};
+
 /// The nearest and the farthest surface of a scan in each direction from its sensor.
 class SightRing {
  public:
@@ -33,6 +40,11 @@ class SightRing {
 
   /// What this scan says of the points of `other`; `here_from_there` is the pose of the other.
   [[nodiscard]] SightCount of(const SurfaceScan& other, const Transform2<Base, Base>& here_from_there) const;
+  /// What this scan says of a place in its own frame.
+  [[nodiscard]] Look at(const Point2<Base>& place) const;
+  [[nodiscard]] const Point2<Base>& sensor() const { return sensor_; }
+  /// Nothing is known from here on, metres from the sensor.
+  [[nodiscard]] double reach_m() const { return reach_m_; }
 
  private:
   static constexpr std::size_t kBins = 720;
@@ -41,8 +53,10 @@ class SightRing {
     float far_m = -1.0F;  ///< below 0: nothing was seen there
   };
   void mark(std::size_t bin, double range_m);
+  [[nodiscard]] Bin towards(double dx, double dy) const;
 
   Point2<Base> sensor_;
+  double reach_m_ = 0.0;
   std::vector<Bin> bins_;
 };
 

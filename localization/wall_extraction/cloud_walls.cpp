@@ -78,7 +78,7 @@ double wall_weight(const std::vector<Return>& returns, std::size_t begin, std::s
 }
 
 /// Normals from the neighbours on both sides; none where these do not lie in a line.
-void add_normals(ScanPoints& points) {
+void add_normals(const LidarMounting& lidar, ScanPoints& points) {
   constexpr double kNear = 1.0;
   constexpr double kBend = 0.2;
   points.normal_x.assign(points.size(), 0.0F);
@@ -92,7 +92,7 @@ void add_normals(ScanPoints& points) {
     double nx = -(b.y_m - a.y_m) / chord;
     double ny = (b.x_m - a.x_m) / chord;
     if (std::abs(nx * (p.x_m - a.x_m) + ny * (p.y_m - a.y_m)) > kBend * chord) continue;
-    if (nx * p.x_m + ny * p.y_m > 0.0) nx = -nx, ny = -ny;  // towards the sensor
+    if (nx * (p.x_m - lidar.x_m) + ny * (p.y_m - lidar.y_m) > 0.0) nx = -nx, ny = -ny;  // towards the sensor
     points.normal_x[i] = static_cast<float>(nx);
     points.normal_y[i] = static_cast<float>(ny);
   }
@@ -122,15 +122,18 @@ void WallExtractor::sort_returns(int sectors) {
               [](const Return& a, const Return& b) { return a.range_m < b.range_m; });
 }
 
-void WallExtractor::find_region_of_interest(const PointCloud<Base>& cloud, const CloudWallOptions& options) {
+/// Sectors and ranges are the lidar's: only along its own rays does what stands before something hide it.
+void WallExtractor::find_region_of_interest(const PointCloud<Base>& cloud, const LidarMounting& lidar,
+                                            const CloudWallOptions& options) {
   inside_.clear();
   inside_.reserve(cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const CloudPoint& p = cloud.points[i];
-    const double range = std::hypot(p.x_m, p.y_m);
+    const double dx = p.x_m - lidar.x_m, dy = p.y_m - lidar.y_m;
+    const double range = std::hypot(dx, dy);
     if (!(p.z_m >= options.min_height_m && p.z_m <= options.max_height_m)) continue;
     if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;
-    const double turn = (std::atan2(p.y_m, p.x_m) + kPi) / (2.0 * kPi);
+    const double turn = (std::atan2(dy, dx) + kPi) / (2.0 * kPi);
     const auto sector = static_cast<std::uint32_t>(std::min(turn, 0.999999) * options.sectors);
     inside_.push_back({sector, static_cast<float>(range), p.z_m, static_cast<std::uint32_t>(i)});
   }
@@ -200,10 +203,10 @@ const ScanPoints& WallExtractor::extract(const PointCloud<Base>& cloud, const Li
     take_all_returns(cloud, lidar, options, walls_);
     return walls_;
   }
-  find_region_of_interest(cloud, options);
+  find_region_of_interest(cloud, lidar.mounting, options);
   find_surfaces(cloud, lidar, options);
   thin(options.voxel_m);
-  add_normals(walls_);
+  add_normals(lidar.mounting, walls_);
   return walls_;
 }
 

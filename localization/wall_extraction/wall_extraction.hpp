@@ -15,9 +15,9 @@ struct CloudWallOptions {
   double min_height_m =
       1.6;  ///< of the region of interest, Base frame: above equipment, most heads and loads
   double max_height_m = 6.0;
-  double min_range_m = 0.6;
+  double min_range_m = 0.6;  ///< of the lidar
   double max_range_m = 80.0;
-  int sectors = 720;           ///< the fans, by azimuth
+  int sectors = 720;           ///< the fans, by azimuth about the lidar
   double surface_gap_m = 0.2;  ///< returns of a sector farther apart than this are of two surfaces
   double least_extent =
       0.5;  ///< of the height that the lasers could have covered on the surface at its distance

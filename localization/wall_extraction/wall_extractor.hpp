@@ -23,7 +23,8 @@ class WallExtractor {
   };
 
  private:
-  void find_region_of_interest(const PointCloud<Base>& cloud, const CloudWallOptions& options);
+  void find_region_of_interest(const PointCloud<Base>& cloud, const LidarMounting& lidar,
+                               const CloudWallOptions& options);
   void sort_returns(int sectors);
   void find_surfaces(const PointCloud<Base>& cloud, const LidarModel& lidar, const CloudWallOptions& options);
   void thin(double voxel_m);

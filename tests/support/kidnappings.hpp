@@ -14,8 +14,12 @@ struct Kidnapping {
   bool drives = false;
   double by_m = 0.0;
   Transform2<Map, Base> from, to;
-  double lost_after_s = -1.0;     ///< negative: never
-  double found_after_s = -1.0;    ///< LOCALIZED and within 0.2 m of the truth again; negative: not in time
+  double lost_after_s = -1.0;   ///< negative: never
+  double found_after_s = -1.0;  ///< LOCALIZED and within 0.2 m of the truth again; negative: not in time
+  /// Right at the new place within half a second, without ever being LOST: the next scans told it.
+  [[nodiscard]] bool followed() const {
+    return lost_after_s < 0.0 && found_after_s >= 0.0 && found_after_s <= 0.5;
+  }
   double kept = 1.0;              ///< least share of the view that two scans in a row had in common
   double believed_wrong_s = 0.0;  ///< LOCALIZED while more than 0.5 m off
 };
