@@ -21,6 +21,7 @@ struct Column {
   std::int16_t misses = 0;            ///< scans in a row that should have seen it and did not
   bool confirmed = false;             ///< no stray point
   bool part_of_tall = false;  ///< stood beside something high: the foot of a person, not a body on the floor
+  bool came = false;          ///< was seen to come there, some time
   bool entered = false;       ///< stands where the floor was seen empty a moment ago
   Stamp seen{};               ///< last
   Stamp since{};              ///< first, without a gap

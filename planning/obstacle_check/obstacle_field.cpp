@@ -84,7 +84,8 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<O
   // One glimpse of something tall is the edge of what went by: what stands there is seen again and again.
   const bool glimpsed = old.part_of_tall && old.since == old.seen && old.low_m > kGlimpseAboveM;
   // A pallet that has come too near to be seen is still there; of a person the head would be seen.
-  const bool may_have_left = glimpsed || old.under != Stamp{};
+  // What was never seen to come is none: it stands beside something tall.
+  const bool may_have_left = glimpsed || (old.came && old.under != Stamp{});
   return !may_have_left || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
 }
 
@@ -106,6 +107,7 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
       both.confirmed = true;  // seen twice in one place
       both.since = old.since;
       both.under = old.under;
+      both.came = old.came;
       both.high_m = std::max(both.high_m, old.high_m);
       both.low_m = std::min(both.low_m, old.low_m);
       merged_.push_back(both);
@@ -117,6 +119,7 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
   for (Column& column : merged_) {
     if (column.seen != scan.stamp) continue;
     column.entered = has_entered(column, scan.stamp);
+    column.came = column.came || column.entered;
     if (is_under_something(column, view)) column.under = scan.stamp;
   }
   std::swap(columns_, merged_);

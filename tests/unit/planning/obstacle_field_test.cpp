@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/angle.hpp"
 #include "tests/support/toy_lidar.hpp"
 
@@ -139,6 +141,35 @@ TEST(ObstacleField, APersonWhoStandsBeforeTheBumperIsNotForgotten) {
   lidar.posts.clear();
   for (int i = 100; i < 115; ++i) field.update(lidar.scan({}, at(0.1 * i), random), view, {});
   EXPECT_EQ(confirmed(field), 0) << "and it has left";
+}
+
+/// A load that is passed closely: its face is below the lasers when somebody who stood before it goes away.
+TEST(ObstacleField, WhoStoodBeforeAPalletDoesNotTakeItAlong) {
+  std::mt19937 random(7);
+  test::ToyLidar lidar;
+  lidar.height_m = 1.2;
+  lidar.bodies.push_back({{{2.0, 0.9}, {2.8, 0.9}}, 0.4, 0.9});
+  FieldOptions options;
+  options.top_m = 1.3;
+  ObstacleField field(options);
+  const SensorView view{0.0, 0.0, 1.2, to_rad(-15.0), to_rad(15.0)};
+  double at_s = 0.0;
+  const auto look = [&](double x_m) {
+    field.update(lidar.scan({x_m, 0.0, 0.0}, at(at_s += 0.1), random), view, {x_m, 0.0, 0.0});
+  };
+  const auto face = [&] {
+    return std::ranges::count_if(field.columns(), [](const Column& c) {
+      return c.confirmed && c.min_y_m > 0.4F && c.min_y_m < 0.6F && c.min_x_m > 2.0F && c.max_x_m < 2.8F;
+    });
+  };
+  for (double x_m = -1.5; x_m < 2.1; x_m += 0.05) look(x_m);
+  const auto before = face();
+  EXPECT_GT(before, 5);
+  lidar.posts.push_back({{2.4, 0.33}, 0.12, 1.75});
+  for (int i = 0; i < 20; ++i) look(2.1);
+  lidar.posts.clear();
+  for (int i = 0; i < 30; ++i) look(2.1);
+  EXPECT_GE(face(), before - 1);
 }
 
 TEST(ObstacleField, OneGlimpseOfSomethingTallDoesNotHauntTheBlindZone) {
