@@ -9,9 +9,13 @@
 namespace madori::app {
 namespace {
 
+Transform2<Map, Odom> map_from_odom_now(const CycleState& state) {
+  return state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+}
+
 /// What crosses the way, Map frame, by all lidars that are heard.
 std::vector<planning::Mover<Map>>& movers_on_map(CycleState& state, Stamp now, const CycleConfig& config) {
-  const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+  const auto map_from_odom = map_from_odom_now(state);
   const Transform2<Map, Odom> turn(0.0, 0.0, map_from_odom.yaw_rad());
   auto& movers = state.bench.movers;
   movers.clear();
@@ -121,7 +125,7 @@ const std::vector<planning::Mover<Map>>& true_movers(CycleState& state, Stamp no
 /// Whether what stands at a place is remembered only: no scan has shown it, or its upper part, lately.
 bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now, const CycleConfig& config) {
   constexpr double kLatelyS = 0.5;
-  const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+  const auto map_from_odom = map_from_odom_now(state);
   const Point2<Odom> place = map_from_odom.inverse() * where;
   bool known = false;
   for (const MoverWatch& watch : state.movers)
@@ -207,19 +211,17 @@ void note_held(CycleState& state, const std::vector<Point2<Map>>& obstacles, con
 /// is remembered elsewhere, out of the lidar's sight, is still there.
 void forget_what_was_looked_at(CycleState& state) {
   constexpr double kAroundM = 1.0;
-  const auto odom_from_base = state.odometry.reading().odom_from_base;
-  const auto odom_from_map = odom_from_base * state.pose.map_from_base.inverse();
   state.block.felt = false;
   for (MoverWatch& watch : state.movers) watch.out_of_sight.clear();
-  state.obstacles.forget_near(odom_from_base.translation(), kAroundM);
+  state.obstacles.forget_near(state.odometry.reading().odom_from_base.translation(), kAroundM);
   if (state.ahead.check.blocked())
-    state.obstacles.forget_near(odom_from_map * state.ahead.check.where, kAroundM);
+    state.obstacles.forget_near(map_from_odom_now(state).inverse() * state.ahead.check.where, kAroundM);
 }
 
 }  // namespace
 
 const std::vector<Point2<Map>>& obstacle_points(CycleState& state) {
-  const auto map_from_odom = state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+  const auto map_from_odom = map_from_odom_now(state);
   auto& points = state.bench.obstacles;
   points.clear();
   for (const planning::Column& c : state.obstacles.columns()) {

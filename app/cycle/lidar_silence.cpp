@@ -110,8 +110,7 @@ double low_bodies_mps(const CycleState& state, Stamp now, const CycleConfig& con
 double unseen_bodies_mps(const CycleState& state, Stamp now, const CycleConfig& config) {
   const bool walker =
       std::ranges::any_of(state.movers, [](const MoverWatch& watch) { return watch.out_of_sight.anyone(); });
-  const double low_mps = low_bodies_mps(state, now, config);
-  return walker ? std::min(planning::kUnseenPersonMps, low_mps) : low_mps;
+  return walker ? planning::kUnseenPersonMps : low_bodies_mps(state, now, config);
 }
 
 void say_floor_unseen(CycleState& state, const CycleInput& input, const CycleConfig& config,

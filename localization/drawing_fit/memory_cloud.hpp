@@ -18,7 +18,7 @@ struct CloudSurface {
   int keyframe = 0;       ///< whose sight of it counts: the one that saw it from the nearest
   int direction = 0;      ///< of its normal, WallIndex::direction_of
   int sightings = 1;      ///< keyframes that saw it
-  double standing = 1.0;  ///< 0..1, share of the views of its place that met a surface there (weigh_standing)
+  double standing = 1.0;  ///< 0..1, share of the views of its place that met a surface there (standing_cloud)
   double weight = 0.0;    ///< 0..1, how long and straight the surface runs on: walls more than furniture
 };
 using MemoryCloud = std::vector<CloudSurface>;

@@ -48,7 +48,8 @@ void count(std::vector<Votes>& votes) {
 
 }  // namespace
 
-void weigh_standing(const Memory& memory, MemoryCloud& cloud) {
+MemoryCloud standing_cloud(const Memory& memory) {
+  MemoryCloud cloud = memory_cloud(memory);
   std::vector<Votes> votes(cloud.size());
   Point2<Map> stop;
   for (std::size_t k = 0; k < memory.size(); ++k) {
@@ -64,11 +65,6 @@ void weigh_standing(const Memory& memory, MemoryCloud& cloud) {
     const double looks = votes[i].hits + votes[i].through;
     cloud[i].standing = looks > 0.0 ? votes[i].hits / looks : 1.0;
   }
-}
-
-MemoryCloud standing_cloud(const Memory& memory) {
-  MemoryCloud cloud = memory_cloud(memory);
-  weigh_standing(memory, cloud);
   return cloud;
 }
 

@@ -114,7 +114,8 @@ void SiteTransaction::write(const std::string& name, std::string_view content) {
   write_new_file(file, content);
   syncs_[name] = std::async(std::launch::async, sync, file);
   if (is_kept(name))
-    objects_[name] = std::async(std::launch::async, [file] { return object_name(file_content(file)); });
+    objects_[name] =
+        std::async(std::launch::async, [text = std::string(content)] { return object_name(text); });
 }
 
 void SiteTransaction::sync_staged() {

@@ -19,16 +19,17 @@ struct SiteVersion {
   std::map<std::string, std::string> files;  ///< name in the site -> object in versions/objects
 };
 
-/// Every save of a site, below DIR/versions: `objects/` holds each content once, named by its hash and never
-/// changed, `NNNNNN.json` names the objects of a version. SiteTransaction stages a version with every change,
-/// so that the change and its version happen together or not at all; what can be computed from walls.csv
-/// (walls.pcd, map.pgm) is not kept.
+/// What a change puts and takes away, and what is known of it.
 struct StagedFiles {
   const std::vector<std::string>&puts, &removals;
   const std::map<std::string, std::string>& objects;  ///< what is known of the puts: name -> object_name
   const std::string& sentence;
 };
 
+/// Every save of a site, below DIR/versions: `objects/` holds each content once, named by its hash and never
+/// changed, `NNNNNN.json` names the objects of a version. SiteTransaction stages a version with every change,
+/// so that the change and its version happen together or not at all; what can be computed from walls.csv
+/// (walls.pcd, map.pgm) is not kept.
 /// Stages the version that `change` will make: `puts` are staged below the folder `staging`, `removals` go.
 /// Nothing where no file of a version changes.
 void stage_version(SiteTransaction& change, const std::filesystem::path& site,

@@ -68,7 +68,8 @@ std::optional<ColumnGroups::Group> ColumnGroups::compact(const std::vector<Colum
   if (width_m > widest_m) return std::nullopt;
   return Group{{0.5 * static_cast<double>(box.min_x_m + box.max_x_m),
                 0.5 * static_cast<double>(box.min_y_m + box.max_y_m)},
-               std::max(0.1, width_m / 2.0), static_cast<double>(box.high_m)};
+               std::max(0.1, width_m / 2.0),
+               static_cast<double>(box.high_m)};
 }
 
 }  // namespace madori::planning

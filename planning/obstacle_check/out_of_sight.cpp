@@ -9,7 +9,8 @@
 namespace madori::planning {
 namespace {
 
-constexpr double kHeadM = 0.15;  ///< of his top that may be missed: lasers are degrees apart, and few hit it
+constexpr double kTurned = 0.35;  ///< sideways of his way by metre of it: 20 degrees
+constexpr double kHeadM = 0.15;   ///< of his top that may be missed: lasers are degrees apart, and few hit it
 
 /// Whether someone so high stands within the view of lidars in direction, and below that of all in height.
 class Blind {
@@ -38,17 +39,33 @@ class Blind {
   Transform2<Base, Odom> base_from_odom_;
 };
 
-constexpr double kTurned = 0.35;  // sideways of his way by metre of it: 20 degrees
+/// The way that he had when he was lost.
+struct Way {
+  explicit Way(const LostMover& w)
+      : from(w.last.at),
+        speed_mps(std::hypot(w.last.vx_mps, w.last.vy_mps)),
+        x(w.last.vx_mps / speed_mps),
+        y(w.last.vy_mps / speed_mps) {}
+  [[nodiscard]] Point2<Odom> at(double along_m) const {
+    return {from.x_m + along_m * x, from.y_m + along_m * y};
+  }
+  /// How far along it a place lies; one behind him at its beginning.
+  [[nodiscard]] double along_m(const Point2<Odom>& place) const {
+    return std::max(0.0, (place.x_m - from.x_m) * x + (place.y_m - from.y_m) * y);
+  }
+
+  Point2<Odom> from;
+  double speed_mps, x, y;
+};
 
 /// Where he may be by now and is not seen: discs along his way, wider by what he may have turned.
 template <class Visit>
 void places(const LostMover& w, const Blind& blind, Stamp now, Visit&& visit) {
   constexpr double kStepM = 0.15;
-  const double speed_mps = std::hypot(w.last.vx_mps, w.last.vy_mps);
-  const double far_m = std::max(0.0, speed_mps * to_seconds(now - w.seen));
+  const Way way(w);
+  const double far_m = std::max(0.0, way.speed_mps * to_seconds(now - w.seen));
   for (double s = 0.0; s <= far_m; s += kStepM) {
-    const Point2<Odom> at{w.last.at.x_m + w.last.vx_mps / speed_mps * s,
-                          w.last.at.y_m + w.last.vy_mps / speed_mps * s};
+    const Point2<Odom> at = way.at(s);
     if (blind.hides(at, w.high_m))
       visit(at, w.last.radius_m + kTurned * s);
     else if (s > 0.0)
@@ -63,11 +80,9 @@ bool may_be(const LostMover& w, const MovingObjects::Track& track, Stamp now) {
   constexpr double kFastestMps = 2.0;  // of who has been out of sight
   if (track.since <= w.seen) return false;
   const Point2<Odom>& there = track.sightings.back().at;
-  const double speed_mps = std::hypot(w.last.vx_mps, w.last.vy_mps);
-  const double x = there.x_m - w.last.at.x_m, y = there.y_m - w.last.at.y_m;
-  const double along_m = std::max(0.0, (x * w.last.vx_mps + y * w.last.vy_mps) / speed_mps);
-  const double aside_m =
-      std::hypot(x - along_m * w.last.vx_mps / speed_mps, y - along_m * w.last.vy_mps / speed_mps);
+  const Way way(w);
+  const double along_m = way.along_m(there);
+  const double aside_m = distance_m(there, way.at(along_m));
   return along_m <= kSlackM + kFastestMps * to_seconds(now - w.seen) &&
          aside_m <= kSlackM + kTurned * along_m;
 }

@@ -12,14 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "core/median.hpp"
 #include "tests/support/mapping_trial.hpp"
 
 namespace {
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 void print(const madori::test::MappingTrial& trial, const madori::test::MappingTrialResult& result) {
   std::printf(
@@ -76,7 +72,7 @@ int main(int argc, char** argv) {
       "map to building: median %.3f m, largest %.3f m, over 0.05 m %d of %d; building to map: median %.3f m, "
       "largest "
       "%.3f m, over 0.05 m %d of %d; phantom pieces %.1f m\n",
-      median(there), *std::max_element(there.begin(), there.end()), static_cast<int>(over(there)), maps,
-      median(back), *std::max_element(back.begin(), back.end()), static_cast<int>(over(back)), maps,
-      phantom_m);
+      madori::median_of(there), *std::max_element(there.begin(), there.end()), static_cast<int>(over(there)),
+      maps, madori::median_of(back), *std::max_element(back.begin(), back.end()),
+      static_cast<int>(over(back)), maps, phantom_m);
 }

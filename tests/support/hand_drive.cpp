@@ -93,10 +93,6 @@ bool HandDrive::drive_to(const Point2<Map>& goal, double limit_s) {
   return false;
 }
 
-bool HandDrive::drive_round(const std::vector<Point2<Map>>& round) {
-  return std::all_of(round.begin(), round.end(), [this](const auto& goal) { return drive_to(goal); });
-}
-
 std::size_t HandDrive::finish() {
   jog_for(0.5, {});
   const auto view = *run_->view();

@@ -40,7 +40,6 @@ class HandDrive {
   void jog_for(double seconds, const VelocityCommand& velocity);
   /// A person who sees the vehicle and steers it to a place of the building's plan; whether it came.
   bool drive_to(const Point2<Map>& goal, double limit_s = 60.0);
-  bool drive_round(const std::vector<Point2<Map>>& round);
   /// Finishes the map: the number of walls. Throws NoMap.
   std::size_t finish();
   /// The program is killed and started again.

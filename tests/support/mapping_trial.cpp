@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "app/map_comparison.hpp"
@@ -17,6 +16,7 @@ using Random = std::mt19937_64;
 using Round = std::vector<Point2<Map>>;
 
 const fs::path kRooms = fs::path(MADORI_SOURCE_DIR) / "data/two_rooms";
+const fs::path kRoomsTruth = kRooms / "true_walls.csv";
 constexpr double kOffM = 0.1;
 
 double between(Random& random, double low, double high) {
@@ -115,11 +115,7 @@ std::vector<PhantomPiece> phantoms_of(const mapping::Walls& walls, const mapping
 }
 
 void score(const fs::path& site, MappingTrialResult& result) {
-  app::MapComparisonOptions options;
-  options.alignment = app::MapAlignment::Anywhere;
-  const auto truth_file = kRooms / "true_walls.csv";
-  const auto found = app::compare_maps(app::occupied_places(site, options.cell_m),
-                                       app::occupied_places(truth_file, options.cell_m), options);
+  const auto found = compared_with_rooms(site);
   result.map_to_building_m = found["map_to_building"]["mean_m"];
   result.building_to_map_m = found["building_to_map"]["mean_m"];
   const auto& at = found["building_from_map"];
@@ -127,10 +123,17 @@ void score(const fs::path& site, MappingTrialResult& result) {
   mapping::Walls walls = mapping::load_walls(site / "walls.csv");
   result.walls = walls.size();
   for (auto& wall : walls) wall.segment = building_from_map * wall.segment;
-  result.phantoms = phantoms_of(walls, mapping::load_walls(truth_file));
+  result.phantoms = phantoms_of(walls, mapping::load_walls(kRoomsTruth));
 }
 
 }  // namespace
+
+nlohmann::json compared_with_rooms(const fs::path& site) {
+  app::MapComparisonOptions options;
+  options.alignment = app::MapAlignment::Anywhere;
+  return app::compare_maps(app::occupied_places(site, options.cell_m),
+                           app::occupied_places(kRoomsTruth, options.cell_m), options);
+}
 
 MappingTrialResult run_mapping_trial(const MappingTrial& trial) {
   Random random(trial.seed * 7919 + 29);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ struct MappingTrialResult {
   std::vector<PhantomPiece> phantoms;  ///< of places farther than 0.1 m from every true wall
   double finish_s = 0.0;               ///< that the last look and the walls took, wall clock
 };
+
+/// The site's walls beside those of data/two_rooms, as `madori evaluate --map --align anywhere` compares
+/// them.
+[[nodiscard]] nlohmann::json compared_with_rooms(const std::filesystem::path& site);
 
 /// Drives, finishes the map, scores it. Deterministic but for finish_s.
 [[nodiscard]] MappingTrialResult run_mapping_trial(const MappingTrial& trial);

@@ -3,12 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/map_comparison.hpp"
 #include "app/panel/reference_lidar.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 #include "planning/route_graph/route_check.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "tests/support/hand_drive.hpp"
+#include "tests/support/mapping_trial.hpp"
 
 namespace madori::app {
 namespace {
@@ -38,17 +38,10 @@ class MappingDriveTest : public testing::Test {
   void drive_round(std::size_t first = 0, std::size_t end = kRound.size()) {
     for (std::size_t i = first; i < end; ++i) ASSERT_TRUE(drive_->drive_to(kRound[i])) << i;
   }
-  /// Mean distances between the site's walls and the true ones, both ways, metres.
-  [[nodiscard]] std::pair<double, double> off_truth() const {
-    MapComparisonOptions options;
-    options.alignment = MapAlignment::Anywhere;
-    const auto found = compare_maps(occupied_places(drive_->site(), options.cell_m),
-                                    occupied_places(kRooms / "true_walls.csv", options.cell_m), options);
-    return {found["map_to_building"]["mean_m"].get<double>(),
-            found["building_to_map"]["mean_m"].get<double>()};
-  }
   void expect_right_map(const char* which) const {
-    const auto [phantoms_m, missing_m] = off_truth();
+    const auto found = test::compared_with_rooms(drive_->site());
+    const double phantoms_m = found["map_to_building"]["mean_m"];
+    const double missing_m = found["building_to_map"]["mean_m"];
     std::printf("%s: map to building %.3f m, building to map %.3f m\n", which, phantoms_m, missing_m);
     EXPECT_LE(phantoms_m, 0.03);
     EXPECT_LE(missing_m, 0.03);
