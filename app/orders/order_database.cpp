@@ -10,9 +10,9 @@ namespace {
 
 constexpr int kFormat = 2;
 constexpr int kBusyMs = 5000;
+constexpr int kAskAgainMs = 20;
 
 constexpr std::array kSetUp{
-    "PRAGMA journal_mode=WAL",
     "PRAGMA synchronous=FULL",
     "PRAGMA foreign_keys=ON",
 };
@@ -45,6 +45,20 @@ sqlite3* open(const std::filesystem::path& file) {
   throw Error(file.string(), what, "check the folder and its permissions");
 }
 
+/// SQLite does not wait by its busy timeout for this change, so that two programs that open the file at once
+/// refused one another (https://www.sqlite.org/c3ref/busy_handler.html: where waiting could be a deadlock).
+void write_ahead(sqlite3* database) {
+  const auto ask = [&] {
+    return sqlite3_exec(database, "PRAGMA journal_mode=WAL", nullptr, nullptr, nullptr);
+  };
+  int code = ask();
+  for (int waited_ms = 0; code == SQLITE_BUSY && waited_ms < kBusyMs; waited_ms += kAskAgainMs) {
+    sqlite3_sleep(kAskAgainMs);
+    code = ask();
+  }
+  check(database, code);
+}
+
 std::int64_t format_of(sqlite3* database) {
   Statement version(database, "PRAGMA user_version");
   version.step();
@@ -71,6 +85,7 @@ void CloseDatabase::operator()(sqlite3* database) const {
 Database open_order_database(const std::filesystem::path& file) {
   Database database(open(file));
   sqlite3_busy_timeout(database.get(), kBusyMs);
+  write_ahead(database.get());
   for (const char* sql : kSetUp) Statement(database.get(), sql).run();
   const std::int64_t format = format_of(database.get());
   if (format > kFormat)

@@ -10,6 +10,13 @@
 
 namespace madori::app {
 
+/// Throws Error with the database's message where a call did not answer SQLITE_OK.
+inline void check(sqlite3* database, int code) {
+  if (code != SQLITE_OK)
+    throw Error(sqlite3_db_filename(database, "main"), sqlite3_errmsg(database),
+                "check free disk space and permissions; no other program may hold it");
+}
+
 /// A prepared SQLite statement. Throws Error with the database's message.
 class Statement {
  public:
@@ -50,11 +57,7 @@ class Statement {
   struct Finalize {
     void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
   };
-  void check(int code) const {
-    if (code != SQLITE_OK)
-      throw Error(sqlite3_db_filename(database_, "main"), sqlite3_errmsg(database_),
-                  "check free disk space and permissions; no other program may hold it");
-  }
+  void check(int code) const { app::check(database_, code); }
   void bind_one(int column, std::int64_t value) {
     check(sqlite3_bind_int64(statement_.get(), column, value));
   }

@@ -105,16 +105,26 @@ void Meetings::pass_carts(int count, CartTally& tally) {
   }
 }
 
-/// Drives until the vehicle is on its way at speed.
+/// Drives until the vehicle is on its way at speed. Throws Error, with what the vehicle says, where it is not
+/// within ten minutes: an operator would have been called long before.
 void Meetings::go_on() {
-  run_->run_until(
+  constexpr double kPatience_s = 600.0;
+  const bool on_its_way = run_->run_until(
       [&] {
         if (!order_ || run_->orders->find(*order_)->state != app::OrderState::Running)
           if (run_->orders->list(true).empty()) order_ = run_->order_somewhere(random_);
         return run_->state().mode == app::Mode::Driving &&
                run_->factory->truth().linear_mps > 0.5 * driven_mps();
       },
-      120.0);
+      kPatience_s);
+  if (on_its_way) return;
+  const auto& state = run_->state();
+  const auto at = run_->factory->truth().map_from_base;
+  char where[80] = "";
+  std::snprintf(where, sizeof where, "vehicle at (%.2f, %.2f, %.0f deg), %.0f s", at.x_m(), at.y_m(),
+                to_deg(at.yaw_rad()), run_->time_s());
+  throw Error(where, std::string(to_string(state.mode)) + ": " + state.standstill.remedy.text,
+              "the vehicle does not go on");
 }
 
 int Meetings::contacts_since(std::size_t before) const {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <latch>
 #include <thread>
+#include <vector>
 
 #include "app/orders/sqlite.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -57,6 +59,20 @@ TEST_F(OrderDeskTest, ALockedDatabaseHoldsNoStepUpAndEveryStopIsCountedOnceItIsF
   tick_until(desk, [](const Order& order) { return order.state == OrderState::Done; });
   EXPECT_EQ(store.stops_done(), 2);
   EXPECT_EQ(store.find(id)->state, OrderState::Done);
+}
+
+TEST_F(OrderDeskTest, ProgramsThatOpenItAtOnceWaitForOneAnother) {
+  for (int round = 0; round < 40; ++round) {
+    const auto file = folder_.path() / (std::to_string(round) + ".db");
+    std::vector<std::thread> programs;
+    std::latch ready(4);
+    for (int i = 0; i < 4; ++i)
+      programs.emplace_back([&] {
+        ready.arrive_and_wait();
+        EXPECT_NO_THROW(OrderStore(file).list(true));
+      });
+    for (auto& program : programs) program.join();
+  }
 }
 
 TEST_F(OrderDeskTest, ARefusedOrderIsGoneAtOnceAndNeverComesBack) {
