@@ -14,11 +14,31 @@ struct ControllerInputs {
   std::uint16_t battery_mv = 0;
 };
 
+/// Why the wheels are stopped: told for so long after it has ended that status frames which are lost, and a PC
+/// that looks less often, cannot hide it. Unseen, the PC would take the stop for one without a cause and go on.
+class ToldCause {
+ public:
+  static constexpr std::uint32_t kMicroseconds = 200'000;
+
+  constexpr std::uint16_t update(std::uint16_t now, std::uint32_t now_us) {
+    if (now != 0)
+      told_ = static_cast<std::uint16_t>(told_ | now), last_us_ = now_us;
+    else if (now_us - last_us_ >= kMicroseconds)
+      told_ = 0;
+    return told_;
+  }
+
+ private:
+  std::uint16_t told_ = 0;
+  std::uint32_t last_us_ = 0;
+};
+
 /// The motor controller's side of the link: takes the PC's bytes, decides whether the wheels may turn, and
 /// counts the encoders' turns. Firmware and simulator run this same class. Freestanding.
 ///
-/// Any stop (silence, emergency stop, bumper, fault) is held: when its cause has gone, the state is Idle and
-/// the wheels turn again only after a command without enable has been followed by one with it.
+/// Any stop (silence, emergency stop, bumper, fault) is held: its cause is told for at least 200 ms; when it
+/// has gone, the state is Idle, and the wheels turn again only after a command without enable has been followed
+/// by one with it.
 class Controller {
  public:
   /// One byte from the line; `now_us` is the controller's clock, which may wrap.
@@ -43,6 +63,9 @@ class Controller {
     }
     counted_ = true;
     inputs_ = inputs;
+    inputs_.emergency_stop = emergency_stop_.update(inputs.emergency_stop ? 1 : 0, now_us) != 0;
+    inputs_.bumper = bumper_.update(inputs.bumper ? 1 : 0, now_us) != 0;
+    inputs_.faults = faults_.update(inputs.faults, now_us);
     now_us_ = now_us;
     watch(now_us);
     if (!clear()) armed_ = running_ = false;
@@ -116,6 +139,9 @@ class Controller {
   FrameCutter cutter_;
   Command command_;
   ControllerInputs inputs_;
+  ToldCause emergency_stop_;
+  ToldCause bumper_;
+  ToldCause faults_;
   std::uint32_t now_us_ = 0;
   std::uint32_t last_command_us_ = 0;
   std::uint32_t overflows_ = 0;

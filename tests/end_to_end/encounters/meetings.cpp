@@ -113,6 +113,8 @@ void Meetings::go_on() {
       [&] {
         if (!order_ || run_->orders->find(*order_)->state != app::OrderState::Running)
           if (run_->orders->list(true).empty()) order_ = run_->order_somewhere(random_);
+        if (run_->state().standstill.remedy == app::notice(app::Remedy::LookAndGoOn))
+          run_->run->say({app::OperatorWord::GoOn, {}});  // a planar lidar's vehicle asks before every door
         return run_->state().mode == app::Mode::Driving &&
                run_->factory->truth().linear_mps > 0.5 * driven_mps();
       },
