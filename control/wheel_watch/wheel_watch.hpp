@@ -39,7 +39,7 @@ class WheelWatch {
     double least_mps = 0.0, most_mps = 0.0;
     double outside_s = 0.0;
 
-    void ask(double mps, double step_mps);
+    void ask(double mps, double share, double step_mps);
     /// How far its speed lies beyond the bounds; negative where it lags behind them.
     [[nodiscard]] double beyond_mps(double turned_mps, double share) const;
   };
