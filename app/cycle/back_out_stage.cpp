@@ -69,7 +69,7 @@ bool is_free_behind(const CycleState& state, const Path& path, const std::vector
 /// or is too short to help.
 std::optional<Path> free_way_back(CycleState& state, const CycleConfig& config) {
   constexpr double kShortestM = 0.3;
-  const auto& obstacles = obstacle_points(state);
+  const auto& obstacles = obstacle_points(state, config);
   const auto is_free = [&](const Path& path) { return is_free_behind(state, path, obstacles, config); };
   auto came = state.errand.backing_held ? std::nullopt : way_back(state, config);
   if (came && is_free(*came)) return came;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -9,8 +8,17 @@
 namespace madori::app {
 namespace {
 
-Transform2<Map, Odom> map_from_odom_now(const CycleState& state) {
-  return state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+constexpr double kOwnRoomM = 0.05;  ///< nothing that is only supposed stands so near: it would have been felt
+
+/// Where something stands that was last seen then. Further than odometry drifts the vehicle has believed to
+/// be elsewhere, or was carried: then the way driven since tells.
+Point2<Map> on_map(const CycleState& state, const Point2<Odom>& place, Stamp seen) {
+  constexpr double kMostDriftM = 0.5;
+  const Point2<Map> by_odometry = map_from_odom_now(state) * place;
+  const auto after = std::ranges::upper_bound(state.anchors, seen, {}, &Anchor::at);
+  if (after == state.anchors.begin() || after == state.anchors.end()) return by_odometry;
+  const Point2<Map> then = (after - 1)->map_from_odom * place;
+  return distance_m(then, by_odometry) < kMostDriftM ? then : by_odometry;
 }
 
 /// What crosses the way, Map frame, by all lidars that are heard.
@@ -122,21 +130,41 @@ const std::vector<planning::Mover<Map>>& true_movers(CycleState& state, Stamp no
   return movers;
 }
 
+/// The corners of what was seen of a column.
+template <class Visit>
+void each_corner(const CycleState& state, const planning::Column& c, const Visit& visit) {
+  for (const float x : {c.min_x_m, c.max_x_m})
+    for (const float y : {c.min_y_m, c.max_y_m})
+      visit(on_map(state, {static_cast<double>(x), static_cast<double>(y)}, c.seen));
+}
+
+/// Where a column may go on below the lowest beam.
+template <class Visit>
+void each_hidden_place(const CycleState& state, const CycleConfig& config, const planning::Column& c,
+                       const Visit& visit) {
+  if (!c.has_hidden_part()) return;
+  const double step_m = config.field.cell_m;
+  for (double away_m = step_m; away_m < config.field.hidden_m + 0.5 * step_m; away_m += step_m)
+    visit(on_map(state, c.hidden_at(away_m), c.seen));
+}
+
 /// Whether what stands at a place is remembered only: no scan has shown it, or its upper part, lately.
 bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now, const CycleConfig& config) {
   constexpr double kLatelyS = 0.5;
-  const auto map_from_odom = map_from_odom_now(state);
-  const Point2<Odom> place = map_from_odom.inverse() * where;
+  const Point2<Odom> place = map_from_odom_now(state).inverse() * where;
   bool known = false;
   for (const MoverWatch& watch : state.movers)
     for (const Point2<Odom>& p : watch.out_of_sight.points())
       known = known || distance_m(p, place) < 0.5 * config.field.cell_m;
   for (const planning::Column& c : state.obstacles.columns()) {
-    const double dx = std::max(
-        {0.0, static_cast<double>(c.min_x_m) - place.x_m, place.x_m - static_cast<double>(c.max_x_m)});
-    const double dy = std::max(
-        {0.0, static_cast<double>(c.min_y_m) - place.y_m, place.y_m - static_cast<double>(c.max_y_m)});
-    if (!c.confirmed || std::hypot(dx, dy) > config.field.cell_m) continue;
+    if (!c.confirmed) continue;
+    bool there = false;
+    each_hidden_place(state, config, c, [&](const Point2<Map>& p) {
+      known = known || distance_m(p, where) < 0.5 * config.field.cell_m;
+    });
+    each_corner(state, c,
+                [&](const Point2<Map>& p) { there = there || distance_m(p, where) <= config.field.cell_m; });
+    if (!there) continue;
     if (to_seconds(now - std::max(c.seen, c.under)) <= kLatelyS) return false;
     known = true;
   }
@@ -220,16 +248,22 @@ void forget_what_was_looked_at(CycleState& state) {
 
 }  // namespace
 
-const std::vector<Point2<Map>>& obstacle_points(CycleState& state) {
+Transform2<Map, Odom> map_from_odom_now(const CycleState& state) {
+  return state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+}
+
+const std::vector<Point2<Map>>& obstacle_points(CycleState& state, const CycleConfig& config) {
   const auto map_from_odom = map_from_odom_now(state);
+  const auto base_from_map = state.pose.map_from_base.inverse();
+  const auto own = config.check.vehicle.grown(kOwnRoomM, kOwnRoomM);
   auto& points = state.bench.obstacles;
   points.clear();
   for (const planning::Column& c : state.obstacles.columns()) {
     if (!c.confirmed) continue;
-    const std::array<double, 2> x{static_cast<double>(c.min_x_m), static_cast<double>(c.max_x_m)};
-    const std::array<double, 2> y{static_cast<double>(c.min_y_m), static_cast<double>(c.max_y_m)};
-    for (const double px : x)
-      for (const double py : y) points.push_back(map_from_odom * Point2<Odom>{px, py});
+    each_corner(state, c, [&](const Point2<Map>& at) { points.push_back(at); });
+    each_hidden_place(state, config, c, [&](const Point2<Map>& at) {
+      if (!own.contains(base_from_map * at)) points.push_back(at);
+    });
   }
   for (const MoverWatch& watch : state.movers)
     for (const Point2<Odom>& p : watch.out_of_sight.points()) points.push_back(map_from_odom * p);
@@ -246,7 +280,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
       if (state.way.rejoin_m) take_path(state, {}, config);  // nothing to drive around any more: planned anew
     }
   if (state.way.path.empty() || state.errand.arrived || !output.computed_lidar) return;
-  const auto& obstacles = obstacle_points(state);
+  const auto& obstacles = obstacle_points(state, config);
   if (state.way.backing)
     check_behind(state, input.now, config);
   else
@@ -262,10 +296,10 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
 
 void squeeze(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   if (state.way.path.empty() || state.errand.arrived || !output.computed_lidar) return;
-  state.block.squeeze = squeeze_here(state, obstacle_points(state), input.now, config);
+  state.block.squeeze = squeeze_here(state, obstacle_points(state, config), input.now, config);
 }
 
-void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& /*config*/,
+void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfig& config,
                     CycleOutput& output) {
   if (state.way.path.empty() || state.errand.arrived || !output.computed_lidar) return;
   state.detour.asked = input.now;
@@ -276,10 +310,11 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
   if (!check.blocked()) check.first_blocked = check.last_blocked = state.progress.pursuit.index;
   const auto goal = state.site->routes().index_of(state.errand.stop.node);
   const bool any_end_heading = goal && !state.site->routes().nodes()[*goal].heading_rad;
-  output.detour_wanted = planning::DetourRequest{
-      state.detour.id, state.way.plain,        state.progress.pursuit.index, state.pose.map_from_base,
-      check,           obstacle_points(state), state.block.squeeze,          any_end_heading,
-      !stuck,          state.site->walls()};
+  output.detour_wanted =
+      planning::DetourRequest{state.detour.id,          state.way.plain, state.progress.pursuit.index,
+                              state.pose.map_from_base, check,           obstacle_points(state, config),
+                              state.block.squeeze,      any_end_heading, !stuck,
+                              state.site->walls()};
 }
 
 }  // namespace madori::app

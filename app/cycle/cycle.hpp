@@ -171,6 +171,13 @@ struct MoverWatch {
   planning::OutOfSight out_of_sight;
 };
 
+/// How the odometry lay on the map at some moment: what was seen then stands there, however the odometry has
+/// drifted since.
+struct Anchor {
+  Stamp at{};
+  Transform2<Map, Odom> map_from_odom;
+};
+
 /// Room that the stages of a step work in. Nothing in it lasts: it is kept so that a step asks the heap for
 /// none.
 struct Workbench {
@@ -196,6 +203,7 @@ struct CycleState {
   control::SentCommands sent;
   Transform2<Map, Base> command_pose;  ///< where the vehicle will be when it obeys what is sent in this step
   planning::ObstacleField obstacles;
+  Ring<Anchor> anchors;  ///< one every half second while the vehicle knew where it was, oldest first
   std::vector<MoverWatch> movers;  ///< of each lidar
   control::wire::Status drive;
   std::optional<Stamp> drive_heard;

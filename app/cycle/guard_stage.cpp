@@ -145,7 +145,7 @@ VelocityCommand guarded(CycleState& state, const VelocityCommand& wanted, const 
     state.jog_held.reset();
     return wanted;
   }
-  const double share = share_to_go(state, wanted, obstacle_points(state), config);
+  const double share = share_to_go(state, wanted, obstacle_points(state, config), config);
   constexpr double kNothingLeft = 0.12;
   if (state.mode != Mode::Manual || gets_on(state, wanted))
     state.jog_held.reset();

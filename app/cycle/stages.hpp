@@ -91,9 +91,10 @@ void arrive(CycleState& state, Stamp now);
 [[nodiscard]] Standstill standstill_of(const CycleState& state, const CycleInput& input,
                                        const CycleConfig& config);
 
-/// Confirmed columns around the vehicle, Map frame: their corners. On the workbench: good until the next
-/// call.
-const std::vector<Point2<Map>>& obstacle_points(CycleState& state);
+[[nodiscard]] Transform2<Map, Odom> map_from_odom_now(const CycleState& state);
+/// Confirmed columns around the vehicle, Map frame: their corners, and where they may go on unseen. On the
+/// workbench: good until the next call.
+const std::vector<Point2<Map>>& obstacle_points(CycleState& state, const CycleConfig& config);
 /// A sweep came: which directions ahead it tells of.
 void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarModel& lidar, Stamp now);
 /// When all that driving needs of the lidars had last been heard: the way ahead in somebody's field of view,

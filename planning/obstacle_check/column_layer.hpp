@@ -26,10 +26,17 @@ struct Column {
   Stamp seen{};               ///< last
   Stamp since{};              ///< first, without a gap
   Stamp under{};              ///< when something higher than the vehicle was last seen above it
+  float hidden_x_m = 0.0F, hidden_y_m = 0.0F;  ///< so far it may go on below the lowest beam, Odom axes
 
   [[nodiscard]] Point2<Odom> centre() const {
     return {0.5 * (static_cast<double>(min_x_m) + static_cast<double>(max_x_m)),
             0.5 * (static_cast<double>(min_y_m) + static_cast<double>(max_y_m))};
+  }
+  [[nodiscard]] bool has_hidden_part() const { return hidden_x_m != 0.0F || hidden_y_m != 0.0F; }
+  /// A place of its hidden part, `away_m` from the middle.
+  [[nodiscard]] Point2<Odom> hidden_at(double away_m) const {
+    const double x = hidden_x_m, y = hidden_y_m, share = away_m / std::hypot(x, y);
+    return {centre().x_m + share * x, centre().y_m + share * y};
   }
   friend bool operator==(const Column&, const Column&) = default;
 };

@@ -5,13 +5,21 @@
 #include <utility>
 
 namespace madori::planning {
+namespace {
+
+constexpr float kGlimpseAboveM = 0.3F;  ///< nothing lower stands there as far as was seen
+constexpr double kLevelSlackM = 0.1;    ///< below the lidar's height
+
+}  // namespace
 
 /// One pass over the points: columns up to the vehicle's height and above it, and how far was seen.
 void ObstacleField::take_scan(const PointCloud<Base>& scan, const SensorView& view,
                               const Transform2<Odom, Base>& odom_from_base) {
   const FieldOptions& o = options_;
   low_.begin(odom_from_base.translation(), o.reach_m, o.cell_m, scan.stamp);
-  high_.begin(odom_from_base * Point2<Base>{view.x_m, view.y_m}, o.body_reach_m, o.cell_m, scan.stamp);
+  const Point2<Odom> lidar = odom_from_base * Point2<Base>{view.x_m, view.y_m};
+  high_.begin(lidar, o.body_reach_m, o.cell_m, scan.stamp);
+  level_.begin(lidar, o.body_reach_m, o.cell_m, scan.stamp);
   const bool is_kept = sights_.begin(view, odom_from_base, scan.stamp);
   const double reach_square = o.reach_m * o.reach_m;
   constexpr double kFurthestM2 = 1e6;
@@ -24,6 +32,8 @@ void ObstacleField::take_scan(const PointCloud<Base>& scan, const SensorView& vi
     const double height = ground_.height_of(p);
     if (!(away < kFurthestM2) || !std::isfinite(height)) continue;
     const bool above_floor = height > o.ground_clearance_m;
+    if (height > view.z_m - kLevelSlackM && away < o.body_reach_m * o.body_reach_m)
+      level_.add(odom_from_base * Point2<Base>{x, y}, height);
     if (is_kept) sights_.add(dx, dy, above_floor && height < o.body_top_m);
     if (!above_floor || !(height < o.body_top_m) || !(x * x + y * y < reach_square)) continue;
     if (height < o.top_m)
@@ -58,20 +68,26 @@ void ObstacleField::assume_feet(const SensorView& view, const Transform2<Odom, B
   }
 }
 
+/// Whether something near it is seen that reaches up to the lidar.
+bool ObstacleField::is_level(const Column& column) const {
+  for (std::int32_t dy = -2; dy <= 2; ++dy)
+    for (std::int32_t dx = -2; dx <= 2; ++dx)
+      if (level_.find(column.cell_x + dx, column.cell_y + dy) != nullptr) return true;
+  return false;
+}
+
 /// Whether something as high as the lidar, which it sees at any distance, is seen above a column or within
 /// a step beside it.
 bool ObstacleField::is_under_something(const Column& column, const SensorView& view) const {
-  constexpr double kSlackM = 0.1;
   for (std::int32_t dy = -2; dy <= 2; ++dy)
     for (std::int32_t dx = -2; dx <= 2; ++dx)
       if (const Column* above = high_.find(column.cell_x + dx, column.cell_y + dy))
-        if (above->confirmed && static_cast<double>(above->high_m) > view.z_m - kSlackM) return true;
+        if (above->confirmed && static_cast<double>(above->high_m) > view.z_m - kLevelSlackM) return true;
   return false;
 }
 
 bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
                          Stamp now) const {
-  constexpr float kGlimpseAboveM = 0.3F;  // nothing lower stands there as far as was seen
   const Point2<Base> place = odom_from_base.inverse() * old.centre();
   if (std::hypot(place.x_m, place.y_m) > options_.reach_m) return false;
   old.entered = false;
@@ -87,6 +103,37 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<O
   // What was never seen to come is none: it stands beside something tall.
   const bool may_have_left = glimpsed || (old.came && old.under != Stamp{});
   return !may_have_left || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
+}
+
+bool ObstacleField::is_known(const Point2<Odom>& place) const {
+  Column there;
+  there.cell_x = static_cast<std::int32_t>(std::floor(place.x_m / options_.cell_m));
+  there.cell_y = static_cast<std::int32_t>(std::floor(place.y_m / options_.cell_m));
+  return std::binary_search(merged_.begin(), merged_.end(), there, by_cell);
+}
+
+/// Who comes into sight so near that the lowest beam passes over his near side shows his far side only. What
+/// reaches up to the lidar shows its near side, and so does what was seen further down.
+void ObstacleField::note_hidden_parts(const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
+                                      Stamp now) {
+  const double beside_m = 1.5 * options_.cell_m;
+  const Point2<Odom> lidar = odom_from_base * Point2<Base>{view.x_m, view.y_m};
+  const auto base_from_odom = odom_from_base.inverse();
+  for (Column& c : merged_) {
+    if (c.seen == now) {
+      const double away_m = distance_m(c.centre(), lidar);
+      const bool above = c.low_m > kGlimpseAboveM && away_m > options_.hidden_m;
+      const double share = above ? options_.hidden_m / away_m : 0.0;
+      c.hidden_x_m = static_cast<float>(share * (lidar.x_m - c.centre().x_m));
+      c.hidden_y_m = static_cast<float>(share * (lidar.y_m - c.centre().y_m));
+    }
+    if (!c.has_hidden_part()) continue;
+    const Point2<Odom> beside = c.hidden_at(beside_m);
+    const bool seen =
+        view.sees(base_from_odom * beside, static_cast<double>(c.low_m), static_cast<double>(c.high_m));
+    if (seen || is_known(beside) || is_known(c.hidden_at(2.0 * beside_m)) || is_level(c))
+      c.hidden_x_m = c.hidden_y_m = 0.0F;
+  }
 }
 
 void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
@@ -122,6 +169,7 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
     column.came = column.came || column.entered;
     if (is_under_something(column, view)) column.under = scan.stamp;
   }
+  note_hidden_parts(view, odom_from_base, scan.stamp);
   std::swap(columns_, merged_);
 }
 

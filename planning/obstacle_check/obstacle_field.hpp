@@ -23,6 +23,7 @@ struct FieldOptions {
   double foot_memory_s = 1.0;  ///< how long an unseen foot counts after its tall part has gone
   double body_top_m = 1.9;     ///< height of a person: near the lidar only the upper part is in view
   double body_reach_m = 3.0;   ///< around the lidar, where the upper part is looked for
+  double hidden_m = 0.4;  ///< so far a body goes on of which only the far side was seen: a person's breadth
   GroundOptions ground;
   SightOptions sight;
 };
@@ -30,7 +31,8 @@ struct FieldOptions {
 /// What stands around the vehicle: from the scans, the floor taken away, single stray points left out. Low
 /// things that have come into the sensors' blind zone before the bumper are kept until a sensor sees the
 /// place again. What came to a place that was seen empty is marked; where only its part above the vehicle's
-/// height is in view, a foot is assumed below it.
+/// height is in view, a foot is assumed below it. What was only ever seen from above, where the lowest beam
+/// just passes over it, may go on below it towards the lidar.
 class ObstacleField {
  public:
   explicit ObstacleField(const FieldOptions& options = {}) : options_(options), sights_(options.sight) {}
@@ -61,6 +63,10 @@ class ObstacleField {
   /// Adds them to seen_.
   void assume_feet(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp now);
   [[nodiscard]] bool is_under_something(const Column& column, const SensorView& view) const;
+  /// Of merged_: which go on where they cannot be seen.
+  void note_hidden_parts(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp now);
+  [[nodiscard]] bool is_level(const Column& column) const;
+  [[nodiscard]] bool is_known(const Point2<Odom>& place) const;
   [[nodiscard]] bool has_entered(const Column& column, Stamp now) const;
   [[nodiscard]] bool keep(Column& old, const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
                           Stamp now) const;
@@ -71,6 +77,7 @@ class ObstacleField {
   std::vector<Column> columns_;
   ColumnLayer low_;                    ///< of the scan at hand: up to the vehicle's height
   ColumnLayer high_;                   ///< ... from there to a person's, near the lidar
+  ColumnLayer level_;                  ///< ... as high as the lidar and higher, near it
   std::vector<Column> seen_, merged_;  ///< room for one update
 };
 

@@ -132,13 +132,18 @@ void Witness::trace(const app::CycleOutput& output, const app::CycleState& state
   const auto truth = factory_.truth();
   const auto at = truth.map_from_base;
   std::printf(
-      "%10.2f  %s (%.3f, %.3f, %.1f deg) %.2f m/s %.2f rad/s, asked %.2f %.2f; free %.2f, share %.1f%s%s\n",
+      "%10.2f  %s (%.3f, %.3f, %.1f deg) %.2f m/s %.2f rad/s, asked %.2f %.2f; free %.2f, share %.1f%s%s",
       time_s(), to_string(state.mode), at.x_m(), at.y_m(), to_deg(at.yaw_rad()), truth.linear_mps,
       truth.angular_radps, output.command.linear_mps, output.command.angular_radps,
       state.ahead.stop_along_m - state.progress.along_m, state.block.squeeze.share,
       state.block.by_mover ? ", mover" : "", state.ahead.turn_free ? "" : ", no room to turn");
-  std::printf("            path:");
   const auto base_from_map = at.inverse();
+  if (state.ahead.check.blocked()) {
+    const auto where = base_from_map * state.ahead.check.where;
+    std::printf("; blocked at (%.2f, %.2f)%s%s", where.x_m, where.y_m, state.block.unseen ? ", unseen" : "",
+                state.block.felt ? ", felt" : "");
+  }
+  std::printf("\n            path:");
   for (std::size_t i = state.progress.pursuit.index;
        i < state.way.plain.points.size() && i < state.progress.pursuit.index + 20; i += 3) {
     const auto p = base_from_map * state.way.plain.points[i].position;
@@ -150,7 +155,10 @@ void Witness::trace(const app::CycleOutput& output, const app::CycleState& state
     const auto p = base_from_odom * c.centre();
     if (std::hypot(p.x_m - 0.3, p.y_m) < kNearM)
       std::printf(" (%.2f, %.2f: %.1f-%.1f%s)", p.x_m, p.y_m, static_cast<double>(c.low_m),
-                  static_cast<double>(c.high_m), c.confirmed ? "" : " unsure");
+                  static_cast<double>(c.high_m),
+                  !c.confirmed          ? " unsure"
+                  : c.has_hidden_part() ? " and on"
+                                        : "");
   }
   std::printf("\n            there:");
   for (const auto& body : factory_.bodies()) {

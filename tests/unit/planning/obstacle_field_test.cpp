@@ -188,6 +188,60 @@ TEST(ObstacleField, OneGlimpseOfSomethingTallDoesNotHauntTheBlindZone) {
   }
 }
 
+/// A mast of 2.2 m: the lowest beam passes over whatever stands near it.
+class SeenFromAbove : public testing::Test {
+ protected:
+  /// Something at x = 1.8 m, from `low_m` to 1.72 m, and higher where `high_m` says so.
+  void look(float low_m, float high_m = 0.0F, double odom_x_m = 0.0) {
+    PointCloud<Base> cloud{at(at_s_ += 0.1), {}};
+    const float x = 1.8F - static_cast<float>(odom_x_m);
+    for (const float y : {0.02F, 0.04F, 0.06F}) {
+      cloud.points.push_back({x, y, low_m, 0.0F, 1, 0});
+      cloud.points.push_back({x, y, 1.72F, 0.0F, 1, 0});
+      if (high_m > 0.0F) cloud.points.push_back({x, y, high_m, 0.0F, 1, 0});
+    }
+    if (low_m == 0.0F) cloud.points.clear();
+    field_.update(cloud, {0.0, 0.0, 2.2, to_rad(-15.0), to_rad(15.0)}, {odom_x_m, 0.0, 0.0});
+  }
+  [[nodiscard]] bool goes_on() const {
+    return std::ranges::any_of(field_.columns(), [](const Column& c) { return c.has_hidden_part(); });
+  }
+
+ private:
+  static FieldOptions tall() {
+    FieldOptions options;
+    options.top_m = 2.3;
+    return options;
+  }
+  ObstacleField field_{tall()};
+  double at_s_ = 0.0;
+
+ protected:
+  [[nodiscard]] const ObstacleField& field() const { return field_; }
+};
+
+TEST_F(SeenFromAbove, WhoShowsHisFarSideOnlyGoesOnTowardsTheLidar) {
+  for (int i = 0; i < 5; ++i) look(1.71F);
+  ASSERT_TRUE(goes_on());
+  const auto end = field().columns().front().hidden_at(field().options().hidden_m);
+  EXPECT_NEAR(end.x_m, 1.4, 0.02);
+  EXPECT_NEAR(end.y_m, 0.04, 0.02);
+  for (int i = 0; i < 20; ++i) look(0.0F, 0.0F, 0.9);
+  EXPECT_TRUE(goes_on()) << "nearer still, nobody sees him";
+  look(1.71F, 0.0F, -1.0);
+  EXPECT_FALSE(goes_on()) << "from further away there is nothing before what was seen";
+}
+
+TEST_F(SeenFromAbove, WhatWasSeenFurtherDownEndsThere) {
+  look(0.15F);
+  EXPECT_FALSE(goes_on());
+}
+
+TEST_F(SeenFromAbove, WhatReachesUpToTheLidarEndsThere) {
+  look(1.71F, 2.2F);
+  EXPECT_FALSE(goes_on());
+}
+
 TEST(ObstacleField, OneGlimpseOfAPersonWhoStaysCounts) {
   const SensorView high{0.0, 0.0, 1.25, to_rad(-15.0), to_rad(15.0)};
   ObstacleField field;
