@@ -1,8 +1,10 @@
 #include "app/runner/self_test.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 
 #include "app/lidars.hpp"
 #include "app/orders/order_store.hpp"
@@ -42,6 +44,21 @@ std::string look_at_sight(const CycleConfig& config) {
   throw Error("site.yaml", text, mend);
 }
 
+/// How far before the vehicle's front nobody sees who stands there: all lidars look over him. 0 where one
+/// sees him up to the bumper.
+double looked_over_m(const CycleConfig& config) {
+  constexpr double kPersonM = 1.5;  // the smallest of twenty grown-ups (ISO 7250-1)
+  if (config.lidars.empty()) return 0.0;
+  double best_m = std::numeric_limits<double>::infinity();
+  for (const LidarModel& lidar : config.lidars) {
+    const double over_m = lidar.mounting.z_m - kPersonM;
+    const double below = std::tan(-lidar.min_elevation_rad);
+    if (over_m <= 0.0) return 0.0;
+    if (below > 0.0) best_m = std::min(best_m, lidar.mounting.x_m + over_m / below);
+  }
+  return std::max(0.0, best_m - config.check.vehicle.front_m);
+}
+
 /// Who lies on the floor must be seen or guarded by something else, or the vehicle be so slow that its bumper
 /// may find him (ISO 3691-4: 0.3 m/s without personnel detection). The cycle keeps to that.
 std::string look_at_low_bodies(const CycleConfig& config) {
@@ -50,7 +67,13 @@ std::string look_at_low_bodies(const CycleConfig& config) {
   if (config.sure_low_m > 0.0) {
     std::snprintf(text, sizeof text, "a body of %.1f m that lies ahead is sure to %.1f m", kLyingM,
                   config.sure_low_m);
-    return text;
+    const double over_m = looked_over_m(config);
+    if (!(over_m > 0.0)) return text;
+    char over[120];
+    std::snprintf(over, sizeof over,
+                  "; a person who stands within %.1f m of the front is looked over: mount a lower lidar, too",
+                  over_m);
+    return std::string(text) + over;
   }
   std::snprintf(text, sizeof text,
                 "a body of %.1f m that lies ahead is not seen: the lowest lidar looks over it, at %.2f m",

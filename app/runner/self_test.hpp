@@ -12,7 +12,7 @@ namespace madori::app {
 
 /// What one look at a site came to.
 struct Finding {
-  std::string what;  ///< site, routes, sight, orders, disk
+  std::string what;  ///< site, routes, sight, floor, field, orders, disk
   std::string text;  ///< what is there; or what is missing, and the mend
   bool missing = false;
 };
