@@ -143,6 +143,19 @@ void Witness::trace(const app::CycleOutput& output, const app::CycleState& state
     std::printf("; blocked at (%.2f, %.2f)%s%s", where.x_m, where.y_m, state.block.unseen ? ", unseen" : "",
                 state.block.felt ? ", felt" : "");
   }
+  for (const auto& watch : state.movers) {
+    for (const auto& w : watch.out_of_sight.walkers()) {
+      const auto last = state.odometry.reading().odom_from_base.inverse() * w.last.at;
+      std::printf("; out of sight: %.1f m high since %.1f s from (%.1f, %.1f) at %.2f m/s", w.high_m,
+                  to_seconds(factory_.now() - w.seen), last.x_m, last.y_m,
+                  std::hypot(w.last.vx_mps, w.last.vy_mps));
+    }
+    for (const auto& t : watch.objects.tracks()) {
+      const auto last = state.odometry.reading().odom_from_base.inverse() * t.sightings.back().at;
+      std::printf("; track (%.1f, %.1f) %.1f m high, %.1f s", last.x_m, last.y_m, t.high_m,
+                  to_seconds(factory_.now() - t.since));
+    }
+  }
   std::printf("\n            path:");
   for (std::size_t i = state.progress.pursuit.index;
        i < state.way.plain.points.size() && i < state.progress.pursuit.index + 20; i += 3) {
