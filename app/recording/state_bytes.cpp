@@ -164,8 +164,7 @@ std::string state_bytes(const CycleState& state) {
     bytes(watch.looked);
     bytes(static_cast<std::uint64_t>(watch.objects.tracks().size()));
     for (const auto& track : watch.objects.tracks())
-      bytes(track.sightings), bytes(track.radius_m), bytes(track.high_m), bytes(track.since),
-          bytes(track.moved);
+      bytes(track.sightings), bytes(track.radius_m), bytes(track.high_m), bytes(track.since);
     bytes(watch.out_of_sight.walkers()), bytes(watch.out_of_sight.points());
   }
   return bytes.take();
@@ -179,8 +178,7 @@ void restore_watch(BytesIn& bytes, MoverWatch& watch, std::size_t most) {
   std::vector<planning::MovingObjects::Track> tracks;
   for (std::uint64_t i = 0; i < count && i < most; ++i) {
     auto& track = tracks.emplace_back();
-    bytes(track.sightings), bytes(track.radius_m), bytes(track.high_m), bytes(track.since),
-        bytes(track.moved);
+    bytes(track.sightings), bytes(track.radius_m), bytes(track.high_m), bytes(track.since);
   }
   watch.objects.restore(std::move(tracks));
   std::vector<planning::LostMover> walkers;

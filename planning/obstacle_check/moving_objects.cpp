@@ -47,14 +47,11 @@ void MovingObjects::update(const std::vector<Column>& columns, Stamp stamp) {
     track.high_m = std::max(track.high_m, group.high_m);
     while (to_seconds(stamp - track.sightings.front().stamp) > options_.history_s)
       track.sightings.pop_front();
-    track.moved = track.moved || moves(track);
     followed_.push_back(std::move(track));
   }
   for (Track& track : tracks_) {
-    if (!track.sightings.empty() && track.moved) {
-      const Mover<Odom> stood{track.sightings.back().at, 0.0, 0.0, track.radius_m};
-      lost_.push_back({moves(track).value_or(stood), track.high_m, track.sightings.back().stamp});
-    }
+    if (const auto mover = moves(track))
+      lost_.push_back({*mover, track.high_m, track.sightings.back().stamp});
     spare_.give(std::move(track));
   }
   tracks_.clear();
@@ -87,7 +84,6 @@ MovingObjects::Track MovingObjects::Spare::take() {
   tracks_.pop_back();
   track.sightings.clear();
   track.high_m = 0.0;
-  track.moved = false;
   return track;
 }
 

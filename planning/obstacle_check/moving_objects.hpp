@@ -23,7 +23,7 @@ struct Mover {
 
 /// One that is seen no more.
 struct LostMover {
-  Mover<Odom> last;     ///< as it was last seen; without speed where it stood then
+  Mover<Odom> last;     ///< as it was last seen
   double high_m = 0.0;  ///< as high as it was ever seen to be, above the floor
   Stamp seen{};
 };
@@ -56,7 +56,6 @@ class MovingObjects {
     double radius_m = 0.0;
     double high_m = 0.0;  ///< as high as it was ever seen to be
     Stamp since{};        ///< when it was first seen
-    bool moved = false;   ///< some time
     [[nodiscard]] Mover<Odom> mover() const;
   };
 
@@ -65,7 +64,7 @@ class MovingObjects {
   /// `columns` after a scan taken at `stamp`.
   void update(const std::vector<Column>& columns, Stamp stamp);
   [[nodiscard]] const std::vector<Mover<Odom>>& movers() const { return movers_; }
-  /// Who moves, or did and stood, and with whom no group of the last update went on.
+  /// Movers that no group of the last update went on with.
   [[nodiscard]] const std::vector<LostMover>& lost() const { return lost_; }
   [[nodiscard]] const MoverOptions& options() const { return options_; }
   /// What is remembered, and going on with what was remembered at another time.

@@ -39,14 +39,13 @@ class Blind {
   Transform2<Base, Odom> base_from_odom_;
 };
 
-/// The way that he had when he was lost; none where he stood.
+/// The way that he had when he was lost.
 struct Way {
   explicit Way(const LostMover& w)
       : from(w.last.at),
         speed_mps(std::hypot(w.last.vx_mps, w.last.vy_mps)),
-        x(stood() ? 0.0 : w.last.vx_mps / speed_mps),
-        y(stood() ? 0.0 : w.last.vy_mps / speed_mps) {}
-  [[nodiscard]] bool stood() const { return !(speed_mps > 0.0); }
+        x(w.last.vx_mps / speed_mps),
+        y(w.last.vy_mps / speed_mps) {}
   [[nodiscard]] Point2<Odom> at(double along_m) const {
     return {from.x_m + along_m * x, from.y_m + along_m * y};
   }
@@ -75,19 +74,17 @@ void places(const LostMover& w, const Blind& blind, Stamp now, Visit&& visit) {
 }
 
 /// Whether someone who is followed since he was lost may be he: on the way that he had, or back where he
-/// went; anywhere around where he stood.
+/// went.
 bool may_be(const LostMover& w, const MovingObjects::Track& track, Stamp now) {
   constexpr double kSlackM = 1.0;      // from where he was lost until he is surely in sight
   constexpr double kFastestMps = 2.0;  // of who has been out of sight
-  constexpr double kAsHighM = 0.3;     // a person is no cart, whichever comes that way
-  if (track.since <= w.seen || std::abs(track.high_m - w.high_m) > kAsHighM) return false;
+  if (track.since <= w.seen) return false;
   const Point2<Odom>& there = track.sightings.back().at;
   const Way way(w);
-  const double reach_m = kSlackM + kFastestMps * to_seconds(now - w.seen);
-  if (way.stood()) return distance_m(there, w.last.at) <= reach_m;
   const double along_m = way.along_m(there);
   const double aside_m = distance_m(there, way.at(along_m));
-  return along_m <= reach_m && aside_m <= kSlackM + kTurned * along_m;
+  return along_m <= kSlackM + kFastestMps * to_seconds(now - w.seen) &&
+         aside_m <= kSlackM + kTurned * along_m;
 }
 
 void add_disc(const Point2<Odom>& at, double radius_m, std::vector<Point2<Odom>>& points) {

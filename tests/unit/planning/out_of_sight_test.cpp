@@ -23,7 +23,7 @@ LidarModel mast() {
   return lidar;
 }
 
-/// A vehicle with a lidar on a mast, which stands where nothing else is said, and one person.
+/// A standing vehicle with a lidar on a mast, and one person.
 struct Scene {
   std::vector<LidarModel> lidars{mast()};
   test::ToyLidar lidar;
@@ -36,7 +36,6 @@ struct Scene {
   OutOfSight out_of_sight;
   std::mt19937 random{3};
   double at_s = 0.0;
-  double x_m = 0.0;  ///< of the vehicle
 
   Scene() {
     lidar.height_m = 2.2;
@@ -45,10 +44,9 @@ struct Scene {
   Point2<Map>& person() { return lidar.posts[0].at; }
   void look() {
     const Stamp stamp = stamp_from_seconds(at_s += 0.1);
-    const Transform2<Odom, Base> pose(x_m, 0.0, 0.0);
-    field.update(lidar.scan({x_m, 0.0, 0.0}, stamp, random), SensorView::of(lidars[0]), pose);
+    field.update(lidar.scan({}, stamp, random), SensorView::of(lidars[0]), {});
     objects.update(field.columns(), stamp);
-    out_of_sight.update(objects, lidars, pose, stamp);
+    out_of_sight.update(objects, lidars, {}, stamp);
   }
   /// At 1 m/s.
   void walk_to(const Point2<Map>& goal) {
@@ -58,10 +56,6 @@ struct Scene {
       person().y_m += share * (goal.y_m - person().y_m);
       look();
     }
-  }
-  /// At 0.5 m/s.
-  void drive_to(double goal_m) {
-    for (; x_m < goal_m; x_m += 0.05) look();
   }
   void stand(double time_s) {
     for (double t = 0.0; t < time_s; t += 0.1) look();
@@ -129,28 +123,6 @@ TEST(OutOfSight, WhoMayWalkBesideTheVehicleIsBelievedNearForAWhile) {
   EXPECT_TRUE(scene.out_of_sight.points().empty());
   EXPECT_TRUE(scene.out_of_sight.anyone());
   scene.out_of_sight.update(nobody, scene.lidars, gone_on, stamp_from_seconds(scene.at_s + 20.0));
-  EXPECT_FALSE(scene.out_of_sight.anyone());
-}
-
-/// Who waits for the vehicle walks on when it is near.
-TEST(OutOfSight, WhoCameAndStoodMayWalkOnOutOfSight) {
-  Scene scene;
-  scene.stand(1.0);
-  scene.walk_to({2.0, 0.3});
-  scene.stand(0.7);
-  EXPECT_FALSE(scene.out_of_sight.anyone()) << "he is seen to stand";
-  scene.drive_to(1.0);
-  EXPECT_TRUE(scene.out_of_sight.anyone());
-  scene.drive_to(6.0);
-  scene.stand(16.0);
-  EXPECT_FALSE(scene.out_of_sight.anyone()) << "passed, and seen behind";
-}
-
-TEST(OutOfSight, WhatNeverMovedIsNotWaitedFor) {
-  Scene scene;
-  scene.person() = {2.0, 0.3};
-  scene.stand(3.0);
-  scene.drive_to(1.0);
   EXPECT_FALSE(scene.out_of_sight.anyone());
 }
 
