@@ -180,7 +180,10 @@ TEST(Fault, EmergencyStopAndDriveFaultHoldTheDrive) {
   Seen stop(with(fault(FaultKind::EmergencyStop, Device::Drive, 0.1, 0.1)));
   stop.run(0.15);
   EXPECT_EQ(stop.receiver.drive_status()->state, control::wire::DriveState::EmergencyStop);
-  stop.run(0.15);
+  stop.run(0.2);
+  EXPECT_EQ(stop.receiver.drive_status()->state, control::wire::DriveState::EmergencyStop)
+      << "told on for 0.2 s";
+  stop.run(0.1);
   EXPECT_EQ(stop.receiver.drive_status()->state, control::wire::DriveState::Idle);
   Seen broken(with(fault(FaultKind::DriveFault, Device::Drive)));
   broken.run(0.1);
