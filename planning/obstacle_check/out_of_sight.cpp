@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kTurned = 0.35;  ///< sideways of his way by metre of it: 20 degrees
 constexpr double kHeadM = 0.15;   ///< of his top that may be missed: lasers are degrees apart, and few hit it
+constexpr double kLevelM = 0.05;  ///< above his top as a level lidar knows it, which is its own height
 
 /// Whether someone so high stands within the view of lidars in direction, and below that of all in height.
 class Blind {
@@ -28,7 +29,8 @@ class Blind {
       if (!view.looks_at(std::atan2(y, x))) continue;
       const double share = away_m > nearer_m ? nearer_m / away_m : 1.0;
       at = {at.x_m - share * x, at.y_m - share * y};
-      if (view.sees(at, 0.0, high_m - kHeadM)) return false;
+      const bool level = view.min_elevation_rad == view.max_elevation_rad;
+      if (view.sees(at, 0.0, level ? high_m + kLevelM : high_m - kHeadM)) return false;
       looked_at = true;
     }
     return looked_at;

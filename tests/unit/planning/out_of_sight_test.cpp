@@ -111,6 +111,34 @@ TEST(OutOfSight, AnotherLidarThatSeesHimThereKeepsHimInSight) {
   EXPECT_FALSE(scene.out_of_sight.anyone());
 }
 
+/// Of whom a level lidar follows it knows no more than its own height: he is in sight wherever it looks.
+TEST(OutOfSight, ALevelLidarLooksOverNobodyWhomItHasSeen) {
+  LidarModel level{};
+  level.kind = LidarKind::Planar;
+  level.mounting.z_m = 0.25;
+  level.from_rad = -kPi;
+  level.to_rad = kPi;
+  const std::vector<LidarModel> lidars{level};
+  MovingObjects objects;
+  OutOfSight out_of_sight;
+  std::vector<Column> columns(1);
+  for (int i = 0; i <= 20; ++i) {
+    const Stamp stamp = stamp_from_seconds(0.1 * i);
+    Column& leg = columns.front();
+    leg.min_x_m = leg.max_x_m = 3.0F - 0.1F * static_cast<float>(i);
+    leg.min_y_m = leg.max_y_m = 1.0F;
+    leg.cell_x = 30 - i, leg.cell_y = 10;
+    leg.low_m = leg.high_m = 0.25F;
+    leg.confirmed = leg.entered = true;
+    leg.seen = stamp;
+    if (i == 20) columns.clear();  // he went behind something
+    objects.update(columns, stamp);
+    out_of_sight.update(objects, lidars, {}, stamp);
+    EXPECT_FALSE(out_of_sight.anyone()) << i;
+  }
+  EXPECT_EQ(objects.lost().size(), 1U);
+}
+
 /// He is somewhere near for a while where the way he had is empty by now: the vehicle has gone on.
 TEST(OutOfSight, WhoMayWalkBesideTheVehicleIsBelievedNearForAWhile) {
   Scene scene;
