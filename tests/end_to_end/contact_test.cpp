@@ -15,7 +15,8 @@ TEST(Contact, ATouchBetweenTwoFramesHoldsTheVehicleUntilAPersonHasLooked) {
   test::LockStepRun run(site, setup);
   const auto order = run.orders->add({{kStation, app::StopAction::Pass, 0.0}}, 1, run.factory->now());
   ASSERT_TRUE(run.run_until(
-      [&] { return run.state().mode == app::Mode::Driving && run.factory->truth().linear_mps > 0.4; }, 120.0));
+      [&] { return run.state().mode == app::Mode::Driving && run.factory->truth().linear_mps > 0.4; },
+      120.0));
   const auto& vehicle = run.factory->vehicle().record();
   simulation::MoverSpec body;
   body.kind = simulation::MoverKind::LyingBody;
