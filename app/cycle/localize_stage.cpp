@@ -95,16 +95,6 @@ void follow_drawing(CycleState& state, const CycleConfig& config) {
   state.site = std::move(site);
 }
 
-void note_anchor(CycleState& state, Stamp stamp) {
-  constexpr double kEveryS = 0.5;
-  constexpr std::size_t kMost = 3600;                                                    // half an hour
-  if (!state.anchors.empty() && stamp < state.anchors.back().at) state.anchors.clear();  // the clock was set
-  if (!may_drive(state.pose.health.state)) return;
-  if (!state.anchors.empty() && to_seconds(stamp - state.anchors.back().at) < kEveryS) return;
-  state.anchors.push_back({stamp, map_from_odom_now(state)});
-  if (state.anchors.size() > kMost) state.anchors.pop_front();
-}
-
 /// One sweep to everybody who looks. A lidar that is faster than the way need be checked tells the obstacles
 /// of every sweep, and its movers, whose speeds want time between two looks, of some.
 void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleInput& input,

@@ -92,9 +92,14 @@ void arrive(CycleState& state, Stamp now);
                                        const CycleConfig& config);
 
 [[nodiscard]] Transform2<Map, Odom> map_from_odom_now(const CycleState& state);
+/// Keeps how the odometry lies on the map, every half second for half an hour, while the vehicle knows it.
+void note_anchor(CycleState& state, Stamp stamp);
 /// Confirmed columns around the vehicle, Map frame: their corners, and where they may go on unseen. On the
 /// workbench: good until the next call.
 const std::vector<Point2<Map>>& obstacle_points(CycleState& state, const CycleConfig& config);
+/// Whether what stands at a place is remembered only: no scan has shown it, or its upper part, lately.
+[[nodiscard]] bool is_unseen(const CycleState& state, const Point2<Map>& where, Stamp now,
+                             const CycleConfig& config);
 /// A sweep came: which directions ahead it tells of.
 void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarModel& lidar, Stamp now);
 /// When all that driving needs of the lidars had last been heard: the way ahead in somebody's field of view,

@@ -14,8 +14,9 @@ struct ControllerInputs {
   std::uint16_t battery_mv = 0;
 };
 
-/// Why the wheels are stopped: told for so long after it has ended that status frames which are lost, and a PC
-/// that looks less often, cannot hide it. Unseen, the PC would take the stop for one without a cause and go on.
+/// Why the wheels are stopped: told for so long after it has ended that status frames which are lost, and a
+/// PC that looks less often, cannot hide it. Unseen, the PC would take the stop for one without a cause and
+/// go on.
 class ToldCause {
  public:
   static constexpr std::uint32_t kMicroseconds = 200'000;
@@ -37,8 +38,8 @@ class ToldCause {
 /// counts the encoders' turns. Firmware and simulator run this same class. Freestanding.
 ///
 /// Any stop (silence, emergency stop, bumper, fault) is held: its cause is told for at least 200 ms; when it
-/// has gone, the state is Idle, and the wheels turn again only after a command without enable has been followed
-/// by one with it.
+/// has gone, the state is Idle, and the wheels turn again only after a command without enable has been
+/// followed by one with it.
 class Controller {
  public:
   /// One byte from the line; `now_us` is the controller's clock, which may wrap.

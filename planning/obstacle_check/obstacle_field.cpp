@@ -10,6 +10,16 @@ namespace {
 constexpr float kGlimpseAboveM = 0.3F;  ///< nothing lower stands there as far as was seen
 constexpr double kLevelSlackM = 0.1;    ///< below the lidar's height
 
+/// Whether a layer holds such a column there or within a step beside it.
+template <class Is>
+bool holds_beside(const ColumnLayer& layer, const Column& column, const Is& is) {
+  for (std::int32_t dy = -2; dy <= 2; ++dy)
+    for (std::int32_t dx = -2; dx <= 2; ++dx)
+      if (const Column* there = layer.find(column.cell_x + dx, column.cell_y + dy))
+        if (is(*there)) return true;
+  return false;
+}
+
 }  // namespace
 
 /// One pass over the points: columns up to the vehicle's height and above it, and how far was seen.
@@ -68,22 +78,12 @@ void ObstacleField::assume_feet(const SensorView& view, const Transform2<Odom, B
   }
 }
 
-/// Whether something near it is seen that reaches up to the lidar.
-bool ObstacleField::is_level(const Column& column) const {
-  for (std::int32_t dy = -2; dy <= 2; ++dy)
-    for (std::int32_t dx = -2; dx <= 2; ++dx)
-      if (level_.find(column.cell_x + dx, column.cell_y + dy) != nullptr) return true;
-  return false;
-}
-
 /// Whether something as high as the lidar, which it sees at any distance, is seen above a column or within
 /// a step beside it.
 bool ObstacleField::is_under_something(const Column& column, const SensorView& view) const {
-  for (std::int32_t dy = -2; dy <= 2; ++dy)
-    for (std::int32_t dx = -2; dx <= 2; ++dx)
-      if (const Column* above = high_.find(column.cell_x + dx, column.cell_y + dy))
-        if (above->confirmed && static_cast<double>(above->high_m) > view.z_m - kLevelSlackM) return true;
-  return false;
+  return holds_beside(high_, column, [&](const Column& above) {
+    return above.confirmed && static_cast<double>(above.high_m) > view.z_m - kLevelSlackM;
+  });
 }
 
 bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
@@ -105,10 +105,14 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<O
   return !may_have_left || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
 }
 
+std::int32_t ObstacleField::cell_of(double at_m) const {
+  return static_cast<std::int32_t>(std::floor(at_m / options_.cell_m));
+}
+
 bool ObstacleField::is_known(const Point2<Odom>& place) const {
   Column there;
-  there.cell_x = static_cast<std::int32_t>(std::floor(place.x_m / options_.cell_m));
-  there.cell_y = static_cast<std::int32_t>(std::floor(place.y_m / options_.cell_m));
+  there.cell_x = cell_of(place.x_m);
+  there.cell_y = cell_of(place.y_m);
   return std::binary_search(merged_.begin(), merged_.end(), there, by_cell);
 }
 
@@ -131,7 +135,8 @@ void ObstacleField::note_hidden_parts(const SensorView& view, const Transform2<O
     const Point2<Odom> beside = c.hidden_at(beside_m);
     const bool seen =
         view.sees(base_from_odom * beside, static_cast<double>(c.low_m), static_cast<double>(c.high_m));
-    if (seen || is_known(beside) || is_known(c.hidden_at(2.0 * beside_m)) || is_level(c))
+    const auto is_any = [](const Column&) { return true; };
+    if (seen || is_known(beside) || is_known(c.hidden_at(2.0 * beside_m)) || holds_beside(level_, c, is_any))
       c.hidden_x_m = c.hidden_y_m = 0.0F;
   }
 }
@@ -179,13 +184,10 @@ void ObstacleField::forget_near(const Point2<Odom>& place, double radius_m) {
 
 void ObstacleField::add_felt(const std::vector<Point2<Odom>>& places, Stamp now) {
   constexpr double kHighM = 0.3;
-  const auto cell = [&](double at_m) {
-    return static_cast<std::int32_t>(std::floor(at_m / options_.cell_m));
-  };
   for (const auto& place : places) {
     Column felt;
-    felt.cell_x = cell(place.x_m);
-    felt.cell_y = cell(place.y_m);
+    felt.cell_x = cell_of(place.x_m);
+    felt.cell_y = cell_of(place.y_m);
     felt.min_x_m = felt.max_x_m = static_cast<float>(place.x_m);
     felt.min_y_m = felt.max_y_m = static_cast<float>(place.y_m);
     felt.low_m = static_cast<float>(options_.ground_clearance_m);

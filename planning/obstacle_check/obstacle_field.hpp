@@ -65,7 +65,7 @@ class ObstacleField {
   [[nodiscard]] bool is_under_something(const Column& column, const SensorView& view) const;
   /// Of merged_: which go on where they cannot be seen.
   void note_hidden_parts(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp now);
-  [[nodiscard]] bool is_level(const Column& column) const;
+  [[nodiscard]] std::int32_t cell_of(double at_m) const;
   [[nodiscard]] bool is_known(const Point2<Odom>& place) const;
   [[nodiscard]] bool has_entered(const Column& column, Stamp now) const;
   [[nodiscard]] bool keep(Column& old, const SensorView& view, const Transform2<Odom, Base>& odom_from_base,

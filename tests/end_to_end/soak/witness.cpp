@@ -138,6 +138,7 @@ void Witness::trace(const app::CycleOutput& output, const app::CycleState& state
       state.ahead.stop_along_m - state.progress.along_m, state.block.squeeze.share,
       state.block.by_mover ? ", mover" : "", state.ahead.turn_free ? "" : ", no room to turn");
   const auto base_from_map = at.inverse();
+  const auto base_from_odom = state.odometry.reading().odom_from_base.inverse();
   if (state.ahead.check.blocked()) {
     const auto where = base_from_map * state.ahead.check.where;
     std::printf("; blocked at (%.2f, %.2f)%s%s", where.x_m, where.y_m, state.block.unseen ? ", unseen" : "",
@@ -145,13 +146,13 @@ void Witness::trace(const app::CycleOutput& output, const app::CycleState& state
   }
   for (const auto& watch : state.movers) {
     for (const auto& w : watch.out_of_sight.walkers()) {
-      const auto last = state.odometry.reading().odom_from_base.inverse() * w.last.at;
+      const auto last = base_from_odom * w.last.at;
       std::printf("; out of sight: %.1f m high since %.1f s from (%.1f, %.1f) at %.2f m/s", w.high_m,
                   to_seconds(factory_.now() - w.seen), last.x_m, last.y_m,
                   std::hypot(w.last.vx_mps, w.last.vy_mps));
     }
     for (const auto& t : watch.objects.tracks()) {
-      const auto last = state.odometry.reading().odom_from_base.inverse() * t.sightings.back().at;
+      const auto last = base_from_odom * t.sightings.back().at;
       std::printf("; track (%.1f, %.1f) %.1f m high, %.1f s", last.x_m, last.y_m, t.high_m,
                   to_seconds(factory_.now() - t.since));
     }
@@ -163,7 +164,6 @@ void Witness::trace(const app::CycleOutput& output, const app::CycleState& state
     std::printf(" (%.2f, %.2f)", p.x_m, p.y_m);
   }
   std::printf("\n            columns:");
-  const auto base_from_odom = state.odometry.reading().odom_from_base.inverse();
   for (const auto& c : state.obstacles.columns()) {
     const auto p = base_from_odom * c.centre();
     if (std::hypot(p.x_m - 0.3, p.y_m) < kNearM)

@@ -93,9 +93,10 @@ TEST(DriveController, EveryCauseStopsAndIsHeld) {
     bench.send(true);
     EXPECT_EQ(bench.controller.left_uradps(), 0);
     bench.inputs = {};
-    bench.wait_ms(kWatchdogMicroseconds / 1000 - 1);
+    bench.wait_ms(ToldCause::kMicroseconds / 1000 - 1);
     bench.send(true);
-    EXPECT_EQ(bench.controller.state(), state) << "a touch of a millisecond is told so long that the PC sees it";
+    EXPECT_EQ(bench.controller.state(), state)
+        << "a touch of a millisecond is told so long that the PC sees it";
     EXPECT_EQ(bench.controller.left_uradps(), 0);
     bench.wait_ms(1);
     EXPECT_EQ(bench.controller.state(), DriveState::Idle);
