@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "app/cycle/stages.hpp"
 
@@ -44,10 +45,9 @@ Transform2<Map, Odom> map_from_odom_now(const CycleState& state) {
 void note_anchor(CycleState& state, Stamp stamp) {
   constexpr double kEveryS = 0.5;
   constexpr std::size_t kMost = 3600;
-  const bool clock_was_set = !state.anchors.empty() && stamp < state.anchors.back().at;
-  if (clock_was_set) state.anchors.clear();
-  if (!may_drive(state.pose.health.state)) return;
-  if (!state.anchors.empty() && to_seconds(stamp - state.anchors.back().at) < kEveryS) return;
+  const double since_s = state.anchors.empty() ? kEveryS : to_seconds(stamp - state.anchors.back().at);
+  if (since_s <= -kEveryS) state.anchors.clear();  // the clock was set; two lidars' sweeps differ by less
+  if (!may_drive(state.pose.health.state) || std::abs(since_s) < kEveryS) return;
   state.anchors.push_back({stamp, map_from_odom_now(state)});
   if (state.anchors.size() > kMost) state.anchors.pop_front();
 }

@@ -21,6 +21,12 @@ class RememberedPlaces : public testing::Test {
     state_.anchors.push_back({at(seconds), map_from_odom});
     state_.pose.map_from_base = map_from_odom * Transform2<Odom, Base>();
   }
+  /// A sweep was measured then, while the odometry lay so.
+  void sweep(double seconds, const Transform2<Map, Odom>& map_from_odom) {
+    state_.pose.health.state = LocalizationState::Localized;
+    state_.pose.map_from_base = map_from_odom * Transform2<Odom, Base>();
+    note_anchor(state_, at(seconds));
+  }
   Point2<Map> place() { return obstacle_points(state_, config_).front(); }
 
  private:
@@ -46,6 +52,22 @@ TEST_F(RememberedPlaces, WithoutAnAnchorTheOdometryTells) {
   EXPECT_NEAR(place().x_m, 5.0, 1e-9);
   localized(60.0, {0.0, 1.0, 0.0});
   EXPECT_NEAR(place().y_m, 1.0, 1e-9);
+}
+
+TEST_F(RememberedPlaces, TwoLidarsWhoseSweepsComeInAnotherOrderThanTheyWereMeasuredForgetNothing) {
+  sweep(9.9, {0.0, 0.0, 0.0});
+  for (int i = 0; i < 40; ++i) {
+    sweep(10.4 + 0.5 * i, {0.0, 0.0, 0.001 * i});
+    sweep(10.37 + 0.5 * i, {0.0, 0.0, 0.001 * i});
+  }
+  EXPECT_NEAR(place().y_m, 0.0, 1e-9);
+}
+
+TEST_F(RememberedPlaces, WhenTheClockIsSetBackTheOdometryTells) {
+  sweep(9.9, {0.0, 0.0, 0.0});
+  sweep(20.0, {0.0, 0.1, 0.0});
+  sweep(5.0, {0.0, 0.2, 0.0});
+  EXPECT_NEAR(place().y_m, 0.2, 1e-9);
 }
 
 }  // namespace
