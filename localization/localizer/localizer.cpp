@@ -158,7 +158,9 @@ void Localizer::remember(const SurfaceScan& scan) {
 
 void Localizer::think_if_due(Stamp stamp) {
   const std::size_t size = map_.memory.size();
-  const int every = size < options_.young_size || agreement_.is_beside_walls() ? 1 : size < 200 ? 4 : 8;
+  // One that was switched on with a large memory stands, too, and is not to move before it has looked.
+  const bool at_once = !map_.evidence.looked || size < options_.young_size || agreement_.is_beside_walls();
+  const int every = at_once ? 1 : size < 200 ? 4 : 8;
   if (!worker_.busy() && keyframes_since_thinking_ >= every) {
     keyframes_since_thinking_ = 0;
     worker_.start(stamp, map_, options_);

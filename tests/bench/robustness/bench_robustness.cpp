@@ -35,13 +35,13 @@ void print_case(const Building& building, const Case& c, const std::filesystem::
   const auto share = [&](LocalizationState s) { return 100.0 * out.health.share(s); };
   std::printf(
       "%-26s %4d %6.3f %6.3f %6.2f %5.1f | %5.1f %5.1f %5.1f %5.1f %4d %5.2f | %6.3f | %5.1f %5.1f | %4zu "
-      "%5.2f\n",
+      "%4zu %5.2f\n",
       (building.name + "/" + c.name).c_str(), out.longest_lost, score["position_m"]["median"].get<double>(),
       score["position_m"]["p95"].get<double>(), score["heading_deg"]["mean"].get<double>(),
       100.0 * score["within"]["share"].get<double>(), share(LocalizationState::Localized),
       share(LocalizationState::Degraded), share(LocalizationState::Ambiguous), share(LocalizationState::Lost),
       out.wrongly_sure, out.worst_sure_m, relations, out.p50_ms, out.p99_ms, memory.size(),
-      1e-6 * static_cast<double>(memory.bytes()));
+      memory.factors().size(), 1e-6 * static_cast<double>(memory.bytes()));
   std::fflush(stdout);
 }
 
@@ -49,9 +49,9 @@ class Table {
  public:
   Table(std::filesystem::path folder, std::string filter, std::filesystem::path scans)
       : folder_(std::move(folder)), filter_(std::move(filter)), scans_(std::move(scans)) {
-    std::printf("%-26s %4s %6s %6s %6s %5s | %5s %5s %5s %5s %4s %5s | %6s | %5s %5s | %4s %5s\n", "case",
+    std::printf("%-26s %4s %6s %6s %6s %5s | %5s %5s %5s %5s %4s %5s | %6s | %5s %5s | %4s %4s %5s\n", "case",
                 "lost", "median", "p95", "head", "in %", "LOC", "DEG", "AMB", "LOST", "sure", "worst",
-                "relat.", "p50ms", "p99ms", "keyf", "MB");
+                "relat.", "p50ms", "p99ms", "keyf", "ties", "MB");
   }
 
   void run(const std::string& name, const std::function<Building()>& make, const std::vector<Case>& cases) {

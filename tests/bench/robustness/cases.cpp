@@ -3,17 +3,6 @@
 #include <cmath>
 
 namespace madori::bench {
-namespace {
-
-Case coarse_laps(double place_m, double place_rad) {
-  Case c{.name = "laps " + std::to_string(place_m).substr(0, 3), .laps = 4};
-  c.options.memory.place_m = place_m;
-  c.options.memory.place_rad = place_rad;
-  return c;
-}
-
-}  // namespace
-
 std::vector<Case> log_harms() {
   return {{.name = "start ++", .start_x_m = 0.35, .start_y_m = 0.35, .start_deg = 10.0},
           {.name = "start --", .start_x_m = -0.35, .start_y_m = -0.35, .start_deg = 10.0},
@@ -30,9 +19,7 @@ std::vector<Case> log_harms() {
           {.name = "turns 10 % more", .log = {.turn_scale = 1.1}},
           {.name = "bias 3 deg/m", .log = {.bias_rad_per_m = 0.052}},
           {.name = "noisy wheels", .log = {.noise = 0.15}},
-          {.name = "laps", .laps = 4},
-          coarse_laps(0.6, 0.35),
-          coarse_laps(1.0, 0.6)};
+          {.name = "laps", .laps = 10}};
 }
 
 std::vector<Case> ten_starts() {

@@ -29,11 +29,13 @@ mapping::Walls picture_walls(const std::filesystem::path& picture, double m_per_
   const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side});
   if (harm.thinner_px > 0) cv::dilate(pixels, pixels, brush);  // paper grows over the ink
   if (harm.thinner_px < 0) cv::erode(pixels, pixels, brush);
+  const auto read = mapping::read_drawing(image, {});
   mapping::Walls walls;
-  for (const mapping::PixelSegment& s : mapping::read_drawing(image, {}).walls) {
+  for (const mapping::PixelSegment& s : read.walls) {
     walls.push_back({static_cast<int>(walls.size()),
                      {{s.u1 * m_per_px, (image.height_px - s.v1) * m_per_px},
-                      {s.u2 * m_per_px, (image.height_px - s.v2) * m_per_px}}});
+                      {s.u2 * m_per_px, (image.height_px - s.v2) * m_per_px}},
+                     read.probabilities[walls.size()]});
   }
   return walls;
 }
@@ -129,7 +131,7 @@ mapping::Walls lie(const mapping::Walls& walls, const Lies& lies, std::mt19937& 
       *p = bent(*p, waves);
       *p = scaled_about_middle(walls, {p->x_m + shift * nx, p->y_m + shift * ny}, lies.scale);
     }
-    out.push_back({static_cast<int>(out.size()), s});
+    out.push_back({static_cast<int>(out.size()), s, wall.probability});
   }
   return out;
 }

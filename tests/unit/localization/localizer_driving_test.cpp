@@ -193,6 +193,26 @@ TEST_F(SymmetricHall, SwitchedOnTheNextDayItFindsItsPlaceByWhatItRemembersAndKee
   }
 }
 
+TEST(LocalizerDriving, SwitchedOnWhereItStoodWithALargeMemoryItKnowsItsPlaceStanding) {
+  const mapping::Walls walls = test::factory_floor();
+  const auto yesterday = drive(walls, {{18.0, 3.0}, {18.0, 21.0}, {26.0, 21.0}}, ten_hertz(), 31);
+  Localizer first(walls, InitialPose{yesterday.front().truth}, driving_options());
+  for (const auto& moment : yesterday) (void)take(first, moment);
+  ASSERT_TRUE(first.remembered());
+  const Memory memory = first.remembered()->together();
+  ASSERT_GT(memory.size(), LocalizerOptions{}.young_size);
+  Localizer next(walls, InitialPose{yesterday.back().truth}, driving_options());
+  next.recall(memory);
+  auto standing = yesterday.back();
+  PoseEstimate e;
+  for (int i = 0; i < 20; ++i) {
+    standing.odometry.stamp = standing.scan.stamp += std::chrono::milliseconds(100);
+    e = take(next, standing);
+  }
+  EXPECT_TRUE(next.has_recalled());
+  EXPECT_EQ(e.health.state, LocalizationState::Localized) << e.health.reason;
+}
+
 TEST(LocalizerDriving, WhatDrivesPastInFrontOfTheLidarIsNoCarry) {
   const mapping::Walls walls = test::factory_floor();
   std::mt19937 engine(13);
