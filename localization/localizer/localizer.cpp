@@ -15,17 +15,21 @@ Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPos
 }
 
 /// What was remembered lies elsewhere, or nobody knows where: a fresh memory, from the next scan on.
-void Localizer::begin_anew(const std::optional<StartPrior>& told, bool carried) {
+void Localizer::begin_anew(const std::optional<StartPrior>& told, Anew why) {
   worker_.discard();
   const bool was_sure = is_sure();
+  const bool carried = why != Anew::Told;
   if (map_.drawing && carried && was_sure)
     map_.drawing->set_earlier(std::make_shared<const Memory>(remembered()->together()));
-  map_.memory = Memory(options_.memory);
   if (map_.drawing) {
-    map_.drawing->belief.forget();
+    if (why == Anew::Looks)
+      map_.drawing->belief.look_again(map_.memory.poses().back());
+    else
+      map_.drawing->belief.forget();
     if (started_ && !was_sure) map_.drawing->walls.straighten();   // what it was bent to may lie elsewhere
     if (started_ && !carried) map_.drawing->set_earlier(nullptr);  // a person knows better
   }
+  map_.memory = Memory(options_.memory);
   map_.evidence = {};
   map_.evidence.has_drawing = map_.drawing.has_value();
   map_.told = told;
@@ -191,8 +195,9 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
     const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
     const Transform2<Map, Base> before = anchor_;
     follow(scan, step);
-    if (was_carried(stamp, points, step, before) || gives_up(stamp) || wants_another_look(stamp)) {
-      begin_anew(std::nullopt, true);
+    const bool carried = was_carried(stamp, points, step, before) || gives_up(stamp);
+    if (carried || wants_another_look(stamp)) {
+      begin_anew(std::nullopt, carried ? Anew::Carried : Anew::Looks);
       surroundings_.restart();
     }
   } else {

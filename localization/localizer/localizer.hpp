@@ -90,7 +90,9 @@ class Localizer {
                                  const Transform2<Map, Base>& before);
   [[nodiscard]] bool gives_up(Stamp stamp) const;
   [[nodiscard]] bool wants_another_look(Stamp stamp) const;
-  void begin_anew(const std::optional<StartPrior>& told, bool carried = false);
+  /// Somebody says so; it was carried, or lay elsewhere; it stands and looks again.
+  enum class Anew { Told, Carried, Looks };
+  void begin_anew(const std::optional<StartPrior>& told, Anew why = Anew::Told);
 
   LocalizerOptions options_;
   std::vector<Point2<Base>> weighty_;  ///< of the scan at hand

@@ -46,13 +46,22 @@ double distance_to(const Outline& outline, const Point2<simulation::Building>& p
   return nearest;
 }
 
-/// Whether a cell of the layer lies within the tolerance.
-bool shows(const HybridMap& map, const Point2<Map>& p, CellState layer) {
+/// What the cells within the tolerance say of a place: the layer where one says so, else what else stands
+/// there, else what its own cell says.
+CellState shown(const HybridMap& map, const Point2<Map>& p, CellState layer) {
+  const CellState other = layer == CellState::Static ? CellState::SemiStatic : CellState::Static;
+  CellState found = map.state_at(p);
   for (const double dy : {0.0, -kToleranceM, kToleranceM})
-    for (const double dx : {0.0, -kToleranceM, kToleranceM})
-      if (map.state_at({p.x_m + dx, p.y_m + dy}) == layer) return true;
-  return false;
+    for (const double dx : {0.0, -kToleranceM, kToleranceM}) {
+      const CellState state = map.state_at({p.x_m + dx, p.y_m + dy});
+      if (state == layer) return layer;
+      if (state == other) found = other;
+    }
+  return found;
 }
+
+constexpr std::array<const char*, 6> kStates{"unseen",      "free",   "moving",
+                                             "semi_static", "static", "taken_away"};
 
 nlohmann::json shares(std::size_t right, std::size_t cells, std::size_t found, std::size_t sought) {
   const auto share = [](std::size_t part, std::size_t of) {
@@ -133,6 +142,7 @@ nlohmann::json MapTruth::compare(const HybridMap& map) const {
     return nearest;
   };
   std::array<std::size_t, 2> cells{}, right{}, sought{}, found{};
+  std::array<std::array<std::size_t, kStates.size()>, 2> as{};
   std::size_t phantoms = 0, moving = 0, known = 0;
   const CellTree& tree = map.cells();
   for (CellTree::Index i = 0; i < tree.size(); ++i) {
@@ -155,11 +165,18 @@ nlohmann::json MapTruth::compare(const HybridMap& map) const {
     const auto nearest = distances(seen.second);
     const std::size_t layer = nearest[0] <= nearest[1] ? 0 : 1;
     ++sought[layer];
-    found[layer] +=
-        shows(map, on_map(seen.second), layer == 0 ? CellState::Static : CellState::SemiStatic) ? 1 : 0;
+    const CellState wanted = layer == 0 ? CellState::Static : CellState::SemiStatic;
+    const CellState state = shown(map, on_map(seen.second), wanted);
+    found[layer] += state == wanted ? 1 : 0;
+    ++as[layer][static_cast<std::size_t>(state)];
   }
+  nlohmann::json read_as;
+  for (const std::size_t layer : {0U, 1U})
+    for (std::size_t i = 0; i < kStates.size(); ++i)
+      read_as[layer == 0 ? "static" : "semi_static"][kStates[i]] = as[layer][i];
   return {{"static", shares(right[0], cells[0], found[0], sought[0])},
           {"semi_static", shares(right[1], cells[1], found[1], sought[1])},
+          {"read_as", read_as},
           {"phantoms", phantoms},
           {"moving", moving},
           {"known", known},

@@ -213,6 +213,38 @@ TEST(LocalizerDriving, SwitchedOnWhereItStoodWithALargeMemoryItKnowsItsPlaceStan
   EXPECT_EQ(e.health.state, LocalizationState::Localized) << e.health.reason;
 }
 
+/// Two rooms drawn alike to a hand's breadth, neither of them as it is built, and people who hide other walls
+/// from every look: each look favours one of the rooms. Who looks until one convinces him believes chance.
+TEST(LocalizerDriving, AVehicleThatStandsInOneOfTwoRoomsAlikeIsNotPersuadedByLookingOften) {
+  const auto add_room = [](mapping::Walls& walls, double x, double a, double b) {
+    test::add_box(walls, x - a, -b, x + 9.0 + a, 7.0 + b);
+    test::add_box(walls, x + 2.0 + b, 5.0 - a, x + 3.5 + b, 6.0 - a);
+    test::add_wall(walls, x + 6.5 - a, 0.0, x + 6.5 - a, 2.0 + b);
+  };
+  mapping::Walls drawn, walls;
+  add_room(drawn, 0.0, 0.0, 0.0);
+  add_room(drawn, 20.0, 0.2, -0.2);
+  add_room(walls, 20.0, 0.2, 0.0);
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> around(-2.5, 2.5);
+  Localizer localizer(drawn, std::nullopt, driving_options());
+  auto moment = drive(walls, {{24.5, 3.0}, {25.0, 3.0}}, ten_hertz(), 5).front();
+  for (int i = 0; i < 1500; ++i) {
+    mapping::Walls now = walls;
+    for (int k = 0; k < 9; ++k) {
+      const double x = moment.truth.x_m() + around(engine), y = moment.truth.y_m() + around(engine);
+      if (std::hypot(x - moment.truth.x_m(), y - moment.truth.y_m()) > 0.8)
+        test::add_box(now, x - 0.2, y - 0.2, x + 0.2, y + 0.2);
+    }
+    const Stamp stamp = moment.scan.stamp + std::chrono::milliseconds(100);
+    moment.scan = test::simulate_scan(now, moment.truth, ten_hertz().lidar, engine);
+    moment.odometry.stamp = moment.scan.stamp = stamp;
+    const PoseEstimate e = take(localizer, moment);
+    ASSERT_NE(e.health.state, LocalizationState::Localized) << "scan " << i;
+    ASSERT_NE(e.health.state, LocalizationState::Degraded) << "scan " << i;
+  }
+}
+
 TEST(LocalizerDriving, WhatDrivesPastInFrontOfTheLidarIsNoCarry) {
   const mapping::Walls walls = test::factory_floor();
   std::mt19937 engine(13);
