@@ -29,6 +29,7 @@ enum class LocalizationState { Localized, Degraded, Ambiguous, Lost };
 struct LocalizationHealth {
   LocalizationState state = LocalizationState::Lost;
   std::string reason;  ///< in an operator's words; empty while Localized
+  double place = 0.0;  ///< probability that the vehicle is within 1 m and 20 degrees of the pose
 };
 
 /// Where the vehicle is on the drawing.

@@ -119,6 +119,11 @@ bool is_placed(const CycleState& state) {
   return may_drive(state.pose.health.state) && state.lidar_heard.has_value();
 }
 
+bool is_place_certain(const LocalizationHealth& health) {
+  constexpr double kCertain = 0.95;  // as LOCALIZED asks for, whatever else degrades the pose
+  return health.state == LocalizationState::Localized || health.place >= kCertain;
+}
+
 void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   ModeChanges mode(state, output);
   const bool stopped = is_stopped_by_drive(state);

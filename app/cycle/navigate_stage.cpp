@@ -259,17 +259,25 @@ bool waits_for_door(const CycleState& state, const CycleConfig& config) {
          is_at_door(state, state.ahead.check.where, config);
 }
 
+/// Whether the pose has come to lie elsewhere: it was corrected, or the vehicle was carried off.
+bool has_left_stop(const CycleState& state, const CycleConfig& config) {
+  return state.errand.arrived && !state.errand.reported && !state.way.path.empty() &&
+         distance_m(state.pose.map_from_base.translation(), state.way.path.points().back().position) >
+             config.pursuit.off_path_m;
+}
+
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   if (!take_order(state, input.order)) return;
   const bool sure = is_placed(state);
   const bool off_path = state.progress.status == control::PursuitStatus::OffPath;
   const bool needs_path = state.way.path.empty() && state.errand.no_way.empty();
-  if (sure && !state.errand.arrived && (needs_path || off_path)) plan(state, input, config, output);
+  const bool on_way = !state.errand.arrived && (needs_path || off_path);
+  if (sure && (on_way || has_left_stop(state, config))) plan(state, input, config, output);
   if (input.detour) take_answer(state, *input.detour, config);
   const bool told = std::any_of(input.commands.begin(), input.commands.end(),
                                 [](const auto& c) { return c.word == OperatorWord::GoOn; });
-  if (state.errand.arrived && !state.errand.reported && stands(state) &&
-      (input.now >= state.errand.dwell_until || told)) {
+  const bool is_over = input.now >= state.errand.dwell_until && is_place_certain(state.pose.health);
+  if (state.errand.arrived && !state.errand.reported && stands(state) && (is_over || told)) {
     state.errand.reported = true;
     output.stop_done = state.errand.target;
   }

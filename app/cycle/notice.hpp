@@ -64,6 +64,7 @@ enum class Cause : std::uint8_t {
   LidarHeight,
   LidarLeans,
   LidarYaw,
+  StopUnsure,
 };
 
 /// What a person can do about it.
@@ -96,6 +97,7 @@ enum class Remedy : std::uint8_t {
   DriveBack,
   LookAndDrive,
   CorrectMounting,
+  LookAtPlace,
 };
 
 inline constexpr std::array kCauses{
@@ -146,6 +148,7 @@ inline constexpr std::array kCauses{
     CatalogueEntry{
         "lidar-yaw",
         "the vehicle gets where lidar {name} would look at {found} degrees, and {typed} was typed"},
+    CatalogueEntry{"stop-unsure", "the vehicle is only to {percent} % sure that this is node {node}"},
 };
 
 inline constexpr std::array kRemedies{
@@ -178,6 +181,7 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"look-and-drive", "look around, then drive on by hand"},
     CatalogueEntry{"correct-mounting",
                    "correct its mounting in the vehicle step, or press Measure the mounting there"},
+    CatalogueEntry{"look-at-place", "look whether it is, then press Go on; else show its place: Where am I?"},
 };
 
 /// An event of the cycle, not the cause of a standstill.

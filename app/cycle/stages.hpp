@@ -112,6 +112,8 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
 [[nodiscard]] bool may_drive(LocalizationState state);
 /// Whether the vehicle knows where it is, and hears what that needs.
 [[nodiscard]] bool is_placed(const CycleState& state);
+/// Whether the vehicle knows so surely where it is that goods may be handed over there.
+[[nodiscard]] bool is_place_certain(const LocalizationHealth& health);
 /// Whether the place lies at a door or a lift, where the vehicle waits instead of driving around.
 [[nodiscard]] bool is_at_door(const CycleState& state, const Point2<Map>& place, const CycleConfig& config);
 /// Whether a door or lift may be what blocks the way. What is remembered only, low and too near to be seen,

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <string_view>
 
 #include "app/cycle/drive_faults.hpp"
@@ -87,7 +89,13 @@ Standstill why_mapping(const CycleState& state, const CycleInput& input, const C
   return because(Cause::Mapping, Remedy::DriveToMap, now);
 }
 
-Standstill why_at_stop(const OrderStop& stop, Stamp now) {
+Standstill why_at_stop(const CycleState& state, Stamp now) {
+  const OrderStop& stop = state.errand.stop;
+  if (!is_place_certain(state.pose.health)) {
+    const auto percent = std::to_string(std::lround(100.0 * state.pose.health.place));
+    return {notice(Cause::StopUnsure, {{"node", std::to_string(stop.node)}, {"percent", percent}}),
+            notice(Remedy::LookAtPlace), now};
+  }
   if (stop.action == StopAction::Load) return because(Cause::Loading, Remedy::GoOn, now);
   if (stop.action == StopAction::Unload) return because(Cause::Unloading, Remedy::GoOn, now);
   return because(Cause::OrderStop, Remedy::ByItself, now);
@@ -97,7 +105,7 @@ Standstill why_waiting(const CycleState& state, const CycleInput& input, const C
   const Stamp now = input.now;
   if (const auto* rule = forbidding_rule(state, input, config))
     return {rule->said ? rule->said(state, input, config) : notice(rule->cause), notice(rule->remedy), now};
-  if (state.errand.arrived) return why_at_stop(state.errand.stop, now);
+  if (state.errand.arrived) return why_at_stop(state, now);
   if (!state.errand.no_way.empty()) return {state.errand.no_way, notice(Remedy::ClearOrDraw), now};
   const auto ask = std::ranges::find_if(asks(), [&](const Ask& a) { return a.holds(state, config); });
   const bool has_reason = std::string_view(ask->remedy.english).find("{reason}") != std::string_view::npos;

@@ -123,8 +123,12 @@ json pose_json(const PoseEstimate& pose) {
   std::memcpy(numbers.data(), &pose.map_from_base, sizeof numbers);
   std::array<std::uint64_t, 9> covariance{};
   std::memcpy(covariance.data(), pose.covariance.data(), sizeof covariance);
-  return {pose.stamp.time_since_epoch().count(), numbers, covariance, static_cast<int>(pose.health.state),
-          pose.health.reason};
+  return {pose.stamp.time_since_epoch().count(),
+          numbers,
+          covariance,
+          static_cast<int>(pose.health.state),
+          pose.health.reason,
+          std::bit_cast<std::uint64_t>(pose.health.place)};
 }
 
 json parsed(const std::string& text) {
@@ -216,7 +220,8 @@ PoseEstimate pose_from_text(const std::string& text) {
     std::memcpy(static_cast<void*>(&pose.map_from_base), numbers.data(), sizeof numbers);
     const auto covariance = from.at(2).get<std::array<std::uint64_t, 9>>();
     std::memcpy(pose.covariance.data(), covariance.data(), sizeof covariance);
-    pose.health = {static_cast<LocalizationState>(from.at(3).get<int>()), from.at(4)};
+    pose.health = {static_cast<LocalizationState>(from.at(3).get<int>()), from.at(4),
+                   std::bit_cast<double>(from.at(5).get<std::uint64_t>())};
     return pose;
   } catch (const json::exception& e) {
     throw Error("recording", e.what(), "was it written by another Madori?");

@@ -1,5 +1,6 @@
 #include "localization/health/health.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -12,9 +13,13 @@ std::string percent(double share) {
   return std::to_string(std::lround(100.0 * share)) + " %";
 }
 
+double place(const HealthEvidence& e) {
+  return std::max(e.here, e.around);
+}
+
 LocalizationHealth lost(const HealthEvidence& e, const HealthLimits& limits) {
-  const auto because = [](std::string reason) {
-    return LocalizationHealth{LocalizationState::Lost, std::move(reason)};
+  const auto because = [&](std::string reason) {
+    return LocalizationHealth{LocalizationState::Lost, std::move(reason), place(e)};
   };
   if (e.mirrored > limits.mirrored)
     return because(
@@ -25,15 +30,16 @@ LocalizationHealth lost(const HealthEvidence& e, const HealthLimits& limits) {
         "the last " + std::to_string(e.blind_scans) +
         " scans agree neither with what was seen before nor with the wheels: moved by hand or covered?");
   if (!e.looked) return because(reason::kSearching.english);
-  if (e.here >= limits.believed || e.around >= limits.localized) return {LocalizationState::Localized, ""};
+  if (e.here >= limits.believed || e.around >= limits.localized)
+    return {LocalizationState::Localized, "", place(e)};
   if (e.rival > limits.believed) return because(reason::kMovedByHand.english);
-  if (e.rival > limits.rival) return {LocalizationState::Ambiguous, reason::kTwoAlike.english};
+  if (e.rival > limits.rival) return {LocalizationState::Ambiguous, reason::kTwoAlike.english, place(e)};
   return because(reason::kNoPlace.english);
 }
 
 LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits) {
-  const auto because = [](std::string reason) {
-    return LocalizationHealth{LocalizationState::Degraded, std::move(reason)};
+  const auto because = [&](std::string reason) {
+    return LocalizationHealth{LocalizationState::Degraded, std::move(reason), place(e)};
   };
   if (e.here < limits.believed) return because("the place is certain to a metre only: drive on slowly");
   if (e.here < limits.localized)
@@ -48,7 +54,7 @@ LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits)
         "the last metres fit the drawing much less than usual: the drawing is poor here, or the pose is off");
   if (e.position_sigma_m > limits.degraded_sigma_m)
     return because("the position is uncertain by " + std::to_string(e.position_sigma_m).substr(0, 4) + " m");
-  return {LocalizationState::Localized, ""};
+  return {LocalizationState::Localized, "", place(e)};
 }
 
 }  // namespace

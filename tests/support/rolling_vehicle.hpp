@@ -28,6 +28,9 @@ class RollingVehicle {
     pose_ = pose_ * Transform2<Base, Base>(way * std::cos(turn / 2.0), way * std::sin(turn / 2.0), turn);
   }
 
+  /// Carries it there.
+  void set_pose(const Transform2<Map, Base>& pose) { pose_ = pose; }
+
   [[nodiscard]] const Transform2<Map, Base>& pose() const { return pose_; }
   [[nodiscard]] const VelocityCommand& speed() const { return speed_; }
 

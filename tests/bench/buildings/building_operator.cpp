@@ -37,6 +37,10 @@ void BuildingOperator::look() {
   } else if (unseen && stood_s() > kLooksAfterS && is_free_there(state.ahead.check.where)) {
     say(OperatorWord::Resume);
     help();
+  } else if (state.standstill.cause.code == app::entry(app::Cause::StopUnsure).code &&
+             stood_s() > kLooksAfterS) {
+    say(OperatorWord::GoOn);  // counted as delivered only where it is near its station
+    help();
   } else if (searches && stood_s() > kTapsAfterS && figures_.taps == 0) {
     tap();
   }

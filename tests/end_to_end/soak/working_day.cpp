@@ -202,6 +202,10 @@ void WorkingDay::look_after(const Delivery& delivery) {
     if (surprises_->stands_at(state.ahead.check.where)) return;
     run_->say({app::OperatorWord::Resume, {}, {}});
     help(delivery, because, false);
+  } else if (state.mode == app::Mode::Waiting && stood_s > kLooksAfterS &&
+             state.standstill.cause.code == app::entry(app::Cause::StopUnsure).code) {
+    look_at_stop(delivery);
+    help(delivery, because, false);
   } else if (state.mode == app::Mode::Waiting && stood_s > kTakesAwayAfterS) {
     const auto goal = loaded_.config.routes.index_of(delivery.station);
     const bool blocked = !surprises_->another_way(*goal);
@@ -240,6 +244,16 @@ void WorkingDay::drive_back(const Delivery& delivery) {
   if (gone_m >= kNothingM) return;
   surprises_->carry_away(chance_, true);  // wedged: pushed to where it can turn
   help(delivery, "it did not get out of the field by hand", false);
+}
+
+/// "Look whether it is": it is the station, or the person shows where the vehicle stands.
+void WorkingDay::look_at_stop(const Delivery& delivery) {
+  constexpr double kAtStationM = 0.5;
+  const auto& routes = loaded_.config.routes;
+  const auto& station = routes.nodes()[*routes.index_of(delivery.station)].position;
+  if (distance_m(factory_->truth().map_from_base.translation(), station) < kAtStationM)
+    return run_->say({app::OperatorWord::GoOn, {}, {}});
+  tell_place();
 }
 
 /// As a person taps it: not exactly.

@@ -50,6 +50,7 @@ class WorkingDay {
   void wait(double seconds);
   void look_after(const Delivery& delivery);
   void tell_place();
+  void look_at_stop(const Delivery& delivery);
   /// The field is cleared where something was put into it, else the vehicle driven back out of it.
   void free_field(const Delivery& delivery, const std::string& because);
   void drive_back(const Delivery& delivery);

@@ -100,5 +100,43 @@ TEST(AutonomyCycle, RecordedInputsGiveTheSameCommandsBitForBit) {
   }
 }
 
+TEST(AutonomyCycle, AStopAtAPlaceThatIsNotCertainIsHandedOverOnlyWhenSomebodyLooked) {
+  auto v = corridor_vehicle();
+  v->pose->state = LocalizationState::Degraded;
+  v->pose->place = 0.8;
+  v->drive_to({{1, StopAction::Unload, 0.5}});
+  v->say(OperatorWord::Resume);
+  const Notice asks = notice(Cause::StopUnsure, {{"node", "1"}, {"percent", "80"}});
+  ASSERT_TRUE(v->run_until([&] { return v->state().standstill.cause == asks; }, 60.0));
+  EXPECT_EQ(v->state().standstill.remedy, notice(Remedy::LookAtPlace));
+  EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 30.0));
+  v->say(OperatorWord::GoOn);
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 1.0));
+}
+
+TEST(AutonomyCycle, AStopIsHandedOverByItselfOnceThePlaceIsCertain) {
+  auto v = corridor_vehicle();
+  v->pose->state = LocalizationState::Degraded;
+  v->pose->place = 0.8;
+  v->drive_to({{1, StopAction::Unload, 0.5}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->state().errand.arrived; }, 60.0));
+  EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 5.0));
+  v->pose->place = 0.97;
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 1.0));
+}
+
+/// It stood 3 m before the stop and took it for the stop; then somebody shows it the place.
+TEST(AutonomyCycle, APoseThatIsCorrectedAtAStopSendsTheVehicleOnToIt) {
+  auto v = corridor_vehicle();
+  v->drive_to({{1, StopAction::Unload, 20.0}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->state().errand.arrived; }, 60.0));
+  v->rolling.set_pose({7.0, 0.0, 0.0});
+  EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 15.0));
+  ASSERT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+  EXPECT_NEAR(v->rolling.pose().x_m(), 10.0, 0.05);
+}
+
 }  // namespace
 }  // namespace madori::app

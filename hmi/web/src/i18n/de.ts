@@ -308,6 +308,8 @@ export const de: Record<TextKey, string> = {
   "cause.lidar-leans": "Lidar {name} neigt sich um {found} Grad gegen den Boden, den er sieht",
   "cause.lidar-yaw": "Das Fahrzeug kommt dahin, wohin Lidar {name} bei {found} Grad blickte, eingetragen sind {typed}",
   "remedy.correct-mounting": "Anbau im Schritt Fahrzeug berichtigen, oder dort Anbau messen drücken",
+  "cause.stop-unsure": "Das Fahrzeug ist nur zu {percent} % sicher, dass dies Punkt {node} ist",
+  "remedy.look-at-place": "Nachsehen, ob es stimmt, dann Weiterfahren drücken; sonst den Ort zeigen: Wo bin ich?",
   "event.lidar-lost": "Lidar {name} schweigt: Das Fahrzeug fährt mit den anderen weiter, so schnell sie erlauben",
   "event.floor-unseen":
     "Kein Lidar sieht, wer voraus am Boden liegt: Es wird höchstens {speed} m/s gefahren. Ein Lidar auf 0,2 m oder tiefer anbringen, oder in site.yaml eintragen, was ihn sonst schützt (low_bodies_guarded_by)",

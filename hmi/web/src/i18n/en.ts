@@ -323,6 +323,8 @@ export const en = {
   "cause.lidar-leans": "Lidar {name} leans by {found} degrees against the floor that it sees",
   "cause.lidar-yaw": "The vehicle gets where lidar {name} would look at {found} degrees, and {typed} was typed",
   "remedy.correct-mounting": "Correct its mounting in the vehicle step, or press Measure the mounting there",
+  "cause.stop-unsure": "The vehicle is only to {percent} % sure that this is node {node}",
+  "remedy.look-at-place": "Look whether it is, then press Go on; else show its place: Where am I?",
   "event.lidar-lost": "Lidar {name} is silent: the vehicle goes on with the others, as fast as they allow",
   "event.floor-unseen":
     "No lidar sees who lies on the floor ahead: at most {speed} m/s are driven. Mount a lidar at 0.2 m or lower, or enter in site.yaml what else guards him (low_bodies_guarded_by)",

@@ -324,6 +324,8 @@ export const ja: Record<TextKey, string> = {
   "cause.lidar-leans": "ライダー {name} は見える床に対して {found} 度傾いています",
   "cause.lidar-yaw": "車両の動きからライダー {name} の向きは {found} 度ですが、入力値は {typed} 度です",
   "remedy.correct-mounting": "車両の手順で取付けを直すか、「取付けを測定」を押してください",
+  "cause.stop-unsure": "ここが点{node}である確かさは {percent} % です",
+  "remedy.look-at-place": "正しければ「先へ進む」を押し、違えば「現在地は?」で場所を示してください",
   "event.lidar-lost": "ライダー {name} が応答しません。他のライダーで可能な速度で走行を続けます",
   "event.floor-unseen":
     "前方の床に倒れている人を検知できるライダーがないため、最高 {speed} m/s で走行します。ライダーを高さ 0.2 m 以下に取り付けるか、他の保護手段を site.yaml (low_bodies_guarded_by) に記入してください",

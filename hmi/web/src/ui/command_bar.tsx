@@ -4,7 +4,7 @@ import { useText } from "../i18n";
 import { live } from "../live/live_socket";
 import { useSelected, useStore } from "../store";
 import { Icon, type IconName } from "./icon";
-import { isStay } from "./state_card";
+import { asksGoOn, asksResume } from "./state_card";
 import { forgetStop, pressStop, unheardStop } from "./stop";
 import { attempt } from "./toast";
 
@@ -36,7 +36,8 @@ function Unheard() {
 export function CommandBar({ role }: { role: string }) {
   const t = useText();
   const state = useSelected(live.newest, (frame) => frame?.live.state ?? "");
-  const stays = useSelected(live.newest, (frame) => frame !== null && isStay(frame.live));
+  const goesOn = useSelected(live.newest, (frame) => frame !== null && asksGoOn(frame.live));
+  const resumes = useSelected(live.newest, (frame) => frame !== null && asksResume(frame.live));
   const mapping = useSelected(live.newest, (frame) => frame?.live.mapping ?? false);  // there is nothing to start or resume
   const may = role === "operator" || role === "integrator";
   const button = (name: CommandName, icon: IconName, useful: boolean) => (
@@ -52,7 +53,7 @@ export function CommandBar({ role }: { role: string }) {
       <Unheard />
       {may && (held ? button("confirm", "good", true) : button("start", "start", state === "paused" || state === "idle"))}
       {may && button("pause", "pause", moving)}
-      {may && (stays ? button("go-on", "next", true) : button("resume", "resume", state === "paused" || state === "manual"))}
+      {may && (goesOn ? button("go-on", "next", true) : button("resume", "resume", resumes || state === "paused" || state === "manual"))}
       {!may && <p class="quiet looks-on">{t(role === "none" ? "command.nobody" : "command.viewer")}</p>}
       <button type="button" class="target command stop" onClick={() => void pressStop(may)}><Icon name="stop" /><span>{t("command.stop")}</span></button>
     </footer>

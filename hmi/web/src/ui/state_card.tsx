@@ -12,7 +12,11 @@ const abnormal = new Set(["fault", "emergency_stop"]);
 const standing = new Set(["waiting", "localizing"]);
 /** a stay that a person may end */
 const stays = new Set(["loading", "unloading", "order-stop"]);
-export const isStay = ({ cause }: Live): boolean => stays.has(cause.code);
+/** remedies that ask for a button: the command bar offers that one, whatever the state */
+const goesOn = new Set(["go-on", "look-and-go-on", "look-at-place"]);
+const resumes = new Set(["resume", "manual-off", "look-and-resume"]);
+export const asksGoOn = ({ cause, remedy }: Live): boolean => stays.has(cause.code) || goesOn.has(remedy.code);
+export const asksResume = ({ remedy }: Live): boolean => resumes.has(remedy.code);
 /** what is wanted, and no reason to look up */
 const wanted = new Set(["", "paused", "stopped", "stopped-order", "no-order", "manual", "setting-up", "mapping", "mapping-stopped"]);
 
