@@ -1,7 +1,7 @@
 // People and forklifts: who the obstacle check believes to move, against the virtual factory's truth, beside
 // a nearest-neighbour baseline on the same scans. docs/reference/movers-figures.md says how they are
 // compared.
-//   bench_movers SITE... [--seeds 2,3,4] [--minutes 10] [--threshold 0.5] [--json FILE]
+//   bench_movers SITE... [--seeds 2,3,4] [--minutes 10] [--threshold 0.2] [--json FILE]
 //   bench_movers SITE... --seeds 1 --tune       the baseline's threshold: F1 within 8 m of each that is tried
 // SITE: made by tests/end_to_end/sample_site.py, one a setup of lidars. The same arguments give the same
 // figures.
@@ -19,14 +19,14 @@
 namespace madori::bench {
 namespace {
 
-const std::vector<double> kTried{0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
+const std::vector<double> kTried{0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0};
 
 struct Arguments {
   std::vector<std::string> sites;
   std::vector<unsigned> seeds{2, 3, 4};
   std::string json_file;
   bool tune = false;
-  double threshold_mps = 0.5;
+  double threshold_mps = 0.2;  ///< chosen on seed 1: docs/reference/movers-figures.md
   DriveOptions drive;
 };
 
@@ -34,7 +34,6 @@ void add(DriveScores& sum, const DriveScores& one) {
   sum.tracker.merge(one.tracker);
   sum.baseline.resize(one.baseline.size());
   for (std::size_t i = 0; i < one.baseline.size(); ++i) sum.baseline[i].merge(one.baseline[i]);
-  sum.lidar_hours += one.lidar_hours;
   sum.looks += one.looks;
   sum.driven_m += one.driven_m;
   sum.orders += one.orders;
@@ -73,7 +72,7 @@ void run(const Arguments& a) {
   nlohmann::json figures;
   const auto each = [&](const auto& show) {
     for (std::size_t i = 0; i < all.size(); ++i)
-      show(Comparison{name_of(a.sites[i]), all[i].tracker, all[i].baseline.front(), all[i].lidar_hours});
+      show(Comparison{name_of(a.sites[i]), all[i].tracker, all[i].baseline.front(), all[i].looks});
   };
   if (a.tune) {
     for (std::size_t i = 0; i < all.size(); ++i) tell_thresholds(a.sites[i], all[i]);

@@ -111,7 +111,6 @@ DriveScores MoverDrive::scores() {
       judged.baseline[i].end();
       all.baseline[i].merge(judged.baseline[i]);
     }
-    all.lidar_hours += run_->time_s() / 3600.0;
   }
   all.looks = looks_;
   all.driven_m = run_->factory->distance_driven_m();

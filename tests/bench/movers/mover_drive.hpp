@@ -28,8 +28,7 @@ struct DriveOptions {
 struct DriveScores {
   MoverScore tracker;
   std::vector<MoverScore> baseline;  ///< by threshold
-  double lidar_hours = 0.0;          ///< driven, by each lidar
-  long looks = 0;
+  long looks = 0;                    ///< scans at which they were compared, of all lidars
   double driven_m = 0.0;
   int orders = 0;  ///< done
   int helps = 0;   ///< of the operator: confirmed, looked, or told the place

@@ -72,7 +72,8 @@ nlohmann::json found_json(const FoundCounts& c) {
 }  // namespace
 
 void print_told_head() {
-  fmt::print("| lidar | told at | told | precision | wrong, an hour |\n| --- | --- | --- | --- | --- |\n");
+  fmt::print(
+      "| lidar | told at | told | precision | wrong in 1000 scans |\n| --- | --- | --- | --- | --- |\n");
 }
 
 void print_told(const Comparison& c) {
@@ -81,8 +82,7 @@ void print_told(const Comparison& c) {
     if (t.told + b.told == 0) continue;
     fmt::print("| {} | {} | {} / {} | {} | {} |\n", c.setup, range_name(r), t.told, b.told,
                both(precision(t), precision(b), 3),
-               both(static_cast<double>(t.wrong()) / c.lidar_hours,
-                    static_cast<double>(b.wrong()) / c.lidar_hours, 0));
+               both(1e3 * share(t.wrong(), c.looks), 1e3 * share(b.wrong(), c.looks), 1));
   }
 }
 

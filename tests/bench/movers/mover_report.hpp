@@ -12,7 +12,7 @@ struct Comparison {
   std::string setup;
   const MoverScore& tracker;
   const MoverScore& baseline;
-  double lidar_hours = 0.0;
+  long looks = 0;  ///< scans at which they were compared
 };
 
 /// Two Markdown tables, of what is told and of who is found; each cell: the tracker's figure / the
