@@ -84,7 +84,8 @@ void run(const Arguments& a) {
     each(print_found);
   }
   each([&](const Comparison& c) {
-    figures[c.setup] = {{"tracker", to_json(c.tracker)}, {"baseline", to_json(c.baseline)}};
+    figures[c.setup] = {
+        {"scans", c.looks}, {"tracker", to_json(c.tracker)}, {"baseline", to_json(c.baseline)}};
   });
   app::write_json(a.json_file, figures);
 }

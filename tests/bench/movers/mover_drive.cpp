@@ -71,7 +71,7 @@ void MoverDrive::judge(const HeardSweep& sweep, const planning::MovingObjects& o
   ++looks_;
 }
 
-/// The operator gives the next order, and does what the table of states demands.
+/// The operator gives the next order, and does what the table of states demands: clears the way, confirms.
 void MoverDrive::operate() {
   constexpr double kConfirmsAfterS = 3.0, kLooksAfterS = 30.0, kTellsAfterS = 60.0;
   const auto& state = run_->state();
@@ -83,20 +83,22 @@ void MoverDrive::operate() {
   if (because != stands_because_ || app::drives(state.mode)) stands_since_ = run_->factory->now();
   stands_because_ = because;
   const double stood_s = to_seconds(run_->factory->now() - stands_since_);
+  const auto truth = run_->factory->truth().map_from_base;
   const auto say = [&](const app::OperatorCommand& command, bool help) {
     run_->run->say(command);
     stands_since_ = run_->factory->now();
     helps_ += help;
   };
   const bool asks = state.mode == app::Mode::EmergencyStop || state.mode == app::Mode::Fault;
-  const auto truth = run_->factory->truth().map_from_base;
   if (asks && stood_s > kConfirmsAfterS) say({app::OperatorWord::Confirm, {}, {}}, true);
   if (state.mode == app::Mode::Paused && stood_s > kConfirmsAfterS)
     say({app::OperatorWord::Resume, {}, {}}, false);
   if (state.standstill.remedy == app::notice(app::Remedy::LookAndGoOn))
     say({app::OperatorWord::GoOn, {}, {}}, false);  // a planar lidar's vehicle asks before every door
-  if (state.mode == app::Mode::Waiting && stood_s > kLooksAfterS)
+  if (state.mode == app::Mode::Waiting && stood_s > kLooksAfterS) {
+    traffic_->make_room();
     say({app::OperatorWord::Resume, {}, {}}, true);
+  }
   if (state.mode == app::Mode::Localizing && stood_s > kTellsAfterS)
     say({app::OperatorWord::SetPose, {}, {truth.translation(), truth.yaw_rad(), {0.3, 0.1}}}, true);
 }

@@ -88,9 +88,8 @@ void print_told(const Comparison& c) {
 
 void print_found_head() {
   fmt::print(
-      "| lidar | who | range | looks | recall | from the outline | from the centre | velocity, median | RMS "
-      "| "
-      "first told after | never |\n|{}\n",
+      "| lidar | who | range | looks | recall | from the outline, p95 | from the centre | velocity | RMS | "
+      "told after | never |\n|{}\n",
       " --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
 }
 
@@ -100,14 +99,15 @@ void print_found(const Comparison& c) {
       const auto kind = static_cast<Traffic>(k);
       const FoundCounts &t = c.tracker.found(kind, r), &b = c.baseline.found(kind, r);
       if (t.asked < kFewestAsked) continue;
-      fmt::print(
-          "| {} | {} | {} | {} | {} | {} m | {} m | {} m/s | {} m/s | {} s | {} / {} of {} |\n", c.setup,
-          kKindNames[k], range_name(r), t.asked, both(share(t.found, t.asked), share(b.found, b.asked), 2),
-          both(median(t.outline_m), median(b.outline_m), 2), both(median(t.centre_m), median(b.centre_m), 2),
-          both(median(t.velocity_mps), median(b.velocity_mps), 2),
-          both(root_mean_square(t.velocity_mps), root_mean_square(b.velocity_mps), 2),
-          both(median(t.first_after_s), median(b.first_after_s), 1), t.never, b.never,
-          t.first_after_s.size() + static_cast<std::size_t>(t.never));
+      fmt::print("| {} | {} | {} | {} | {} | {} m | {} m | {} m/s | {} m/s | {} s | {} / {} of {} |\n",
+                 c.setup, kKindNames[k], range_name(r), t.asked,
+                 both(share(t.found, t.asked), share(b.found, b.asked), 2),
+                 both(quantile(t.outline_m, 0.95), quantile(b.outline_m, 0.95), 2),
+                 both(median(t.centre_m), median(b.centre_m), 2),
+                 both(median(t.velocity_mps), median(b.velocity_mps), 2),
+                 both(root_mean_square(t.velocity_mps), root_mean_square(b.velocity_mps), 2),
+                 both(median(t.first_after_s), median(b.first_after_s), 1), t.never, b.never,
+                 t.first_after_s.size() + static_cast<std::size_t>(t.never));
     }
 }
 

@@ -95,15 +95,30 @@ void RoamingTraffic::send(MoverKind kind) {
   all_.push_back({spec.name, kind, factory_.now()});
 }
 
+const Body* RoamingTraffic::body_of(const Somebody& one) const {
+  const auto& bodies = factory_.bodies();
+  const auto at =
+      std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == one.name; });
+  return at == bodies.end() ? nullptr : &*at;
+}
+
 void RoamingTraffic::let_go() {
   std::erase_if(all_, [&](const Somebody& one) {
-    const auto& bodies = factory_.bodies();
-    const auto at =
-        std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == one.name; });
-    if (at == bodies.end()) return false;  // sent in this step
+    const Body* body = body_of(one);
+    if (body == nullptr) return false;
     const bool long_about = to_seconds(factory_.now() - one.since) > kLongS;
-    const bool unseen = away_m(at->centre) > kUnseenM || !is_in_sight(at->centre);
-    if (away_m(at->centre) < kTooFarM && !(long_about && unseen)) return false;
+    const bool unseen = away_m(body->centre) > kUnseenM || !is_in_sight(body->centre);
+    if (away_m(body->centre) < kTooFarM && !(long_about && unseen)) return false;
+    factory_.remove_mover(one.name);
+    return true;
+  });
+}
+
+void RoamingTraffic::make_room() {
+  constexpr double kRoomM = 4.0;
+  std::erase_if(all_, [&](const Somebody& one) {
+    const Body* body = body_of(one);
+    if (body == nullptr || away_m(body->centre) > kRoomM) return false;
     factory_.remove_mover(one.name);
     return true;
   });

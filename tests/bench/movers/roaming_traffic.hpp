@@ -18,6 +18,8 @@ class RoamingTraffic {
 
   /// A few times a second.
   void advance();
+  /// Who stands in the vehicle's way for good is asked to go: everybody within 4 m of it.
+  void make_room();
 
  private:
   static constexpr std::uint64_t kStream = 0x6D6F76657273;  ///< of the random numbers, its own
@@ -34,6 +36,8 @@ class RoamingTraffic {
   [[nodiscard]] std::optional<Way> way_near(const Point2<simulation::Building>& here, double half_width_m);
   [[nodiscard]] bool is_free(const Point2<simulation::Building>& at, double half_width_m) const;
   [[nodiscard]] bool is_in_sight(const Point2<simulation::Building>& at) const;
+  /// As it is now; null for one that was sent in this step.
+  [[nodiscard]] const simulation::Body* body_of(const Somebody& one) const;
   [[nodiscard]] double away_m(const Point2<simulation::Building>& at) const;
 
   simulation::Factory& factory_;
