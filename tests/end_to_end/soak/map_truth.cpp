@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/segment_distance.hpp"
+#include "tests/support/outline_distance.hpp"
 
 namespace madori::soak {
 namespace {
@@ -16,35 +16,11 @@ using localization::CellState;
 using localization::CellTree;
 using localization::HybridMap;
 
-using Outline = std::vector<Point2<simulation::Building>>;
-
 constexpr double kToleranceM = 0.2;
 constexpr double kSightM = 12.0;
 constexpr double kHeightM = 0.25;
 constexpr double kAroundDoorsM = 0.6;
 constexpr int kFewestLooks = 3;
-
-bool is_inside(const Outline& outline, const Point2<simulation::Building>& p) {
-  if (outline.size() < 3) return false;
-  int turns = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const auto& a = outline[i];
-    const auto& b = outline[(i + 1) % outline.size()];
-    const double cross = (b.x_m - a.x_m) * (p.y_m - a.y_m) - (b.y_m - a.y_m) * (p.x_m - a.x_m);
-    turns += cross > 0.0 ? 1 : -1;
-  }
-  return std::abs(turns) == static_cast<int>(outline.size());
-}
-
-double distance_to(const Outline& outline, const Point2<simulation::Building>& p) {
-  if (is_inside(outline, p)) return 0.0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < outline.size(); ++i)
-    nearest = std::min(
-        nearest,
-        distance_m(Segment2<simulation::Building>{outline[i], outline[(i + 1) % outline.size()]}, p));
-  return nearest;
-}
 
 /// What the cells within the tolerance say of a place: the layer where one says so, else what else stands
 /// there, else what its own cell says.
@@ -138,7 +114,7 @@ nlohmann::json MapTruth::compare(const HybridMap& map) const {
     std::array<double, 2> nearest{1e9, 1e9};
     for (const Thing& thing : all)
       nearest[thing.semi_static ? 1 : 0] =
-          std::min(nearest[thing.semi_static ? 1 : 0], distance_to(thing.outline, p));
+          std::min(nearest[thing.semi_static ? 1 : 0], test::distance_to(thing.outline, p));
     return nearest;
   };
   std::array<std::size_t, 2> cells{}, right{}, sought{}, found{};
