@@ -94,6 +94,16 @@ const failed = [
     expect((await place()) === before, `the button jumped by ${(await place()) - before} px while loading`);
     await within(panel, ".command.go-on", { least_px: 90 });
   })),
+  // What the remedy asks for can be pressed: "look, then press Resume" before a disabled Resume helps nobody.
+  ...(await small("remedy", kSmall, async (panel) => {
+    const asks = [["unseen-in-the-way", "look-and-resume", "resume"], ["height-unseen", "look-and-go-on", "go-on"], ["stop-unsure", "look-at-place", "go-on"], ["loading", "go-on", "go-on"]];
+    for (const [cause, remedy, button] of asks) {
+      vehicle.say({ state: "waiting", cause: { code: cause, values: { node: "4", percent: "64" }, text: "x" }, remedy: { code: remedy, values: {}, text: "x" } });
+      await panel.page.locator(`[data-cause=${cause}]`).waitFor();
+      await within(panel, `.command.${button}:enabled`, { least_px: 90 });
+    }
+    await look(panel, "stop-unsure");
+  })),
   ...(await small("15", kSmall, async (panel) => {
     await standWithReason(panel);
     await panel.page.locator(".row", { hasText: "Press 1 → Dock 1" }).first().tap();
