@@ -1,6 +1,8 @@
 #include "app/panel/found_devices.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
 #include <string>
 
 #include "app/lidars.hpp"
@@ -10,8 +12,11 @@
 namespace madori::app {
 namespace {
 
-bool is_heard(const std::vector<hmi::DeviceStatus>& live, const std::string& type) {
-  return std::ranges::any_of(live, [&](const auto& d) { return d.type == type && d.healthy; });
+/// Of several devices of a type the one with that number: they come in the site's order.
+bool is_heard(const std::vector<hmi::DeviceStatus>& live, const std::string& type, std::size_t number = 0) {
+  for (const auto& device : live)
+    if (device.type == type && number-- == 0) return device.healthy;
+  return false;
 }
 
 /// As people say it: a UDP port is this computer's own.
@@ -34,8 +39,9 @@ std::vector<hmi::FoundDevice> found_devices(const SocketOptions& options,
   const bool drive = is_heard(live, "drive");
   std::vector<hmi::FoundDevice> found;
   const auto site = sensors.empty() ? std::vector{reference_lidar()} : sensors;
+  std::map<std::string, std::size_t> numbers;
   for (const auto& sensor : addressed(site, options)) {
-    const bool heard = is_heard(live, sensor.type);
+    const bool heard = is_heard(live, sensor.type, numbers[sensor.type]++);
     mapping::SensorRecord proposal = sensor;
     proposal.address.clear();
     proposal.settings.clear();

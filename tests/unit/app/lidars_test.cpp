@@ -5,6 +5,7 @@
 #include "app/cycle/recoveries.hpp"
 #include "app/cycle/site_config.hpp"
 #include "app/cycle/stages.hpp"
+#include "app/panel/found_devices.hpp"
 #include "app/runner/socket_link.hpp"
 #include "core/angle.hpp"
 #include "core/result.hpp"
@@ -168,6 +169,20 @@ TEST(Lidars, TheCommandLineSaysWhereTheyAre) {
   EXPECT_EQ(addressed({kTop, kFront}, options)[1].address, "10.0.0.9:2111");
   options.addresses = {"back=10.0.0.9"};
   EXPECT_THROW((void)addressed({kTop, kFront}, options), Error);
+}
+
+TEST(FoundDevices, OfTwoLidarsOfATypeEachIsHeardForItself) {
+  mapping::SensorRecord front, rear;
+  front.name = "front", rear.name = "rear";
+  front.type = rear.type = "s300";
+  rear.address = "/dev/ttyUSB2";
+  std::vector<hmi::DeviceStatus> live(2);
+  live[0].type = live[1].type = "s300";
+  live[0].healthy = true;
+  const auto found = found_devices({}, {front, rear}, live);
+  ASSERT_GE(found.size(), 2U);
+  EXPECT_TRUE(found[0].heard);
+  EXPECT_FALSE(found[1].heard);
 }
 
 }  // namespace
