@@ -12,21 +12,25 @@
 namespace madori::app {
 namespace {
 
-/// `text` said by an entry of a table: the values of its placeholders. Templates have at most one.
+/// `text` said by an entry of a table: the values of its placeholders, each as short as what follows allows.
 std::optional<Notice> said_by(const CatalogueEntry& entry, std::string_view text) {
-  const std::string_view english = entry.english;
-  const std::size_t open = english.find('{');
-  if (open == std::string_view::npos)
-    return text == english ? std::optional(Notice{entry.code, {}, std::string(text)}) : std::nullopt;
-  const std::size_t close = english.find('}');
-  const auto before = english.substr(0, open);
-  const auto after = english.substr(close + 1);
-  if (text.size() < before.size() + after.size() || !text.starts_with(before) || !text.ends_with(after))
-    return std::nullopt;
-  const auto value = text.substr(before.size(), text.size() - before.size() - after.size());
-  return Notice{entry.code,
-                {{std::string(english.substr(open + 1, close - open - 1)), std::string(value)}},
-                std::string(text)};
+  Notice notice{entry.code, {}, std::string(text)};
+  std::string_view english = entry.english;
+  for (auto open = english.find('{'); open != std::string_view::npos; open = english.find('{')) {
+    const std::size_t close = english.find('}');
+    const auto name = english.substr(open + 1, close - open - 1);
+    if (!text.starts_with(english.substr(0, open))) return std::nullopt;
+    text.remove_prefix(open);
+    english.remove_prefix(close + 1);
+    const auto next = english.substr(0, english.find('{'));
+    const bool is_last = next.size() == english.size();
+    if (is_last && !text.ends_with(next)) return std::nullopt;
+    const std::size_t end = is_last ? text.size() - next.size() : text.find(next);
+    if (end == std::string_view::npos || end > text.size()) return std::nullopt;
+    notice.values[std::string(name)] = std::string(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return text == english ? std::optional(notice) : std::nullopt;
 }
 
 template <class Table>

@@ -103,13 +103,29 @@ TEST(Modes, EveryModeCanBeReachedFromTheFirst) {
 TEST(EventWords, EveryStandstillOfTheLogComesBackWithItsRemedy) {
   for (std::size_t c = 0; c < kCauses.size(); ++c) {
     for (std::size_t r = 0; r < kRemedies.size(); ++r) {
-      const std::map<std::string, std::string> values{
-          {"reason", "two places - look alike"}, {"node", "7"}, {"faults", "4"}};
+      const std::map<std::string, std::string> values{{"reason", "two places - look alike"},
+                                                      {"node", "7"},
+                                                      {"faults", "4"},
+                                                      {"percent", "64"},
+                                                      {"name", "top"},
+                                                      {"found", "1.2"},
+                                                      {"typed", "0.9"},
+                                                      {"turned", "0.1"},
+                                                      {"asked", "0.5"},
+                                                      {"order", "3"}};
       const Notice cause = notice(static_cast<Cause>(c), values);
       const Notice remedy = notice(static_cast<Remedy>(r), values);
       const auto view = event_view({{}, "mode", "waiting: " + cause.text + " - " + remedy.text});
       EXPECT_EQ(view.what.code, cause.code);
       EXPECT_EQ(view.what.text, cause.text);
+      EXPECT_EQ(cause.text.find('{'), std::string::npos) << "no value for a placeholder: " << cause.text;
+      for (const auto& [name, value] : view.what.values) {  // shown() adds some of its own
+        if (values.contains(name)) {
+          EXPECT_EQ(value, values.at(name));
+        }
+      }
+      EXPECT_EQ(view.what.values.empty(),
+                std::string_view(kCauses[c].english).find('{') == std::string_view::npos);
       EXPECT_EQ(view.remedy.code, remedy.code) << view.remedy.text;
     }
   }
