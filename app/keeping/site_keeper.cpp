@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/learned/calibration_file.hpp"
+#include "app/learned/day_of_map.hpp"
 #include "app/learned/deviations.hpp"
 #include "app/learned/kept_memory.hpp"
 #include "app/learned/learned_drawing.hpp"
@@ -10,6 +11,7 @@
 #include "core/clock.hpp"
 #include "localization/self_calibration/self_calibration.hpp"
 #include "localization/warp/warp_file.hpp"
+#include "mapping/days/day_archive.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 
@@ -18,6 +20,15 @@ namespace {
 
 constexpr double kPoseEveryS = 1.0;
 constexpr double kLearnedEveryS = 60.0;
+
+/// The living map, and what it reads today.
+void save_map_and_day(const std::filesystem::path& site, const localization::HybridMap& map,
+                      const mapping::Walls& walls, const std::string& frame) {
+  save_living_map(site, map, walls);
+  if (frame.empty()) return;
+  const Stamp now = clock_now();
+  if (const auto day = day_of(map, frame, time_of_day(now) - now)) mapping::keep_day(site, *day);
+}
 
 }  // namespace
 
@@ -28,10 +39,12 @@ SiteKeeper::Learned::Learned(const std::filesystem::path& site)
       reliability(site / kReliabilityFile) {}
 
 SiteKeeper::SiteKeeper(std::filesystem::path site, const mapping::Walls& walls,
-                       std::shared_ptr<const WallWatch> watch, std::shared_ptr<const MapWatch> map_watch)
+                       std::shared_ptr<const WallWatch> watch, std::shared_ptr<const MapWatch> map_watch,
+                       std::string frame)
     : site_(std::move(site)),
       walls_(walls),
       fingerprint_(mapping::walls_fingerprint(walls)),
+      frame_(std::move(frame)),
       watch_(std::move(watch)),
       map_watch_(std::move(map_watch)),
       learned_(site_) {}
@@ -90,9 +103,9 @@ void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
 
 void SiteKeeper::keep_learned() {
   jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, map = map_watch_, bent = bent_,
-                        memory = memory_, files = &learned_] {
+                        memory = memory_, files = &learned_, frame = frame_] {
     if (memory) files->memory.write([&] { save_memory(site, memory->together(), walls); });
-    if (map) files->map.write([&] { save_living_map(site, map->map(), walls); });
+    if (map) files->map.write([&] { save_map_and_day(site, map->map(), walls, frame); });
     if (bent) files->warp.write([&] { localization::save_warp(site / kWarpFile, bent->fit, walls); });
     files->reliability.write(
         [&] { mapping::write_file_atomically(site / kReliabilityFile, watch->reliability_text()); });

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "mapping/days/day_map.hpp"
+
+namespace madori::mapping {
+
+struct DayPlace {
+  int column = 0;
+  int row = 0;
+  friend auto operator<=>(const DayPlace&, const DayPlace&) = default;
+};
+
+/// Cells that changed together.
+struct DayCluster {
+  std::vector<DayPlace> cells;
+  Point2<Map> centre;     ///< the mean of the cells' middles
+  double width_m = 0.0;   ///< of their box, along x
+  double height_m = 0.0;  ///< along y
+};
+
+/// Fewer cells that changed for sure are noise: a person or a post covers up to two by two cells of 0.25 m, a
+/// pallet's shorter face (0.8 m) with one side of it five or more.
+inline constexpr std::size_t kLeastCells = 5;
+
+/// Where something stood in `before` and floor is free in `now`, in clusters of at least kLeastCells. What is
+/// unseen or moving then or now says nothing. A cell beside which something stands now counts for no cluster
+/// of its own, because the same surface may have come to lie in the next cell (its ranges and the pose are
+/// good to half a cell); it is added to a cluster that it touches. Swapped arguments give what is new.
+/// Precondition: the same frame and cell_m.
+[[nodiscard]] std::vector<DayCluster> vanished(const DayMap& before, const DayMap& now);
+
+}  // namespace madori::mapping
