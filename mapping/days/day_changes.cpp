@@ -15,9 +15,9 @@ bool are_alike(double a_m, double b_m, const MovedOptions& options) {
 }
 
 bool may_be_same(const DayCluster& gone, const DayCluster& added, const MovedOptions& options) {
-  const auto [few, many] = std::minmax(gone.cells.size(), added.cells.size());
-  const auto [gone_short, gone_long] = std::minmax(gone.width_m, gone.height_m);
-  const auto [added_short, added_long] = std::minmax(added.width_m, added.height_m);
+  const auto [few, many] = std::minmax({gone.cells.size(), added.cells.size()});
+  const auto [gone_short, gone_long] = std::minmax({gone.width_m, gone.height_m});
+  const auto [added_short, added_long] = std::minmax({added.width_m, added.height_m});
   return distance_m(gone.centre, added.centre) <= options.farthest_m &&
          static_cast<double>(few) >= options.cells_ratio * static_cast<double>(many) &&
          are_alike(gone_long, added_long, options) && are_alike(gone_short, added_short, options);
