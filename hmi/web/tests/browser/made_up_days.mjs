@@ -17,14 +17,22 @@ export function cellsOf([x0, y0, x1, y1]) {
       for (let column = Math.round((left - x0) / kCell_m); column < Math.round((right - x0) / kCell_m); ++column)
         if (row >= 0 && column >= 0 && row < height && column < width) cells[(height - 1 - row) * width + column] = kStates[state] * kAges + age_days;
   };
-  return { width, height, cells, fill };
+  /** Sets the cells below a line. */
+  const line = ([ax, ay, bx, by], state) => {
+    const steps = Math.ceil(Math.hypot(bx - ax, by - ay) / (0.5 * kCell_m));
+    for (let i = 0; i <= steps; ++i) {
+      const [x, y] = [ax + ((bx - ax) * i) / steps, ay + ((by - ay) * i) / steps];
+      fill([Math.floor(x / kCell_m) * kCell_m, Math.floor(y / kCell_m) * kCell_m, (Math.floor(x / kCell_m) + 1) * kCell_m, (Math.floor(y / kCell_m) + 1) * kCell_m], state);
+    }
+  };
+  return { width, height, cells, fill, line };
 }
 
 /** A day of the hall of made_up_vehicle.mjs (60 m x 40 m); `thing`: where the things stand that change, as boxes. */
 export function hallDay(walls, things, taken = []) {
   const day = cellsOf([0, 0, 60, 40]);
   day.fill([2, 2, 58, 38], "free");
-  for (const [x1, y1, x2, y2] of walls) day.fill([Math.min(x1, x2) - 0.125, Math.min(y1, y2) - 0.125, Math.max(x1, x2) + 0.125, Math.max(y1, y2) + 0.125], "static", 3);
+  for (const wall of walls) day.line(wall, "static");
   for (const box of [[6, 32, 14, 34], [44, 33, 52, 35]]) day.fill(box, "static");
   for (const box of things) day.fill(box, "semi_static");
   for (const box of taken) day.fill(box, "taken_away");
