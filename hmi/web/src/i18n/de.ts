@@ -366,7 +366,7 @@ export const de: Record<TextKey, string> = {
   "doubt.needs_operator": "Zum Antworten mit der PIN eines Bedieners anmelden.",
   "doubt.taken": "{metres} m Wand wurden aus den Wänden genommen.",
   "doubt.back": "Zurücknehmen",
-  "doubt.more": "Nach diesen wird noch nach {count} Wänden gefragt.",
+  "doubt.later": "Nächste Frage",
   "history.statistics": "Statistik",
   "history.files": "Dateien",
   "history.site": "Der Einsatzort",

@@ -383,7 +383,7 @@ export const en = {
   "doubt.needs_operator": "To answer, log in with an operator's PIN.",
   "doubt.taken": "{metres} m of wall were taken out of the walls.",
   "doubt.back": "Put it back",
-  "doubt.more": "{count} more walls are asked about after these.",
+  "doubt.later": "Next question",
   "history.statistics": "Statistics",
   "history.files": "Downloads",
   "history.site": "The site",

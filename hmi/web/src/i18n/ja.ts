@@ -384,7 +384,7 @@ export const ja: Record<TextKey, string> = {
   "doubt.needs_operator": "答えるには操作者のPINでログインしてください。",
   "doubt.taken": "{metres} m の壁を除きました。",
   "doubt.back": "元に戻す",
-  "doubt.more": "このあとに、さらに{count}か所の壁についてお聞きします。",
+  "doubt.later": "次の質問",
   "history.statistics": "統計",
   "history.files": "ダウンロード",
   "history.site": "現場データ",

@@ -2,7 +2,7 @@ import Feature from "ol/Feature";
 import { LineString, Point, Polygon } from "ol/geom";
 import { fromExtent } from "ol/geom/Polygon";
 import type VectorSource from "ol/source/Vector";
-import { Fill, RegularShape, Stroke, Style } from "ol/style";
+import { Circle, Fill, RegularShape, Stroke, Style } from "ol/style";
 import type { DayChange, DoubtedWall } from "../api_types";
 import type { Extent } from "./geometry";
 import { palette } from "./theme";
@@ -21,10 +21,15 @@ export function extentOfWall({ segments }: DoubtedWall): Extent {
 
 const halo = (width: number) => new Stroke({ color: palette().paper, width });
 
-/** A cross for what is gone, a plus for what is new or moved: told apart without colour, too. */
-function sign(kind: DayChange["kind"], color: string, large: boolean): Style[] {
-  const shape = (stroke: Stroke) => new RegularShape({ points: 4, radius: large ? 16 : 10, radius2: 0, angle: kind === "gone" ? Math.PI / 4 : 0, stroke });
-  return [new Style({ image: shape(halo(large ? 10 : 7)) }), new Style({ image: shape(new Stroke({ color, width: large ? 6 : 4 })) })];
+/** A disc with a cross for what is gone, a plus for what is new, a point in its direction for what moved: told apart without colour, too. */
+function badge(change: DayChange, color: string, large: boolean): Style[] {
+  const { kind, x, y, from } = change;
+  const radius = large ? 10 : 7;
+  const stroke = new Stroke({ color, width: large ? 5 : 3 });
+  const sign = from
+    ? new RegularShape({ points: 3, radius, rotation: Math.atan2(x - from[0], y - from[1]), fill: new Fill({ color }) })
+    : new RegularShape({ points: 4, radius, radius2: 0, angle: kind === "gone" ? Math.PI / 4 : 0, stroke });
+  return [new Style({ image: new Circle({ radius: radius + 6, fill: new Fill({ color: palette().paper }), stroke }) }), new Style({ image: sign })];
 }
 
 function box(kind: DayChange["kind"], color: string, chosen: boolean): Style[] {
@@ -33,12 +38,7 @@ function box(kind: DayChange["kind"], color: string, chosen: boolean): Style[] {
   return chosen ? [new Style({ stroke: halo(10) }), new Style({ stroke })] : [new Style({ stroke })];
 }
 
-/** From where it was to where it is, with a point at that end. */
-function way(geometry: LineString, color: string): Style[] {
-  const [[ax = 0, ay = 0] = [], [bx = 0, by = 0] = []] = geometry.getCoordinates();
-  const head = new RegularShape({ points: 3, radius: 10, rotation: Math.atan2(bx - ax, by - ay), rotateWithView: true, fill: new Fill({ color }) });
-  return [new Style({ stroke: halo(8) }), new Style({ stroke: new Stroke({ color, width: 4 }) }), new Style({ geometry: new Point([bx, by]), image: head })];
-}
+const way = (color: string): Style[] => [new Style({ stroke: halo(8) }), new Style({ stroke: new Stroke({ color, width: 4 }) })];
 
 /** Marks what changed, and walls that a person is asked about, on a map; `chosen`: the one that was touched in the list. */
 export function showChanges(on: VectorSource, changes: readonly DayChange[], doubts: readonly DoubtedWall[], chosen: DayChange | DoubtedWall | null): void {
@@ -51,12 +51,12 @@ export function showChanges(on: VectorSource, changes: readonly DayChange[], dou
   };
   for (const change of changes) {
     const { kind, x, y, width_m, height_m, from } = change;
-    const colour = () => (kind === "gone" ? palette().red : palette().ink);  // blue is what stands
-    const mark = change === chosen ? "chosen" : kind;
-    add(fromExtent([x - width_m / 2, y - height_m / 2, x + width_m / 2, y + height_m / 2]), () => box(kind, colour(), change === chosen), mark);
-    const line = from ? new LineString([[...from], [x, y]]) : null;
-    if (line) add(line, () => way(line, colour()), mark);
-    else add(new Point([x, y]), () => sign(kind, colour(), change === chosen), mark);
+    const is = change === chosen;
+    const colour = () => (kind === "gone" ? palette().red : palette().blue);
+    const mark = is ? "chosen" : kind;
+    add(fromExtent([x - width_m / 2, y - height_m / 2, x + width_m / 2, y + height_m / 2]), () => box(kind, colour(), is), mark);
+    if (from) add(new LineString([[...from], [x, y]]), () => way(colour()), mark);
+    add(new Point([x, y]), () => badge(change, colour(), is), mark);
   }
   for (const wall of doubts)
     for (const [x1 = 0, y1 = 0, x2 = 0, y2 = 0] of wall.segments) {

@@ -130,7 +130,7 @@ const answers = {
   "/api/statistics": () => ({ deliveries: 42, distance_m: 12345, driving_s: 45000, standing_s: 9000, since: 1767225600, stops: [{ cause: { code: "something-in-the-way", values: {}, text: "" }, count: 12, seconds: 300 }, { cause: { code: "door-not-open", values: {}, text: "" }, count: 4, seconds: 90 }] }),
   "/api/site/versions": () => [{ number: 1, stamp: 1767225600, author: "panel", sentence: "drawing, walls" }, { number: 2, stamp: 1767229200, author: "panel", sentence: "routes" }],
   "/api/site/days": () => dayList(),
-  "/api/site/walls/doubted": () => [{ segments: [[2, 26, 8, 26]], length_m: 6, looks: 17 }],
+  "/api/site/walls/doubted": () => [{ segments: [[2, 26, 8, 26]], length_m: 6, looks: 17 }, { segments: [[40, 20, 42, 20]], length_m: 2, looks: 8 }],
   "/api/recordings": () => [{ name: "2026-01-01T00-00-00Z", bytes: 123456789, modified: 1767225600 }],
 };
 

@@ -17,8 +17,6 @@ import { baseDate, dateText, type Base } from "./day_choice";
 import { DoubtRow, TakenOutCard, type TakenOut } from "./doubted_wall";
 import { useChanges } from "./use_changes";
 
-const kMostDoubts = 5; // at once: an old drawing may have a hundred
-
 /** By what a row stays the chosen one while its figures change. */
 const keyOf = (one: DayChange | DoubtedWall): string => JSON.stringify("segments" in one ? one.segments : one);
 
@@ -51,13 +49,15 @@ export function Changes({ site, walls, role, changed }: Content & { role: Sessio
   const [date, setDate] = useState<string | null>(null);
   const [base, setBase] = useState<Base>({ kind: "week" });
   const [chosen, setChosen] = useState<string | null>(null);
+  const [question, setQuestion] = useState("");
   const [taken, setTaken] = useState<TakenOut | null>(null);
   const days = kept?.days ?? [];
   const shown = days.find((day) => day.date === date) ?? days.at(-1) ?? null;
   const since = shown ? baseDate(days, shown.date, base) : null;
   const found = useChanges(since, shown?.date ?? null);
   const changes = since ? (found?.changes ?? []) : [];
-  const doubts = (asked ?? []).slice(0, kMostDoubts);
+  const doubts = asked ?? [];
+  const doubt = doubts.find((wall) => keyOf(wall) === question) ?? doubts[0];
   useMarks(map, changes, doubts, chosen);
   useEffect(() => void attempt(async () => layer.current?.show(shown)), [shown?.date, shown?.extent.join()]);
   useEffect(() => map.current?.showWalls(walls.walls), [walls.revision]);
@@ -74,6 +74,12 @@ export function Changes({ site, walls, role, changed }: Content & { role: Sessio
   const choose = (one: DayChange | DoubtedWall) => {
     setChosen(keyOf(one));
     map.current?.showPlace("segments" in one ? extentOfWall(one) : extentOfChange(one));
+  };
+  /** One question at a time: an old drawing may have a hundred. */
+  const ask = (wall: DoubtedWall | undefined) => {
+    if (!wall) return;
+    setQuestion(keyOf(wall));
+    choose(wall);
   };
   const edited = (now: TakenOut | null) => {
     setTaken(now);
@@ -113,10 +119,10 @@ export function Changes({ site, walls, role, changed }: Content & { role: Sessio
         )}
         {taken && <TakenOutCard taken={taken} done={() => edited(null)} />}
         <ul class="files">
-          {doubts.map((wall) => (
-            <DoubtRow key={keyOf(wall)} wall={wall} walls={walls} role={role} chosen={keyOf(wall) === chosen} choose={() => choose(wall)} gone={edited} stands={() => edited(taken)} />
-          ))}
-          {asked && asked.length > kMostDoubts && <li class="quiet">{t("doubt.more", { count: asked.length - kMostDoubts })}</li>}
+          {doubt && (
+            <DoubtRow key={keyOf(doubt)} wall={doubt} place={[doubts.indexOf(doubt) + 1, doubts.length]} walls={walls} role={role} chosen={keyOf(doubt) === chosen} choose={() => choose(doubt)}
+              gone={edited} stands={() => edited(taken)} later={() => ask(doubts[(doubts.indexOf(doubt) + 1) % doubts.length])} />
+          )}
           {changes.map((change) => <ChangeRow key={keyOf(change)} change={change} chosen={keyOf(change) === chosen} choose={() => choose(change)} />)}
         </ul>
         {kept && kept.of_other_frames > 0 && <p class="quiet">{t("changes.other_frames", { count: kept.of_other_frames })}</p>}

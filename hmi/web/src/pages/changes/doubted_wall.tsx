@@ -17,10 +17,10 @@ export interface TakenOut {
   length_m: number;
 }
 
-/** "Is this wall gone for good?", with its answers once it was touched. */
-export function DoubtRow(props: { wall: DoubtedWall; walls: Walls; role: Session["role"]; chosen: boolean; choose: () => void; gone: (taken: TakenOut) => void; stands: () => void }) {
+/** "Is this wall gone for good?", with its answers once it was touched; `place`: the how manyth of how many questions it is. */
+export function DoubtRow(props: { wall: DoubtedWall; place: [number, number]; walls: Walls; role: Session["role"]; chosen: boolean; choose: () => void; gone: (taken: TakenOut) => void; stands: () => void; later: () => void }) {
   const t = useText();
-  const { wall, walls, role, chosen } = props;
+  const { wall, place, walls, role, chosen } = props;
   const [busy, setBusy] = useState(false);
   const once = (action: () => Promise<unknown>) => {
     setBusy(true);
@@ -35,16 +35,17 @@ export function DoubtRow(props: { wall: DoubtedWall; walls: Walls; role: Session
     props.stands();
   });
   return (
-    <li data-doubt>
+    <li data-doubts={place[1]}>
       <button type="button" class="target row" aria-pressed={chosen} onClick={props.choose}>
         <Icon name="warning" />
-        <span><strong>{t("doubt.question")}</strong><small>{t("doubt.facts", { metres: wall.length_m.toFixed(1), looks: Math.round(wall.looks) })}</small></span>
+        <span><strong>{t("doubt.question")}</strong><small>{t("doubt.facts", { metres: wall.length_m.toFixed(1), looks: Math.round(wall.looks) })}{place[1] > 1 && ` (${place.join("/")})`}</small></span>
       </button>
       {chosen && role === "viewer" && <p class="quiet">{t("doubt.needs_operator")}</p>}
       {chosen && role !== "viewer" && (
         <div class="buttons">
           {role === "integrator" && <Tool icon="erase" label={t("doubt.gone")} disabled={busy} onClick={takeOut} />}
           <Tool icon="good" label={t("doubt.stands")} disabled={busy} onClick={keep} />
+          {place[1] > 1 && <Tool icon="next" label={t("doubt.later")} onClick={props.later} />}
         </div>
       )}
     </li>
