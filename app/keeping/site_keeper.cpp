@@ -1,5 +1,7 @@
 #include "app/keeping/site_keeper.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <utility>
 
 #include "app/learned/calibration_file.hpp"
@@ -21,13 +23,13 @@ namespace {
 constexpr double kPoseEveryS = 1.0;
 constexpr double kLearnedEveryS = 60.0;
 
-/// The living map, and what it reads today.
-void save_map_and_day(const std::filesystem::path& site, const localization::HybridMap& map,
-                      const mapping::Walls& walls, const std::string& frame) {
-  save_living_map(site, map, walls);
-  if (frame.empty()) return;
+/// What the living map reads today.
+void keep_today(const std::filesystem::path& site, const localization::HybridMap& map,
+                const std::string& frame) try {
   const Stamp now = clock_now();
   if (const auto day = day_of(map, frame, time_of_day(now) - now)) mapping::keep_day(site, *day);
+} catch (const std::exception& e) {
+  spdlog::warn("today is not kept: {}", e.what());
 }
 
 }  // namespace
@@ -105,12 +107,14 @@ void SiteKeeper::keep_learned() {
   jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, map = map_watch_, bent = bent_,
                         memory = memory_, files = &learned_, frame = frame_] {
     if (memory) files->memory.write([&] { save_memory(site, memory->together(), walls); });
-    if (map) files->map.write([&] { save_map_and_day(site, map->map(), walls, frame); });
+    const auto seen = map ? std::optional(map->map()) : std::nullopt;
+    const bool map_kept = seen && files->map.write([&] { save_living_map(site, *seen, walls); });
     if (bent) files->warp.write([&] { localization::save_warp(site / kWarpFile, bent->fit, walls); });
     files->reliability.write(
         [&] { mapping::write_file_atomically(site / kReliabilityFile, watch->reliability_text()); });
     const auto found = localization::self_calibrate(localization::WallIndex(walls), watch->keyframes());
     (void)keep_calibration(site, walls, found);
+    if (map_kept && !frame.empty()) keep_today(site, *seen, frame);
   });
 }
 

@@ -63,7 +63,7 @@ json change_json(const DayChange& change) {
 json days_json(const fs::path& folder) {
   json wire{{"days", json::array()}, {"skipped", json::array()}, {"of_other_frames", 0}};
   if (!has_site(folder)) return wire;
-  const auto loaded = mapping::load_days(folder, frame_of(folder), CivilDay::min(), CivilDay::max());
+  const auto loaded = mapping::list_days(folder, frame_of(folder));
   for (const DayMap& day : loaded.days) wire["days"].push_back(day_json(day));
   wire["skipped"] = loaded.skipped;
   wire["of_other_frames"] = loaded.of_other_frames;

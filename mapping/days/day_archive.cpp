@@ -20,6 +20,15 @@ CivilDay week_of(CivilDay day) {
   return day - (std::chrono::weekday(day) - std::chrono::Monday);
 }
 
+void take(Result<DayMap> read, const std::string& frame, LoadedDays& loaded) {
+  if (!read.ok())
+    loaded.skipped.push_back(read.reason());
+  else if (read.value().frame != frame)
+    ++loaded.of_other_frames;
+  else
+    loaded.days.push_back(std::move(read).value());
+}
+
 }  // namespace
 
 std::vector<CivilDay> kept_days(const fs::path& site) {
@@ -76,17 +85,18 @@ Result<DayMap> load_day(const fs::path& site, CivilDay day) {
 
 LoadedDays load_days(const fs::path& site, const std::string& frame, CivilDay from, CivilDay to) {
   LoadedDays loaded;
-  for (const CivilDay day : kept_days(site)) {
-    if (day < from || day > to) continue;
-    auto read = load_day(site, day);
-    if (!read.ok())
-      loaded.skipped.push_back(read.reason());
-    else if (read.value().frame != frame)
-      ++loaded.of_other_frames;
-    else
-      loaded.days.push_back(std::move(read).value());
-  }
+  for (const CivilDay day : kept_days(site))
+    if (day >= from && day <= to) take(load_day(site, day), frame, loaded);
   return loaded;
+}
+
+LoadedDays list_days(const fs::path& site, const std::string& frame) {
+  LoadedDays listed;
+  for (const CivilDay day : kept_days(site)) {
+    take(load_day(site, day), frame, listed);
+    if (!listed.days.empty()) listed.days.back().packed = {};
+  }
+  return listed;
 }
 
 }  // namespace madori::mapping

@@ -35,13 +35,16 @@ void keep_day(const std::filesystem::path& site, const DayMap& map, const DayBou
 /// Refused, with the file and the reason: no such file, damaged, or of another day than its name says.
 [[nodiscard]] Result<DayMap> load_day(const std::filesystem::path& site, CivilDay day);
 
-/// The days of one Map frame, oldest first, between two days and with both; what cannot be used is told.
+/// The days of one Map frame, oldest first; what cannot be used is told.
 struct LoadedDays {
   std::vector<DayMap> days;
   std::vector<std::string> skipped;  ///< a sentence each
   std::size_t of_other_frames = 0;   ///< before the drawing or its scale was changed
 };
+/// Those between two days, and these.
 [[nodiscard]] LoadedDays load_days(const std::filesystem::path& site, const std::string& frame, CivilDay from,
                                    CivilDay to);
+/// All of them without their cells: days and places alone.
+[[nodiscard]] LoadedDays list_days(const std::filesystem::path& site, const std::string& frame);
 
 }  // namespace madori::mapping

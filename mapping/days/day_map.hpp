@@ -42,8 +42,9 @@ inline constexpr int kOldestDays = 41;  ///< so that state and age share one byt
 /// lower-left corner at the frame's origin. Cells outside are unseen.
 class DayMap {
  public:
-  /// What is kept at most; 1 km x 1 km at 0.25 m.
-  static constexpr std::int64_t kMostCells = 16'000'000;
+  /// What is kept at most; 600 m x 200 m at 0.25 m. All days that are kept together then take 330 MB of
+  /// memory where two of them are compared.
+  static constexpr std::int64_t kMostCells = 2'000'000;
 
   CivilDay day{};
   std::string frame;  ///< map_frame() of the site: days of another frame are not compared

@@ -108,6 +108,11 @@ TEST(DayArchive, DamagedFilesAreSkippedWithAWord) {
   ASSERT_EQ(loaded.skipped.size(), 2U);
   EXPECT_NE(loaded.skipped[0].find("2026-11-22.png: it is of another day"), std::string::npos);
   EXPECT_NE(loaded.skipped[1].find("2026-11-24.png: it is damaged"), std::string::npos);
+  const LoadedDays listed = list_days(folder.path(), test::kMadeUpFrame);
+  ASSERT_EQ(listed.days.size(), 2U);
+  EXPECT_EQ(listed.days[0].width, 4);
+  EXPECT_TRUE(listed.days[0].packed.empty());
+  EXPECT_EQ(listed.skipped, loaded.skipped);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ function shareOn(wall: readonly number[], [px1 = 0, py1 = 0, px2 = 0, py2 = 0]: 
   const length2 = (x2 - x1) ** 2 + (y2 - y1) ** 2;
   const along = (x: number, y: number) => ((x - x1) * (x2 - x1) + (y - y1) * (y2 - y1)) / length2;
   const [from, to] = [along(px1, py1), along(px2, py2)].sort((a, b) => a - b);
-  if (from === undefined || to === undefined || (to - from) * Math.sqrt(length2) < kShortest_m) return [];
+  if (from === undefined || to === undefined || !((to - from) * Math.sqrt(length2) >= kShortest_m)) return [];
   return [[from, to]];
 }
 

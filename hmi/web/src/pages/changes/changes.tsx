@@ -1,131 +1,90 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { api } from "../../api";
-import type { DayChange, DoubtedWall, Session } from "../../api_types";
+import type { DayChange, DoubtedWall, KeptDays, Session } from "../../api_types";
 import type { Content } from "../../content";
-import { language, useText } from "../../i18n";
-import { extentOfChange, extentOfWall, showChanges } from "../../map/change_layer";
-import { DayLayer, dayColours } from "../../map/day_layer";
-import type { FactoryMap } from "../../map/factory_map";
-import { MapView } from "../../map/map_view";
-import { usePolled, useStore } from "../../store";
-import type { IconName } from "../../ui/icon";
+import { useText } from "../../i18n";
+import { usePolled } from "../../store";
 import { Stale } from "../../ui/stale";
-import { attempt } from "../../ui/toast";
-import { Tool } from "../../ui/tool";
-import { ChangeRow, dateAndAge } from "./change_row";
-import { baseDate, dateText, type Base } from "./day_choice";
+import { ChangeRow } from "./change_row";
+import { ChangesMap } from "./changes_map";
+import { keyOf, nothingChosen, type Listed } from "./chosen";
+import { Compare } from "./compare";
+import { baseDate, type Base } from "./day_choice";
+import { DaySlider } from "./day_slider";
 import { DoubtRow, TakenOutCard, type TakenOut } from "./doubted_wall";
 import { useChanges } from "./use_changes";
 
-/** By what a row stays the chosen one while its figures change. */
-const keyOf = (one: DayChange | DoubtedWall): string => JSON.stringify("segments" in one ? one.segments : one);
-
-function Legend() {
-  const t = useText();
-  return (
-    <ul class="legend" aria-label={t("changes.legend")}>
-      {(Object.keys(dayColours) as (keyof typeof dayColours)[]).map((state) => <li key={state}><i class={`day-${dayColours[state]}`} />{t(`day.${state}`)}</li>)}
-    </ul>
-  );
-}
-
-/** What the chosen day, its changes and the walls in doubt look like on the map. */
-function useMarks(map: { current: FactoryMap | null }, changes: readonly DayChange[], doubts: readonly DoubtedWall[], chosen: string | null) {
-  const look = JSON.stringify([changes, doubts, chosen]);
-  useEffect(() => {
-    const one = [...changes, ...doubts].find((each) => keyOf(each) === chosen) ?? null;
-    if (map.current) showChanges(map.current.sketch, changes, doubts, one);
-  }, [look]);
-}
-
-/** Look back on the building: what the vehicle saw at the end of each day, and what changed between two. */
-export function Changes({ site, walls, role, changed }: Content & { role: Session["role"]; changed: () => Promise<unknown> }) {
-  const t = useText();
-  const words = useStore(language);
-  const map = useRef<FactoryMap | null>(null);
-  const layer = useRef<DayLayer | null>(null);
+/** The day that is shown, the one that it is compared with, and what changed between them. */
+function useDays() {
   const { value: kept, age_s } = usePolled(api.days, 30_000);
-  const { value: asked, refresh } = usePolled(api.doubtedWalls, 5000);
-  const [date, setDate] = useState<string | null>(null);
+  const [date, choose] = useState<string | null>(null);
   const [base, setBase] = useState<Base>({ kind: "week" });
-  const [chosen, setChosen] = useState<string | null>(null);
-  const [question, setQuestion] = useState("");
-  const [taken, setTaken] = useState<TakenOut | null>(null);
   const days = kept?.days ?? [];
   const shown = days.find((day) => day.date === date) ?? days.at(-1) ?? null;
   const since = shown ? baseDate(days, shown.date, base) : null;
   const found = useChanges(since, shown?.date ?? null);
-  const changes = since ? (found?.changes ?? []) : [];
-  const doubts = asked ?? [];
-  const doubt = doubts.find((wall) => keyOf(wall) === question) ?? doubts[0];
-  useMarks(map, changes, doubts, chosen);
-  useEffect(() => void attempt(async () => layer.current?.show(shown)), [shown?.date, shown?.extent.join()]);
-  useEffect(() => map.current?.showWalls(walls.walls), [walls.revision]);
-  const ready = (made: FactoryMap) => {
-    map.current = made;
-    made.room = [20, 20, 130, 20];  // the slider
-    made.showSite(site, site.drawing ? api.drawingUrl(site.walls_revision) : null);
-    made.showWalls(walls.walls);
-    made.fitWalls();
-    const days_layer = new DayLayer(made);
-    layer.current = days_layer;
-    return () => days_layer.dispose();
-  };
-  const choose = (one: DayChange | DoubtedWall) => {
-    setChosen(keyOf(one));
-    map.current?.showPlace("segments" in one ? extentOfWall(one) : extentOfChange(one));
-  };
-  /** One question at a time: an old drawing may have a hundred. */
-  const ask = (wall: DoubtedWall | undefined) => {
-    if (!wall) return;
-    setQuestion(keyOf(wall));
-    choose(wall);
+  return { kept, age_s, days, shown, choose, base, setBase, since, found: since ? found : null };
+}
+
+/** Walls that a person is asked about, one at a time, for an old drawing may have a hundred; and what was taken out a moment ago. */
+function useDoubts(show: (one: Listed | null) => void, changed: () => Promise<unknown>) {
+  const { value, refresh } = usePolled(api.doubtedWalls, 5000);
+  const [question, setQuestion] = useState("");
+  const [taken, setTaken] = useState<TakenOut | null>(null);
+  const walls: readonly DoubtedWall[] = value ?? [];
+  const at = Math.max(0, walls.findIndex((wall) => keyOf(wall) === question));
+  const later = () => {
+    const next = walls[(at + 1) % walls.length];
+    if (!next) return;
+    setQuestion(keyOf(next));
+    show(next);
   };
   const edited = (now: TakenOut | null) => {
     setTaken(now);
-    setChosen(null);
+    show(null);
     void changed();
     refresh();
   };
-  const count = (kind: DayChange["kind"]) => changes.filter((change) => change.kind === kind).length;
-  const compare = (next: Base, label: string, icon: IconName) => <Tool icon={icon} label={label} pressed={base.kind === next.kind} onClick={() => setBase(next)} />;
+  return { walls, at, taken, later, edited };
+}
+
+/** Why days are not among those that can be shown. */
+function LeftOut({ kept }: { kept: KeptDays }) {
+  const t = useText();
+  return (
+    <>
+      {kept.days.length === 0 && <p class="quiet" role="status">{t("changes.no_day")}</p>}
+      {kept.skipped.length > 0 && <p class="caution">{t("changes.skipped", { count: kept.skipped.length })}</p>}
+      {kept.of_other_frames > 0 && <p class="quiet">{t("changes.other_frames", { count: kept.of_other_frames })}</p>}
+    </>
+  );
+}
+
+/** Look back on the building: what the vehicle saw at the end of each day, and what changed between two. */
+export function Changes({ site, walls, role, changed }: Content & { role: Session["role"]; changed: () => Promise<unknown> }) {
+  const [chosen, setChosen] = useState(nothingChosen);
+  const choose = (one: Listed | null) => setChosen((old) => ({ key: one ? keyOf(one) : "", touched: old.touched + 1 }));
+  const { kept, age_s, days, shown, base, since, found, ...day } = useDays();
+  const { walls: doubts, at, taken, later, edited } = useDoubts(choose, changed);
+  const changes: readonly DayChange[] = found?.changes ?? [];
+  const doubt = doubts[at];
   return (
     <div class="with-map changes">
-      <MapView ready={ready} above={shown && <Legend />}>
-        {shown && (
-          <label class="day-slider">
-            <span class="ends"><small>{dateText(days[0]?.date ?? shown.date, words)}</small><b role="status">{dateText(shown.date, words, true)}</b><small>{dateText(days.at(-1)?.date ?? shown.date, words)}</small></span>
-            <input type="range" class="target" min={0} max={Math.max(0, days.length - 1)} step={1} value={days.indexOf(shown)} disabled={days.length < 2} aria-label={t("changes.day")}
-              aria-valuetext={dateText(shown.date, words, true)} onInput={(event) => setDate(days[Number(event.currentTarget.value)]?.date ?? null)} />
-          </label>
-        )}
-      </MapView>
+      <ChangesMap site={site} walls={walls} day={shown} changes={changes} doubts={doubts} chosen={chosen}>
+        {shown && <DaySlider days={days} shown={shown} choose={day.choose} />}
+      </ChangesMap>
       <aside>
         <Stale age={age_s} limit={75} />
-        {kept && days.length === 0 && <p class="quiet" role="status">{t("changes.no_day")}</p>}
-        {kept && kept.skipped.length > 0 && <p class="caution">{t("changes.skipped", { count: kept.skipped.length })}</p>}
-        {shown && (
-          <div class="buttons" role="group" aria-label={t("changes.against")}>
-            {compare({ kind: "before" }, t("changes.day_before"), "earlier")}
-            {compare({ kind: "week" }, t("changes.week_before"), "week")}
-            {compare({ kind: "held", date: shown.date }, t("changes.this_day"), "pin")}
-          </div>
-        )}
-        {shown && (
-          <p class="facts" role="status" data-since={since ?? ""} data-known={found ? "yes" : "no"}>
-            {since === null && t(base.kind === "held" ? "changes.held" : "changes.one_day", { date: dateText(shown.date, words) })}
-            {since !== null && <>{t("changes.since", { date: dateAndAge(t, since, words) })}<br />{found ? t("changes.count", { gone: count("gone"), new: count("new"), moved: count("moved") }) : t("history.asking")}</>}
-          </p>
-        )}
+        {shown && <Compare shown={shown.date} base={base} since={since} found={found} choose={day.setBase} />}
         {taken && <TakenOutCard taken={taken} done={() => edited(null)} />}
         <ul class="files">
           {doubt && (
-            <DoubtRow key={keyOf(doubt)} wall={doubt} place={[doubts.indexOf(doubt) + 1, doubts.length]} walls={walls} role={role} chosen={keyOf(doubt) === chosen} choose={() => choose(doubt)}
-              gone={edited} stands={() => edited(taken)} later={() => ask(doubts[(doubts.indexOf(doubt) + 1) % doubts.length])} />
+            <DoubtRow key={keyOf(doubt)} wall={doubt} place={[at + 1, doubts.length]} walls={walls} role={role} chosen={keyOf(doubt) === chosen.key} choose={() => choose(doubt)}
+              gone={edited} stands={() => edited(taken)} later={later} />
           )}
-          {changes.map((change) => <ChangeRow key={keyOf(change)} change={change} chosen={keyOf(change) === chosen} choose={() => choose(change)} />)}
+          {changes.map((change) => <ChangeRow key={keyOf(change)} change={change} chosen={keyOf(change) === chosen.key} choose={() => choose(change)} />)}
         </ul>
-        {kept && kept.of_other_frames > 0 && <p class="quiet">{t("changes.other_frames", { count: kept.of_other_frames })}</p>}
+        {kept && <LeftOut kept={kept} />}
       </aside>
     </div>
   );
