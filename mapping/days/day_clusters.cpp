@@ -20,10 +20,14 @@ void around(const DayPlace& p, int reach, Do visit) {
       if (column != p.column || row != p.row) visit(DayPlace{column, row});
 }
 
-bool stands_beside(const DayMap& now, const DayPlace& p) {
-  bool found = false;
-  around(p, 1, [&](const DayPlace& n) { found = found || stands(now.at(n.column, n.row).state); });
-  return found;
+/// Whether all that is beside a place was seen, and nothing stands there.
+bool is_open(const DayMap& now, const DayPlace& p) {
+  bool open = true;
+  around(p, 1, [&](const DayPlace& n) {
+    const DayState state = now.at(n.column, n.row).state;
+    open = open && state != DayState::Unseen && !stands(state);
+  });
+  return open;
 }
 
 std::set<DayPlace> surely_vanished(const DayMap& before, const DayMap& now) {
@@ -31,7 +35,7 @@ std::set<DayPlace> surely_vanished(const DayMap& before, const DayMap& now) {
   for (int row = before.row; row < before.row + before.height; ++row)
     for (int column = before.column; column < before.column + before.width; ++column) {
       const DayPlace p{column, row};
-      if (has_vanished(before, now, p) && !stands_beside(now, p)) sure.insert(p);
+      if (has_vanished(before, now, p) && is_open(now, p)) sure.insert(p);
     }
   return sure;
 }

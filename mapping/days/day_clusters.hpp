@@ -25,10 +25,11 @@ struct DayCluster {
 inline constexpr std::size_t kLeastCells = 5;
 
 /// Where something stood in `before` and floor is free in `now`, in clusters of at least kLeastCells. What is
-/// unseen or moving then or now says nothing. A cell beside which something stands now counts for no cluster
-/// of its own, because the same surface may have come to lie in the next cell (its ranges and the pose are
-/// good to half a cell); it is added to a cluster that it touches. Swapped arguments give what is new.
-/// Precondition: the same frame and cell_m.
+/// unseen or moving then or now says nothing. Only cells around which all was seen now, and nothing stands,
+/// make a cluster: where something stands in the next cell it may be the same surface (ranges and pose are
+/// good to half a cell), and where that is unseen, beams only grazed a surface, for they would have passed
+/// through a place that is empty. Other cells are added to a cluster that they touch. Swapped arguments give
+/// what is new. Precondition: the same frame and cell_m.
 [[nodiscard]] std::vector<DayCluster> vanished(const DayMap& before, const DayMap& now);
 
 }  // namespace madori::mapping
