@@ -20,8 +20,8 @@ struct DayCluster {
   double height_m = 0.0;  ///< along y
 };
 
-/// Fewer cells that changed for sure are noise: a person or a post covers up to two by two cells of 0.25 m, a
-/// pallet's shorter face (0.8 m) with one side of it five or more.
+/// Fewer cells that changed for sure are noise: up to 4 were seen where nothing had changed
+/// (docs/explanation/living-map.md). A person or a post covers up to two by two cells of 0.25 m.
 inline constexpr std::size_t kLeastCells = 5;
 
 /// Where something stood in `before` and floor is free in `now`, in clusters of at least kLeastCells. What is

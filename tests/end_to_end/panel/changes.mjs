@@ -104,7 +104,11 @@ async function seeYesterday(panel) {
   expect(seen.at.slice(3).every((one) => like(one, seen.floor)), `beside the shelf is ${seen.at.slice(3)}, not ${seen.floor}`);
 }
 
-const view = (panel) => panel.page.evaluate(() => document.querySelector(".map-canvas").olMap.getView().getCenter());
+/** Whether a place has come to the middle of the map (which the slider moves up a little). */
+const isShown = async (panel, [x, y]) => {
+  const [cx, cy] = await panel.page.evaluate(() => document.querySelector(".map-canvas").olMap.getView().getCenter());
+  return Math.hypot(x - cx, y - cy) < 4;
+};
 const marks = (panel, what) => panel.page.evaluate((mark) => document.querySelector(".map-canvas").olMap.getLayers().getArray()
   .flatMap((layer) => layer.getSource()?.getFeatures?.() ?? []).filter((feature) => feature.get("mark") === mark).length, what);
 
@@ -116,9 +120,7 @@ async function seeChanges(panel) {
   expect((await panel.page.locator("[data-change=moved]").innerText()).includes("2.0 m"), "it is not said how far it moved");
   await picture(panel, "history-changes");
   await panel.page.locator("[data-change=gone] button").tap();
-  await mapReady(panel);
-  const [x, y] = await view(panel);
-  expect(Math.hypot(x - middle(kGone)[0], y - middle(kGone)[1]) < 4, `the map shows ${x}, ${y} instead of what is gone`);
+  await until("the map shows what is gone", () => isShown(panel, middle(kGone)), 10_000);
   expect((await marks(panel, "chosen")) > 0, "what was touched is not marked");
   await touch(panel, "Day before");
   await panel.page.locator(`.facts[data-since="${dayBefore(3)}"][data-known=yes]`).waitFor();
@@ -134,6 +136,7 @@ async function takeOutAndPutBack(panel, stretch) {
   const text = await asked(panel, 2).innerText();
   expect(text.includes(`${lengthOf(stretch).toFixed(1)} m`) && text.includes(`${kMissed} times`), `it is asked: ${text}`);
   await asked(panel, 2).locator("button").first().tap();
+  await until("the map shows the wall", () => isShown(panel, middle(stretch)), 10_000);
   await mapReady(panel);
   await picture(panel, "history-changes-wall");
   const before = await metres(panel);
