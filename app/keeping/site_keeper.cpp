@@ -1,8 +1,11 @@
 #include "app/keeping/site_keeper.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <utility>
 
 #include "app/learned/calibration_file.hpp"
+#include "app/learned/day_of_map.hpp"
 #include "app/learned/deviations.hpp"
 #include "app/learned/kept_memory.hpp"
 #include "app/learned/learned_drawing.hpp"
@@ -10,6 +13,7 @@
 #include "core/clock.hpp"
 #include "localization/self_calibration/self_calibration.hpp"
 #include "localization/warp/warp_file.hpp"
+#include "mapping/days/day_archive.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 
@@ -18,6 +22,15 @@ namespace {
 
 constexpr double kPoseEveryS = 1.0;
 constexpr double kLearnedEveryS = 60.0;
+
+/// What the living map reads today.
+void keep_today(const std::filesystem::path& site, const localization::HybridMap& map,
+                const std::string& frame) try {
+  const Stamp now = clock_now();
+  if (const auto day = day_of(map, frame, time_of_day(now) - now)) mapping::keep_day(site, *day);
+} catch (const std::exception& e) {
+  spdlog::warn("today is not kept: {}", e.what());
+}
 
 }  // namespace
 
@@ -28,10 +41,12 @@ SiteKeeper::Learned::Learned(const std::filesystem::path& site)
       reliability(site / kReliabilityFile) {}
 
 SiteKeeper::SiteKeeper(std::filesystem::path site, const mapping::Walls& walls,
-                       std::shared_ptr<const WallWatch> watch, std::shared_ptr<const MapWatch> map_watch)
+                       std::shared_ptr<const WallWatch> watch, std::shared_ptr<const MapWatch> map_watch,
+                       std::string frame)
     : site_(std::move(site)),
       walls_(walls),
       fingerprint_(mapping::walls_fingerprint(walls)),
+      frame_(std::move(frame)),
       watch_(std::move(watch)),
       map_watch_(std::move(map_watch)),
       learned_(site_) {}
@@ -90,14 +105,16 @@ void SiteKeeper::keep_pose(const CycleState& state, Stamp now) {
 
 void SiteKeeper::keep_learned() {
   jobs_.put("learned", [site = site_, walls = walls_, watch = watch_, map = map_watch_, bent = bent_,
-                        memory = memory_, files = &learned_] {
+                        memory = memory_, files = &learned_, frame = frame_] {
     if (memory) files->memory.write([&] { save_memory(site, memory->together(), walls); });
-    if (map) files->map.write([&] { save_living_map(site, map->map(), walls); });
+    const auto seen = map ? std::optional(map->map()) : std::nullopt;
+    const bool map_kept = seen && files->map.write([&] { save_living_map(site, *seen, walls); });
     if (bent) files->warp.write([&] { localization::save_warp(site / kWarpFile, bent->fit, walls); });
     files->reliability.write(
         [&] { mapping::write_file_atomically(site / kReliabilityFile, watch->reliability_text()); });
     const auto found = localization::self_calibrate(localization::WallIndex(walls), watch->keyframes());
     (void)keep_calibration(site, walls, found);
+    if (map_kept && !frame.empty()) keep_today(site, *seen, frame);
   });
 }
 

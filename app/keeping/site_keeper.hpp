@@ -16,13 +16,14 @@ namespace madori::app {
 
 /// Keeps with the site what the next start wants to know: the pose (at most every second, and when the
 /// vehicle comes to stand), and what was learned of the drawing, its walls, how they stand in the building,
-/// what the vehicle remembers, and the living map (when it stands, at most every minute, and at the end).
-/// Files are written on a thread of its own, atomically; what was learned is not, where somebody else has
-/// replaced the file since.
+/// what the vehicle remembers, the living map and what it reads today (when it stands, at most every minute,
+/// and at the end). Files are written on a thread of its own, atomically; what was learned is not, where
+/// somebody else has replaced the file since.
 class SiteKeeper {
  public:
+  /// `frame`: mapping::map_frame() of the site as it was loaded; without one no days are kept.
   SiteKeeper(std::filesystem::path site, const mapping::Walls& walls, std::shared_ptr<const WallWatch> watch,
-             std::shared_ptr<const MapWatch> map_watch = nullptr);
+             std::shared_ptr<const MapWatch> map_watch = nullptr, std::string frame = "");
   /// Keeps everything once more.
   ~SiteKeeper();
   SiteKeeper(const SiteKeeper&) = delete;
@@ -51,6 +52,7 @@ class SiteKeeper {
   std::filesystem::path site_;
   mapping::Walls walls_;
   std::string fingerprint_;
+  std::string frame_;
   std::shared_ptr<const WallWatch> watch_;
   std::shared_ptr<const MapWatch> map_watch_;
   Stamp pose_kept_{};

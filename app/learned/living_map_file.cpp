@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/learned/earlier_walls.hpp"
 #include "core/result.hpp"
 #include "localization/ndt_map/hybrid_map_file.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -28,7 +29,8 @@ LivingMap begin_living_map(const std::filesystem::path& site, const mapping::Wal
   if (std::filesystem::exists(file)) {
     auto kept = localization::parse_hybrid_map(mapping::file_content(file));
     std::string reason = kept.ok() ? "" : kept.reason();
-    if (kept.ok() && kept.value().walls != mapping::walls_checksum(walls))
+    if (kept.ok() && kept.value().walls != mapping::walls_checksum(walls) &&
+        !are_earlier_walls(site, kept.value().walls))
       reason = "the walls have changed since";
     if (reason.empty())
       begun.map = std::move(kept).value().map;

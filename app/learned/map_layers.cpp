@@ -1,9 +1,9 @@
 #include "app/learned/map_layers.hpp"
 
-#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "app/learned/seen_box.hpp"
 #include "core/result.hpp"
 #include "mapping/georeference/geotiff.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -27,24 +27,6 @@ std::uint8_t value_of(CellState state, MapLayer layer) {
   return state == CellState::Free || state == CellState::TakenAway ? kFree : kOccupied;
 }
 
-/// Lowest and highest column and row of what was seen.
-struct Box {
-  CellPlace low{0, 0}, high{-1, -1};
-};
-
-Box box_of(const HybridMap& map) {
-  Box box;
-  const CellTree& cells = map.cells();
-  for (CellTree::Index i = 0; i < cells.size(); ++i) {
-    if (!cells[i].layers.was_seen()) continue;
-    const CellPlace& p = cells.place(i);
-    if (box.high.column < box.low.column) box = {p, p};
-    box.low = {std::min(box.low.column, p.column), std::min(box.low.row, p.row)};
-    box.high = {std::max(box.high.column, p.column), std::max(box.high.row, p.row)};
-  }
-  return box;
-}
-
 }  // namespace
 
 const char* to_string(MapLayer layer) {
@@ -61,16 +43,16 @@ const char* to_string(MapLayer layer) {
 
 GridMap layer_of(const HybridMap& map, MapLayer layer) {
   constexpr std::int64_t kMostPixels = 100'000'000;
-  const Box box = box_of(map);
+  const SeenBox box = seen_box(map);
   GridMap grid;
   grid.cell_m = map.options().cell_m;
   grid.origin = {box.low.column * grid.cell_m, box.low.row * grid.cell_m};
-  if (box.high.column < box.low.column)
+  if (box.empty())
     throw Error("the living map", "is empty",
                 "drive, or learn from a log: madori localize DIR --log LOG --learn");
-  grid.width = box.high.column - box.low.column + 1;
-  grid.height = box.high.row - box.low.row + 1;
-  if (std::int64_t{grid.width} * grid.height > kMostPixels)
+  grid.width = box.width();
+  grid.height = box.height();
+  if (box.cells() > kMostPixels)
     throw Error("the living map", "is wider than 100 million cells",
                 "the vehicle has believed wrong places: remove it");
   grid.pixels.assign(static_cast<std::size_t>(grid.width) * grid.height, kUnknown);

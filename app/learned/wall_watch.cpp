@@ -7,6 +7,7 @@
 
 #include "core/angle.hpp"
 #include "localization/wall_reliability/reliability_file.hpp"
+#include "localization/wall_reliability/wall_weights.hpp"
 
 namespace madori::app {
 namespace {
@@ -61,9 +62,11 @@ std::vector<SeenWall> WallWatch::seen() const {
   const localization::WallReliability& reliability = learner_.reliability();
   const auto& cells = reliability.cells().all();
   all.reserve(cells.size());
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    all.push_back(
-        {cells[i], reliability.state(i), reliability.share_in_place(i), reliability.beliefs()[i].offset_m});
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const localization::WallBelief& belief = reliability.beliefs()[i];
+    all.push_back({cells[i], reliability.state(i), reliability.share_in_place(i), belief.offset_m,
+                   belief.missed, localization::is_surely_missing(reliability, i)});
+  }
   return all;
 }
 

@@ -20,6 +20,8 @@ struct SeenWall {
   localization::WallState state = localization::WallState::Unseen;
   double share_in_place = 0.0;  ///< 0..1
   double offset_m = 0.0;        ///< of a displaced piece, to the left of its direction
+  double missed = 0.0;          ///< independent looks through it
+  bool surely_missing = false;  ///< so many that localization leaves it out
 };
 
 /// What the running vehicle learns of the drawing: for the panel, and for the site's keeper. It looks on

@@ -265,9 +265,9 @@ hmi::StatisticsView PanelVehicle::statistics() const {
 
 std::vector<hmi::WallView> PanelVehicle::walls_seen() const {
   std::vector<hmi::WallView> views;
-  for (const auto& [cell, state, share, offset_m] : run_.walls_seen())
-    views.push_back(
-        {cell.wall_id, cell.piece, cell.segment, localization::to_string(state), share, offset_m});
+  for (const auto& [cell, state, share, offset_m, missed, surely_missing] : run_.walls_seen())
+    views.push_back({cell.wall_id, cell.piece, cell.segment, localization::to_string(state), share, offset_m,
+                     missed, surely_missing});
   return views;
 }
 

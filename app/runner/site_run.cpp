@@ -16,6 +16,7 @@
 #include "app/route_tools.hpp"
 #include "core/clock.hpp"
 #include "core/result.hpp"
+#include "mapping/days/map_frame.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 
 namespace madori::app {
@@ -79,7 +80,8 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
     loaded.pose = std::make_unique<LocalizerPose>(loaded.site->walls, lidars, options);
     loaded.last = load_stored_pose(site, mapping::walls_fingerprint(loaded.site->walls));
     if (!loaded.last.message.empty()) spdlog::info("{}", loaded.last.message);
-    loaded.keeper = std::make_unique<SiteKeeper>(site, loaded.site->walls, loaded.watch, map_watch);
+    loaded.keeper = std::make_unique<SiteKeeper>(site, loaded.site->walls, loaded.watch, map_watch,
+                                                 mapping::map_frame(site, loaded.site->site));
   } catch (const std::exception& e) {
     loaded.missing = e.what();
   }

@@ -21,6 +21,8 @@ Router make_router(ApiContext& context) {
   add_vehicle_routes(router, context);
   add_history_routes(router, context);
   add_version_routes(router, context);
+  add_day_routes(router, context);
+  add_doubt_routes(router, context);
   return router;
 }
 

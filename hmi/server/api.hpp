@@ -43,5 +43,7 @@ void add_vehicle_routes(Router& router, ApiContext& context);
 void add_history_routes(Router& router, ApiContext& context);
 void add_backup_routes(Router& router, ApiContext& context);
 void add_version_routes(Router& router, ApiContext& context);
+void add_day_routes(Router& router, ApiContext& context);
+void add_doubt_routes(Router& router, ApiContext& context);
 
 }  // namespace madori::hmi

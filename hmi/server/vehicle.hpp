@@ -153,12 +153,14 @@ struct EventView {
 
 /// What the lidar has seen of a piece (about a metre) of a drawn wall.
 struct WallView {
-  int id = 0;             ///< of walls.csv
-  int piece = 0;          ///< counted from the wall's start
-  Segment2<Map> segment;  ///< as drawn
-  std::string state;      ///< unseen, confirmed, missing, displaced
-  double share = 0.0;     ///< how far the drawing is to be believed here, 0..1
-  double offset_m = 0.0;  ///< of a displaced piece: where it stands, to the left of its direction
+  int id = 0;                   ///< of walls.csv
+  int piece = 0;                ///< counted from the wall's start
+  Segment2<Map> segment;        ///< as drawn
+  std::string state;            ///< unseen, confirmed, missing, displaced
+  double share = 0.0;           ///< how far the drawing is to be believed here, 0..1
+  double offset_m = 0.0;        ///< of a displaced piece: where it stands, to the left of its direction
+  double missed = 0.0;          ///< independent looks through it
+  bool surely_missing = false;  ///< so many that the vehicle does not count on it any more
 };
 
 /// How often and how long the vehicle stood for a cause.

@@ -34,11 +34,16 @@ std::optional<Row> numbers_of(std::string_view line) {
   return row;
 }
 
-bool is_of(const WallCell& cell, const Row& row) {
+/// The piece that lies where the row's did, whatever its number is now; nothing where there is none.
+std::optional<std::size_t> piece_of(const WallCells& cells, const Row& row) {
   const auto same = [](double a, double b) { return std::abs(a - b) < kSameM; };
-  return static_cast<int>(row[0]) == cell.wall_id && static_cast<int>(row[1]) == cell.piece &&
-         same(row[2], cell.segment.a.x_m) && same(row[3], cell.segment.a.y_m) &&
-         same(row[4], cell.segment.b.x_m) && same(row[5], cell.segment.b.y_m);
+  const Point2<Map> middle{0.5 * (row[2] + row[4]), 0.5 * (row[3] + row[5])};
+  for (const std::uint32_t i : cells.near(middle, kSameM)) {
+    const Segment2<Map>& s = cells.all()[i].segment;
+    if (same(row[2], s.a.x_m) && same(row[3], s.a.y_m) && same(row[4], s.b.x_m) && same(row[5], s.b.y_m))
+      return i;
+  }
+  return std::nullopt;
 }
 
 bool is_possible(const Row& row) {
@@ -64,22 +69,24 @@ std::string reliability_csv(const WallReliability& reliability) {
 
 std::string load_reliability(const std::filesystem::path& file, WallReliability& reliability) {
   if (!std::filesystem::exists(file)) return "";
-  const auto& cells = reliability.cells().all();
   std::istringstream stream(mapping::file_content(file));
   std::string line;
-  std::vector<WallBelief> beliefs;
+  std::vector<WallBelief> beliefs(reliability.cells().size());
+  std::size_t rows = 0, found = 0;
   std::getline(stream, line);
   const std::string anew = " - what was learned of the walls is learned anew while driving";
   if (line != kHeader) return file.string() + ":1: is damaged" + anew;
-  for (int number = 2; std::getline(stream, line); ++number) {
+  while (std::getline(stream, line)) {
+    ++rows;
     const auto row = numbers_of(line);
     if (!row || !is_possible(*row))
-      return file.string() + ":" + std::to_string(number) + ": is damaged" + anew;
-    if (beliefs.size() >= cells.size() || !is_of(cells[beliefs.size()], *row))
-      return file.string() + ": the walls have changed since" + anew;
-    beliefs.push_back({(*row)[6], (*row)[7], (*row)[8], (*row)[9], (*row)[10], (*row)[11]});
+      return file.string() + ":" + std::to_string(rows + 1) + ": is damaged" + anew;
+    const auto piece = piece_of(reliability.cells(), *row);
+    if (!piece) continue;  // of a wall that was erased or drawn elsewhere
+    beliefs[*piece] = {(*row)[6], (*row)[7], (*row)[8], (*row)[9], (*row)[10], (*row)[11]};
+    ++found;
   }
-  if (beliefs.size() != cells.size()) return file.string() + ": the walls have changed since" + anew;
+  if (rows > 0 && found == 0) return file.string() + ": the walls have changed since" + anew;
   reliability.set_beliefs(std::move(beliefs));
   return "";
 }

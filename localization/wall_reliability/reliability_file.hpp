@@ -11,9 +11,10 @@ namespace madori::localization {
 /// drawn_offset_m,state`, a line a piece.
 [[nodiscard]] std::string reliability_csv(const WallReliability& reliability);
 
-/// Takes what was learned before into `reliability`. Nothing is taken where the file belongs to other walls
-/// (the drawing was scaled or imported anew since) or is damaged: then the answer says so in an operator's
-/// words. Empty where all is well, and where there is no file.
+/// Takes what was learned before into `reliability`, of the pieces that lie where they lay: a wall that was
+/// erased or drawn elsewhere takes what was learned of it with it. Nothing is taken where the file belongs to
+/// other walls altogether (the drawing was scaled or imported anew since) or is damaged: then the answer says
+/// so in an operator's words. Empty where all is well, and where there is no file.
 [[nodiscard]] std::string load_reliability(const std::filesystem::path& file, WallReliability& reliability);
 /// Writes the file atomically. Throws Error (disk full, no permission).
 void save_reliability(const std::filesystem::path& file, const WallReliability& reliability);

@@ -43,6 +43,11 @@ Segment2<Map> moved_aside(const Segment2<Map>& s, double offset_m) {
 
 }  // namespace
 
+bool is_surely_missing(const WallReliability& reliability, std::size_t cell,
+                       const WallWeightOptions& options) {
+  return verdict(reliability, cell, options).weight <= 0.0;
+}
+
 WallWeights wall_weights(const mapping::Walls& walls, const WallReliability& reliability,
                          const WallWeightOptions& options) {
   WallWeights result;

@@ -21,6 +21,10 @@ struct WallWeightOptions {
   double unsure = 0.3;        ///< weight of a piece that is neither sure nor confirmed
 };
 
+/// Whether a piece is taken for gone: so many looks through it agree that wall_weights() leaves it out.
+[[nodiscard]] bool is_surely_missing(const WallReliability& reliability, std::size_t cell,
+                                     const WallWeightOptions& options = {});
+
 /// Neighbouring pieces of a wall that are believed alike are put together again; walls of which nothing is
 /// known come out as they went in, with weight 1.
 [[nodiscard]] WallWeights wall_weights(const mapping::Walls& walls, const WallReliability& reliability,

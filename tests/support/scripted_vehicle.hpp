@@ -139,6 +139,15 @@ class ScriptedVehicle : public hmi::Vehicle {
   }
   [[nodiscard]] std::vector<planning::DrivenPose> driven_way() const override { return driven_; }
 
+  [[nodiscard]] std::vector<hmi::WallView> walls_seen() const override {
+    const std::scoped_lock lock(mutex_);
+    return walls_;
+  }
+
+  void see_walls(std::vector<hmi::WallView> walls) {
+    const std::scoped_lock lock(mutex_);
+    walls_ = std::move(walls);
+  }
   void drive_way(std::vector<planning::DrivenPose> way) { driven_ = std::move(way); }
   [[nodiscard]] double mapping_length_m() const {
     const std::scoped_lock lock(mutex_);
@@ -198,6 +207,7 @@ class ScriptedVehicle : public hmi::Vehicle {
   std::vector<mapping::SensorRecord> mapping_sensors_;
   double mapping_length_m_ = 0.0;
   std::vector<planning::DrivenPose> driven_;
+  std::vector<hmi::WallView> walls_;
 };
 
 }  // namespace madori::test

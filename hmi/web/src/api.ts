@@ -52,6 +52,8 @@ export const api = {
   drawingUrl: (revision: string) => `/api/site/drawing.png?r=${encodeURIComponent(revision)}`,
   walls: () => get<wire.Walls>("/api/site/walls"),
   wallsSeen: () => get<wire.WallPiece[]>("/api/site/walls/seen"),
+  doubtedWalls: () => get<wire.DoubtedWall[]>("/api/site/walls/doubted"),
+  wallStands: (wall: wire.StandingWall) => post("/api/site/walls/standing", wall),
   saveWalls: (edit: wire.WallsEdit) => put<wire.Saved>("/api/site/walls", edit),
   uploadDrawing: (file: File, options: Record<string, string>) =>
     request<wire.Job>("POST", `/api/site/drawing?${new URLSearchParams({ name: file.name, ...options }).toString()}`, undefined, file),
@@ -88,6 +90,10 @@ export const api = {
   versions: () => get<wire.SiteVersion[]>("/api/site/versions"),
   compareVersions: (before: number, after: number) => get<wire.VersionDiff>(`/api/site/versions/${before}/against/${after}`),
   restoreVersion: (number: number) => post(`/api/site/versions/${number}/restore`),
+
+  days: () => get<wire.KeptDays>("/api/site/days"),
+  dayUrl: (date: string) => `/api/site/days/${date}/map.png`,
+  dayChanges: (a: string, b: string) => get<wire.DayChanges>(`/api/site/days/${a}/against/${b}`),
 
   devices: () => get<wire.FoundDevice[]>("/api/devices"),
   searchDevices: () => post<wire.FoundDevice[]>("/api/devices/search"),

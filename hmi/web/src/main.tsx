@@ -102,7 +102,7 @@ function Panel() {
       <Rail page={shown} role={role} needsPin={session.needs_pin} go={(next) => { setTeach(false); setPage(next); }} leave={leave} />
       {shown === "drive" && <DrivePage key={version} {...content} role={role} changed={load} teach={() => { setTeach(true); setPage("setup"); }} />}
       {shown === "setup" && <SetupPage {...content} teach={teach} changed={load} finished={() => setPage("drive")} />}
-      {shown === "history" && <HistoryPage role={role} />}
+      {shown === "history" && <HistoryPage {...content} role={role} changed={load} />}
       <CommandBar role={role} />
       <Toast />
     </>

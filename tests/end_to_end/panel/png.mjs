@@ -8,7 +8,8 @@ const table = Array.from({ length: 256 }, (_, n) => {
 });
 const crc = (bytes) => (zlib.crc32 ? zlib.crc32(bytes) : (bytes.reduce((c, byte) => table[(c ^ byte) & 255] ^ (c >>> 8), 0xffffffff) ^ 0xffffffff) >>> 0);
 
-function chunk(type, data) {
+/** A chunk: length, type, data, CRC-32. */
+export function chunk(type, data) {
   const out = Buffer.alloc(12 + data.length);
   out.writeUInt32BE(data.length, 0);
   out.write(type, 4, "ascii");

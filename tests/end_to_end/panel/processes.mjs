@@ -56,16 +56,17 @@ export function start(program, args, ready, { input = false } = {}) {
       setTimeout(() => child.kill("SIGKILL"), 5000).unref();
     }),
   });
-  const kill = () => new Promise((dead) => {
+  const endBy = (signal) => () => new Promise((dead) => {
     child.removeAllListeners("exit");
     child.once("exit", () => { ended = true; dead(); });
-    child.kill("SIGKILL");
+    child.kill(signal);
   });
+  const [kill, end] = [endBy("SIGKILL"), endBy("SIGTERM")];
   return new Promise((done, fail) => {
     const take = (data) => {
       output += data;
       const match = output.match(ready);
-      if (match) done({ match, output: () => output, kill, child });
+      if (match) done({ match, output: () => output, kill, end, child });
     };
     child.stdout.on("data", take);
     child.stderr.on("data", take);
@@ -101,12 +102,13 @@ export async function startWires(simLidarPort, runLidarPort, simDrive) {
   return { drive: wires.match[1], say };
 }
 
-/** The vehicle's computer with its panel: `address`, `kill()` (no farewell), `again()` (the same on the same port). */
+/** The vehicle's computer with its panel: `address`, `kill()` (no farewell), `end()` (as systemd does), `again()` (the same on the same port). */
 export async function startComputer(madori, page, folder, lidarPort, drive, more = []) {
   const hmi = `127.0.0.1:${await freeTcpPort()}`;
   const position = await freeUdpPort();
   const again = () => start(madori, ["run", folder, "--hmi", hmi, "--panel-folder", page, "--lidar-port", String(lidarPort), "--position-port", String(position), "--drive", drive, ...more], /panel at/);
-  return { address: `http://${hmi}/`, again, kill: (await again()).kill };
+  const { kill, end } = await again();
+  return { address: `http://${hmi}/`, again, kill, end };
 }
 
 /** The vehicle's computer with its panel; answers its address. */

@@ -133,9 +133,9 @@ async function checkEveryPage(panel) {
       await look(`drive-${tab.replaceAll(" ", "-").toLowerCase()}`);
     }
     await touch(panel, "Look back");
-    for (const tab of ["Events", "Statistics", "Downloads"]) {
+    for (const tab of ["Events", "What changed", "Statistics", "Downloads"]) {
       await touch(panel, tab, { role: "tab" });
-      await look(`history-${tab.toLowerCase()}`);
+      await look(`history-${tab.replaceAll(" ", "-").toLowerCase()}`);
     }
     await touch(panel, "Set up");
     for (let step = 0; step < 5; ++step) {

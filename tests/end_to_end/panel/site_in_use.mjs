@@ -10,7 +10,7 @@ import { misfits } from "./schema.mjs";
 
 const { madori, page, data } = given;
 const kAnswers = {
-  "/api/session": "Session", "/api/setup": "Setup", "/api/site": "Site", "/api/site/walls": "Walls", "/api/site/walls/seen": "WallPiece[]",
+  "/api/session": "Session", "/api/setup": "Setup", "/api/site": "Site", "/api/site/walls": "Walls", "/api/site/walls/seen": "WallPiece[]", "/api/site/walls/doubted": "DoubtedWall[]", "/api/site/days": "KeptDays",
   "/api/site/routes": "Routes", "/api/site/routes/csv": "RoutesCsv", "/api/site/tiles": "TileInfo", "/api/site/tiles/sources": "TileSourceInfo[]",
   "/api/devices": "FoundDevice[]", "/api/devices/views": "LidarView[]", "/api/mounting": "MountingState", "/api/vehicle/braking": "Braking", "/api/locate": "Locate", "/api/orders": "Order[]", "/api/orders/history": "Order[]", "/api/events": "Event[]",
   "/api/statistics": "Statistics", "/api/recordings": "Recording[]", "/api/job": "Job",

@@ -11,9 +11,11 @@
 #include "app/learned/map_layers.hpp"
 #include "app/learned/map_watch.hpp"
 #include "core/result.hpp"
+#include "mapping/days/day_archive.hpp"
 #include "mapping/georeference/geotiff.hpp"
 #include "mapping/georeference/local_plane.hpp"
 #include "mapping/site/atomic_file.hpp"
+#include "mapping/site/site_transaction.hpp"
 #include "tests/support/lidar_models.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -116,6 +118,59 @@ TEST(LivingMap, TheSitesKeeperWritesItAtTheEnd) {
   stand(*map_watch, 1e6, 3);
   { SiteKeeper keeper(folder.path(), walls, wall_watch, map_watch); }
   EXPECT_EQ(load_living_map(folder.path() / kLivingMapFile).cells().size() > 500, true);
+  EXPECT_TRUE(mapping::kept_days(folder.path()).empty());  // nobody said in which frame
+}
+
+TEST(LivingMap, TheSitesKeeperKeepsWhatItReadsOfTheDay) {
+  const test::TemporaryFolder folder;
+  const mapping::Walls walls = test::laboratory_hall();
+  const auto map_watch = std::make_shared<MapWatch>(begin_living_map(folder.path(), walls).map);
+  const auto wall_watch =
+      std::make_shared<WallWatch>(walls, Point2<Base>{}, folder.path() / kReliabilityFile);
+  constexpr double kDay_s = 86'400.0;
+  stand(*map_watch, 20'000 * kDay_s + 3600.0, 8);
+  const std::string frame = "0123456789abcdef";
+  { SiteKeeper keeper(folder.path(), walls, wall_watch, map_watch, frame); }
+  const auto days = mapping::kept_days(folder.path());
+  ASSERT_EQ(days.size(), 1U);
+  EXPECT_EQ(mapping::to_text(days[0]), "2024-10-04");
+  const auto day = mapping::load_day(folder.path(), days[0]);
+  ASSERT_TRUE(day.ok()) << day.reason();
+  EXPECT_EQ(day.value().frame, frame);
+  std::size_t fixed = 0;
+  for (int row = 0; row < day.value().height; ++row)
+    for (int column = 0; column < day.value().width; ++column)
+      fixed += day.value().at(day.value().column + column, day.value().row + row).state ==
+               mapping::DayState::Static;
+  EXPECT_EQ(fixed, to_json(map_watch->map())["static"].get<std::size_t>());
+  EXPECT_GT(fixed, 100U);
+}
+
+/// A wall that a person takes out of the walls: what was seen stays. Another scale: it does not.
+TEST(LivingMap, GoesOnWhenWallsAreEditedButNotWhenTheDrawingIsScaled) {
+  const test::TemporaryFolder folder;
+  const auto save = [&](const mapping::Walls& walls, double m_per_px) {
+    mapping::Site site;
+    site.drawing = {"drawing.png", 1000, 500};
+    site.scale.emplace().m_per_px = m_per_px;
+    site.scale->method = "known";
+    mapping::SiteTransaction change(folder.path());
+    change.write("site.yaml", mapping::site_yaml(site));
+    change.write("walls.csv", mapping::walls_csv(walls));
+    change.commit();
+  };
+  const mapping::Walls walls = test::laboratory_hall();
+  save(walls, 0.05);
+  MapWatch watch{begin_living_map(folder.path(), walls).map};
+  stand(watch, 1e6, 3);
+  save_living_map(folder.path(), watch.map(), walls);
+  const mapping::Walls fewer(walls.begin(), walls.end() - 1);
+  save(fewer, 0.05);
+  const LivingMap edited = begin_living_map(folder.path(), fewer);
+  EXPECT_EQ(edited.message, "");
+  EXPECT_EQ(edited.map.state_at({7.0, 0.02}), CellState::Static);
+  save(fewer, 0.051);
+  EXPECT_NE(begin_living_map(folder.path(), fewer).message.find("walls have changed"), std::string::npos);
 }
 
 TEST(LivingMap, LayersShowEachCellOnce) {

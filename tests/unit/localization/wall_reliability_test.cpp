@@ -237,16 +237,32 @@ TEST(ReliabilityFile, KeepsWhatWasLearnedAndDiscardsWhatBelongsToOtherWalls) {
   for (std::size_t c = 0; c < learned.cells().size(); ++c) EXPECT_EQ(again.state(c), learned.state(c));
   EXPECT_EQ(reliability_csv(again), reliability_csv(learned));
   mapping::Walls changed = drawing;
-  changed[3].segment.a.x_m += 0.01;
+  for (mapping::Wall& wall : changed)  // scaled by a percent
+    for (Point2<Map>* end : {&wall.segment.a, &wall.segment.b}) *end = {1.01 * end->x_m, 1.01 * end->y_m};
   WallReliability other(changed);
   EXPECT_NE(load_reliability(file, other).find("walls have changed"), std::string::npos);
-  changed = drawing;
-  changed.pop_back();
-  WallReliability fewer(changed);
-  EXPECT_NE(load_reliability(file, fewer).find("walls have changed"), std::string::npos);
-  for (const WallBelief& b : fewer.beliefs()) EXPECT_EQ(b.looks(), 0.0);
+  for (const WallBelief& b : other.beliefs()) EXPECT_EQ(b.looks(), 0.0);
   folder.write("reliability.csv", reliability_csv(learned).substr(0, 500));
   EXPECT_NE(load_reliability(file, again).find("learned anew"), std::string::npos);
+}
+
+/// Two pieces taken out of a wall of ten, which becomes two walls with other numbers: all other pieces keep
+/// what was learned of them.
+TEST(ReliabilityFile, AWallThatIsTakenOutLeavesTheOthersAsTheyWere) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "reliability.csv";
+  mapping::Walls drawing{{1, {{0.0, 0.0}, {10.4, 0.0}}}, {2, {{0.0, 5.0}, {7.0, 5.0}}}};
+  WallReliability learned(drawing);
+  std::vector<WallBelief> beliefs(learned.cells().size());
+  for (std::size_t i = 0; i < beliefs.size(); ++i) beliefs[i].in_place = 1.0 + static_cast<double>(i);
+  learned.set_beliefs(beliefs);
+  save_reliability(file, learned);
+  drawing = {{1, {{0.0, 5.0}, {7.0, 5.0}}}, {2, {{0.0, 0.0}, {3.12, 0.0}}}, {3, {{5.2, 0.0}, {10.4, 0.0}}}};
+  WallReliability left(drawing);
+  EXPECT_EQ(load_reliability(file, left), "");
+  std::vector<double> looks;
+  for (const WallBelief& b : left.beliefs()) looks.push_back(b.in_place);
+  EXPECT_EQ(looks, (std::vector<double>{11, 12, 13, 14, 15, 16, 17, 1, 2, 3, 6, 7, 8, 9, 10}));
 }
 
 }  // namespace

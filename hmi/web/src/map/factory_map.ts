@@ -183,6 +183,13 @@ export class FactoryMap {
     this.view();
   }
 
+  /** Brings a place of the map to its middle, with something around it. */
+  showPlace([x0, y0, x1, y1]: Extent): void {
+    this.view = null;
+    const around_m = 5;
+    this.map.getView().fit([x0 - around_m, y0 - around_m, x1 + around_m, y1 + around_m], { padding: this.room, duration: 300 });
+  }
+
   zoom(steps: number): void {
     this.view = null;
     const view = this.map.getView();

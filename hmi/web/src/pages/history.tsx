@@ -2,6 +2,7 @@ import { useState } from "preact/hooks";
 import { api } from "../api";
 import type { Event, Session } from "../api_types";
 import { kindText, noticeText, useText } from "../i18n";
+import type { Content } from "../content";
 import { usePolled } from "../store";
 import { Icon } from "../ui/icon";
 import { Restore } from "../ui/restore";
@@ -10,8 +11,9 @@ import { Tabs, type Tab } from "../ui/tabs";
 import { Tool } from "../ui/tool";
 import { VersionsCard } from "../ui/versions_card";
 import { Watch } from "../ui/watch";
+import { Changes } from "./changes/changes";
 
-type TabName = "events" | "statistics" | "files";
+type TabName = "events" | "changes" | "statistics" | "files";
 
 function EventRow({ event }: { event: Event }) {
   const t = useText();
@@ -102,12 +104,13 @@ function Files({ may, restores }: { may: boolean; restores: boolean }) {
   );
 }
 
-/** Look back: what happened, how much was done, and files to take away. */
-export function HistoryPage({ role }: { role: Session["role"] }) {
+/** Look back: what happened, what changed in the building, how much was done, and files to take away. */
+export function HistoryPage({ role, changed, ...content }: Content & { role: Session["role"]; changed: () => Promise<unknown> }) {
   const t = useText();
   const [tab, setTab] = useState<TabName>("events");
   const tabs: Tab<TabName>[] = [
     { name: "events", icon: "list", label: t("history.events") },
+    { name: "changes", icon: "box", label: t("history.changes") },
     { name: "statistics", icon: "chart", label: t("history.statistics") },
     { name: "files", icon: "download", label: t("history.files") },
   ];
@@ -115,6 +118,7 @@ export function HistoryPage({ role }: { role: Session["role"] }) {
     <main class="page history">
       <Tabs label={t("nav.history")} tabs={tabs} shown={tab} choose={setTab}>
         {tab === "events" && <Events />}
+        {tab === "changes" && <Changes key={content.site.drawing?.file} {...content} role={role} changed={changed} />}
         {tab === "statistics" && <StatisticsCard />}
         {tab === "files" && <Files may={role === "operator" || role === "integrator"} restores={role === "integrator"} />}
       </Tabs>

@@ -21,6 +21,8 @@ const paths = {
   next: "M4 12h15M13 6l6 6-6 6",
   back: "M9 5L3 12l6 7h12V5zM11 9l6 6M17 9l-6 6",
   follow: "M12 2v5M12 17v5M2 12h5M17 12h5M12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6",
+  earlier: "M19 12H5M11 6l-6 6 6 6",
+  week: "M12 6l-6 6 6 6M19 6l-6 6 6 6",
   undo: "M4 9h11a5 5 0 0 1 0 10h-4M4 9l4-4M4 9l4 4",
   redo: "M20 9H9a5 5 0 0 0 0 10h4M20 9l-4-4M20 9l-4 4",
   bin: "M5 7h14M9 7V4h6v3M7 7l1 13h8l1-13",

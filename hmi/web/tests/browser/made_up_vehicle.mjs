@@ -5,6 +5,7 @@ import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join } from "node:path";
 import { deflateSync } from "node:zlib";
+import { dayBefore, hallDay, madeUpChanges, now, then } from "./made_up_days.mjs";
 
 const kTypes = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml" };
 const kDrawing = { file: "drawing.png", width_px: 1200, height_px: 800 };
@@ -128,8 +129,29 @@ const answers = {
   ],
   "/api/statistics": () => ({ deliveries: 42, distance_m: 12345, driving_s: 45000, standing_s: 9000, since: 1767225600, stops: [{ cause: { code: "something-in-the-way", values: {}, text: "" }, count: 12, seconds: 300 }, { cause: { code: "door-not-open", values: {}, text: "" }, count: 4, seconds: 90 }] }),
   "/api/site/versions": () => [{ number: 1, stamp: 1767225600, author: "panel", sentence: "drawing, walls" }, { number: 2, stamp: 1767229200, author: "panel", sentence: "routes" }],
+  "/api/site/days": () => dayList(),
+  "/api/site/walls/doubted": () => [{ segments: [[2, 26, 8, 26]], length_m: 6, looks: 17 }, { segments: [[40, 20, 42, 20]], length_m: 2, looks: 8 }],
   "/api/recordings": () => [{ name: "2026-01-01T00-00-00Z", bytes: 123456789, modified: 1767225600 }],
 };
+
+const kKeptDays = [16, 9, 8, 7, 5, 3, 2, 1, 0];
+const dayList = () => ({ days: kKeptDays.map((days) => ({ date: dayBefore(days), extent: [0, 0, 60, 40] })), skipped: [], of_other_frames: 2 });
+
+/** The picture of a kept day. */
+function dayPicture(date) {
+  const { width, height, cells } = hallDay(walls, date < dayBefore(2) ? then : now, date < dayBefore(2) ? [] : [then[0]]);
+  const rows = Buffer.alloc(height * (width + 1));
+  for (let y = 0; y < height; ++y) rows.set(cells.subarray(y * width, (y + 1) * width), y * (width + 1) + 1);
+  return picture(width, height, rows);
+}
+
+/** Addresses that hold dates: what is answered. */
+function answerOfDays(path) {
+  const against = path.match(/^\/api\/site\/days\/([\d-]+)\/against\/([\d-]+)$/);
+  if (!against) return null;
+  const [from, to] = against.slice(1).sort();
+  return { from, to, changes: from < dayBefore(2) && to >= dayBefore(2) ? madeUpChanges() : [] };
+}
 
 function wsFrame(data, text) {
   const head = data.length < 126 ? Buffer.from([0x80 | (text ? 1 : 2), data.length]) : Buffer.alloc(data.length < 65536 ? 4 : 10);
@@ -166,6 +188,10 @@ export function startMadeUpVehicle(page, { points = 20_000 } = {}) {
     const json = path in told.answers ? () => told.answers[path] : answers[path];
     if (json) return answer.writeHead(200, { "Content-Type": "application/json" }).end(JSON.stringify(json()));
     if (path === "/api/site/drawing.png") return answer.writeHead(200, { "Content-Type": "image/png" }).end(png);
+    const day = path.match(/^\/api\/site\/days\/([\d-]+)\/map\.png$/);
+    if (day) return answer.writeHead(200, { "Content-Type": "image/png" }).end(dayPicture(day[1]));
+    const ofDays = answerOfDays(path);
+    if (ofDays) return answer.writeHead(200, { "Content-Type": "application/json" }).end(JSON.stringify(ofDays));
     if (path === "/api/replay") return answer.writeHead(200).end();
     if (path.startsWith("/api/")) return answer.writeHead(200, { "Content-Type": "application/json" }).end("{}");
     const file = join(page, path === "/" ? "index.html" : path);

@@ -14,7 +14,8 @@ const pages = [
   ["drive", ".rail button >> nth=0", "[role=tab] >> nth=0"], ["drive-by-hand", null, "[role=tab] >> nth=1"], ["drive-replay", null, "[role=tab] >> nth=2"],
   ["setup-1-drawing", ".rail button >> nth=1", ".steps button >> nth=0"], ["setup-2-scale", null, ".steps button >> nth=1"], ["setup-3-routes", null, ".steps button >> nth=2"],
   ["setup-4-vehicle", null, ".steps button >> nth=3"], ["setup-4-details", null, "aside .buttons button >> nth=0"], ["setup-5-place", null, ".steps button >> nth=4"],
-  ["history-events", ".rail button >> nth=2", "[role=tab] >> nth=0"], ["history-statistics", null, "[role=tab] >> nth=1"], ["history-downloads", null, "[role=tab] >> nth=2"],
+  ["history-events", ".rail button >> nth=2", "[role=tab] >> nth=0"], ["history-statistics", null, "[role=tab] >> nth=2"], ["history-downloads", null, "[role=tab] >> nth=3"],
+  ["history-changes", null, "[role=tab] >> nth=1"], ["history-changes-one", null, "[data-change] button >> nth=0"], ["history-changes-wall", null, "[data-doubts] button >> nth=0"],
 ];
 
 /** Touch targets that are smaller than 20 mm (the buttons on the map: 14 mm), or stick out of the screen. */
