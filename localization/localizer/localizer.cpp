@@ -15,21 +15,17 @@ Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPos
 }
 
 /// What was remembered lies elsewhere, or nobody knows where: a fresh memory, from the next scan on.
-void Localizer::begin_anew(const std::optional<StartPrior>& told, Anew why) {
+void Localizer::begin_anew(const std::optional<StartPrior>& told, bool carried) {
   worker_.discard();
   const bool was_sure = is_sure();
-  const bool carried = why != Anew::Told;
   if (map_.drawing && carried && was_sure)
     map_.drawing->set_earlier(std::make_shared<const Memory>(remembered()->together()));
+  map_.memory = Memory(options_.memory);
   if (map_.drawing) {
-    if (why == Anew::Looks)
-      map_.drawing->belief.look_again(map_.memory.poses().back());
-    else
-      map_.drawing->belief.forget();
+    map_.drawing->belief.forget();
     if (started_ && !was_sure) map_.drawing->walls.straighten();   // what it was bent to may lie elsewhere
     if (started_ && !carried) map_.drawing->set_earlier(nullptr);  // a person knows better
   }
-  map_.memory = Memory(options_.memory);
   map_.evidence = {};
   map_.evidence.has_drawing = map_.drawing.has_value();
   map_.told = told;
@@ -121,7 +117,7 @@ std::optional<RememberedParts> Localizer::remembered() const {
 void Localizer::start(const SurfaceScan& scan) {
   if (!track_.empty() && anchor_stamp_ < scan.stamp)
     anchor_ = anchor_ * track_.between(anchor_stamp_, scan.stamp, model_).motion;
-  anchor_stamp_ = begun_ = scan.stamp;
+  anchor_stamp_ = scan.stamp;
   agreement_.begin(scan.stamp);
   double way_m = 0.0;
   if (!map_.memory.empty()) {
@@ -195,9 +191,8 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
     const OdometryStep step = track_.between(anchor_stamp_, stamp, model_);
     const Transform2<Map, Base> before = anchor_;
     follow(scan, step);
-    const bool carried = was_carried(stamp, points, step, before) || gives_up(stamp);
-    if (carried || wants_another_look(stamp)) {
-      begin_anew(std::nullopt, carried ? Anew::Carried : Anew::Looks);
+    if (was_carried(stamp, points, step, before) || gives_up(stamp)) {
+      begin_anew(std::nullopt, true);
       surroundings_.restart();
     }
   } else {
@@ -217,7 +212,10 @@ void Localizer::remember_if_new(const SurfaceScan& scan) {
   const Transform2<Base, Base> moved = map_.memory.poses().back().inverse() * anchor_;
   if (std::hypot(moved.x_m(), moved.y_m()) > options_.keyframe_m ||
       std::abs(moved.yaw_rad()) > options_.keyframe_rad)
-    remember(scan);
+    return remember(scan);
+  if (!wants_another_look(scan.stamp)) return;
+  remember(scan);
+  map_.next_survey_walls = 0.0;  // all places are looked at with it
 }
 
 /// Does the lidar see other surroundings than a moment ago, wherever the vehicle is laid, and does the memory
@@ -259,11 +257,12 @@ bool Localizer::gives_up(Stamp stamp) const {
              LocalizationState::Lost;
 }
 
-/// A vehicle that stands and does not know where sees the same for ever, but for what moves before its lidar:
-/// now and then one scan takes the place of the other. They are not independent and never add up.
+/// A vehicle that stands and does not know where sees the same for ever, but for noise and what moves before
+/// its lidar. Its looks are one view, the better seen the more there are: a wall counts by its length. Each
+/// for itself, it would in the end believe the one that chance had favour a wrong place.
 bool Localizer::wants_another_look(Stamp stamp) const {
-  return map_.drawing && !map_.placed && map_.evidence.looked && !worker_.busy() && map_.memory.size() == 1 &&
-         to_seconds(stamp - begun_) > options_.another_look_s;
+  return map_.drawing && !map_.placed && map_.evidence.looked && !worker_.busy() &&
+         to_seconds(stamp - map_.memory.keyframes().back().scan->stamp) > options_.another_look_s;
 }
 
 }  // namespace madori::localization

@@ -90,9 +90,7 @@ class Localizer {
                                  const Transform2<Map, Base>& before);
   [[nodiscard]] bool gives_up(Stamp stamp) const;
   [[nodiscard]] bool wants_another_look(Stamp stamp) const;
-  /// Somebody says so; it was carried, or lay elsewhere; it stands and looks again.
-  enum class Anew { Told, Carried, Looks };
-  void begin_anew(const std::optional<StartPrior>& told, Anew why = Anew::Told);
+  void begin_anew(const std::optional<StartPrior>& told, bool carried = false);
 
   LocalizerOptions options_;
   std::vector<Point2<Base>> weighty_;  ///< of the scan at hand
@@ -110,7 +108,6 @@ class Localizer {
   KeyframeMotion since_keyframe_;
   ScanAgreement agreement_;
   SurroundingsCheck surroundings_;
-  Stamp begun_{};  ///< the memory, with its first scan
   int keyframes_since_thinking_ = 0;
   bool thinking_ = false;  ///< as set_thinking() says
   MapWorker worker_;       ///< last: it ends first

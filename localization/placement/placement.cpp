@@ -177,7 +177,6 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
   seen.pieces = wall_pieces(seen.cloud);
   const Seen mirrored{mirror_image(seen.cloud), seen.pieces, mirror_image(seen.ways),
                       mirror_image(seen.first), mirror_image(at)};
-  if (memory.size() > 1) looked_.clear(), looks_ = 0;  // it has moved: more is seen than from there
   std::vector<Placement> found{{}};
   for (const Placement& p : placements_)
     if (p.probability > kForgotten) found.push_back(p);
@@ -187,10 +186,6 @@ void PlaceBelief::weigh(const DrawingFit& fit, const Memory& memory, const Memor
   if (prior && prior->former)
     found.push_back({prior->former->map_from_base * memory.poses().front().inverse()});
   for (const auto& place : proposed) found.push_back({place * at.inverse()});
-  for (const Looked& before : looked_) {
-    found.push_back({before.place * (before.mirrored ? mirrored.at : at).inverse()});
-    found.back().mirrored = before.mirrored;
-  }
   if (everywhere) {
     for (const auto& correction : survey(fit.index(), seen.cloud, at, kSurveyed))
       found.push_back({correction});
@@ -234,39 +229,11 @@ void PlaceBelief::share_out(std::vector<Placement> found, const Seen& seen, cons
     sum += p.probability;
   }
   for (Placement& p : placements_) p.probability /= sum;
-  average_looks(seen, mirrored);
   std::stable_sort(placements_.begin(), placements_.end(),
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
 }
 
-/// A place's share of the belief becomes the mean of what all looks give it.
-void PlaceBelief::average_looks(const Seen& seen, const Seen& mirrored) {
-  if (looks_ == 0) return;
-  for (Placement& p : placements_) {
-    const Transform2<Map, Base> place = p.correction * (p.mirrored ? mirrored.at : seen.at);
-    for (const Looked& before : looked_)
-      if (before.mirrored == p.mirrored && same_place(place, before.place, kSameM, kSameRad)) {
-        p.probability += before.share;
-        break;
-      }
-    p.probability /= 1.0 + looks_;
-  }
-}
-
-void PlaceBelief::look_again(const Transform2<Map, Base>& at) {
-  std::vector<Looked> now;  // shares are means of the looks so far
-  for (const Placement& p : placements_)
-    if (p.probability > kForgotten)
-      now.push_back(
-          {p.correction * (p.mirrored ? mirror_image(at) : at), p.probability * (1.0 + looks_), p.mirrored});
-  looked_ = std::move(now);
-  ++looks_;
-  placements_.clear();
-}
-
 void PlaceBelief::forget() {
-  looked_.clear();
-  looks_ = 0;
   if (!placements_.empty())
     log_mirrored_ = std::min(log_mirrored_, std::log(std::max(kLeastMirrored, probability_mirrored())));
   placements_.clear();

@@ -73,9 +73,6 @@ class PlaceBelief {
   void moved(const Transform2<Map, Map>& by);
   /// Nothing is known of the place any more; whether the drawing is mirrored is not forgotten.
   void forget();
-  /// The vehicle stands, was not sure, and begins a memory anew with another scan. The looks that it takes
-  /// from one place count alike: who waits for one that convinces him believes chance in the end.
-  void look_again(const Transform2<Map, Base>& at);
 
   /// An earlier drive lay on this drawing, and surely: it is not mirrored.
   void exclude_mirror();
@@ -102,21 +99,11 @@ class PlaceBelief {
   [[nodiscard]] double probability_within(const Transform2<Map, Base>& at, double m, double rad,
                                           double Placement::*share) const;
   void share_out(std::vector<Placement> found, const Seen& seen, const Seen& mirrored);
-  void average_looks(const Seen& seen, const Seen& mirrored);
-
-  /// Where earlier looks from the place at hand would put the vehicle, and their shares together.
-  struct Looked {
-    Transform2<Map, Base> place;
-    double share = 0.0;
-    bool mirrored = false;
-  };
 
   std::shared_ptr<const mapping::DistanceField> walls_;
   double area_m2_ = 1.0;  ///< of the drawing
   double log_mirrored_;   ///< prior of a mirrored drawing, by what places before said
   std::vector<Placement> placements_;
-  std::vector<Looked> looked_;
-  int looks_ = 0;  ///< that looked_ holds
 };
 
 }  // namespace madori::localization
