@@ -13,13 +13,9 @@ std::string percent(double share) {
   return std::to_string(std::lround(100.0 * share)) + " %";
 }
 
-double place(const HealthEvidence& e) {
-  return std::max(e.here, e.around);
-}
-
 LocalizationHealth lost(const HealthEvidence& e, const HealthLimits& limits) {
-  const auto because = [&](std::string reason) {
-    return LocalizationHealth{LocalizationState::Lost, std::move(reason), place(e)};
+  const auto because = [](std::string reason) {
+    return LocalizationHealth{LocalizationState::Lost, std::move(reason)};
   };
   if (e.mirrored > limits.mirrored)
     return because(
@@ -30,16 +26,15 @@ LocalizationHealth lost(const HealthEvidence& e, const HealthLimits& limits) {
         "the last " + std::to_string(e.blind_scans) +
         " scans agree neither with what was seen before nor with the wheels: moved by hand or covered?");
   if (!e.looked) return because(reason::kSearching.english);
-  if (e.here >= limits.believed || e.around >= limits.localized)
-    return {LocalizationState::Localized, "", place(e)};
+  if (e.here >= limits.believed || e.around >= limits.localized) return {LocalizationState::Localized, ""};
   if (e.rival > limits.believed) return because(reason::kMovedByHand.english);
-  if (e.rival > limits.rival) return {LocalizationState::Ambiguous, reason::kTwoAlike.english, place(e)};
+  if (e.rival > limits.rival) return {LocalizationState::Ambiguous, reason::kTwoAlike.english};
   return because(reason::kNoPlace.english);
 }
 
 LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits) {
-  const auto because = [&](std::string reason) {
-    return LocalizationHealth{LocalizationState::Degraded, std::move(reason), place(e)};
+  const auto because = [](std::string reason) {
+    return LocalizationHealth{LocalizationState::Degraded, std::move(reason)};
   };
   if (e.here < limits.believed) return because("the place is certain to a metre only: drive on slowly");
   if (e.here < limits.localized)
@@ -54,7 +49,7 @@ LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits)
         "the last metres fit the drawing much less than usual: the drawing is poor here, or the pose is off");
   if (e.position_sigma_m > limits.degraded_sigma_m)
     return because("the position is uncertain by " + std::to_string(e.position_sigma_m).substr(0, 4) + " m");
-  return {LocalizationState::Localized, "", place(e)};
+  return {LocalizationState::Localized, ""};
 }
 
 }  // namespace
@@ -65,8 +60,10 @@ LocalizationHealth judge(const HealthEvidence& e, const HealthLimits& limits) {
     evidence.looked = true;
     evidence.here = 1.0;
   }
-  const LocalizationHealth health = lost(evidence, limits);
-  return health.state == LocalizationState::Localized ? degraded(evidence, limits) : health;
+  LocalizationHealth health = lost(evidence, limits);
+  if (health.state == LocalizationState::Localized) health = degraded(evidence, limits);
+  health.place = std::max(evidence.here, evidence.around);
+  return health;
 }
 
 }  // namespace madori::localization

@@ -10,12 +10,16 @@
 #include <vector>
 
 #include "localization/localizer/localizer.hpp"
-#include "localization/wall_extraction/wall_extraction.hpp"
+#include "tests/support/driven_localizer.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"
 
 namespace madori::localization {
 namespace {
+
+using test::drive;
+using test::take;
+using test::ten_hertz;
 
 constexpr double kAisleM = 2.6;
 constexpr double kRackM = 0.9;  // deep
@@ -102,17 +106,6 @@ class Hall {
   std::vector<Rack> racks_;
 };
 
-std::vector<test::DriveMoment> drive(const mapping::Walls& walls, const std::vector<Point2<Map>>& stops,
-                                     unsigned seed) {
-  std::mt19937 engine(seed);
-  return test::drive(walls, stops, test::ten_hertz(), engine);
-}
-
-PoseEstimate take(Localizer& localizer, const test::DriveMoment& moment) {
-  (void)localizer.on_odometry(moment.odometry);
-  return localizer.on_scan(moment.scan.stamp, extract_walls(moment.scan, {}));
-}
-
 struct Found {
   double placed_after_m = -1.0;  ///< DEGRADED or LOCALIZED within 0.3 m from there to the end; negative: not
   double sure_after_m = -1.0;    ///< LOCALIZED likewise
@@ -148,11 +141,11 @@ int run(unsigned halls, unsigned first) {
   int wrong = 0;
   for (unsigned seed = first; seed < first + halls; ++seed) {
     Hall hall(seed);
-    const auto yesterday = drive(hall.built(), hall.round(), seed);
+    const auto yesterday = drive(hall.built(), hall.round(), ten_hertz(), seed);
     Localizer before(hall.drawn(), InitialPose{yesterday.front().truth}, driving_options());
     for (const auto& moment : yesterday) (void)take(before, moment);
     hall.rearrange();
-    const auto today = drive(hall.built(), hall.in_an_aisle(), 100 + seed);
+    const auto today = drive(hall.built(), hall.in_an_aisle(), ten_hertz(), 100 + seed);
     Localizer alone(hall.drawn(), std::nullopt, driving_options());
     const Found drawing = seek(alone, today);
     Localizer next(hall.drawn(), std::nullopt, driving_options());

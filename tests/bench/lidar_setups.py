@@ -46,8 +46,7 @@ def prepare(a, name):
     if not (site / "site.yaml").exists():
         sample_site.make_site(a.madori, a.data, site, "scan")
     sample_site.mount(site, lidars)
-    scenario = (a.data / "scenarios/soak/scenario.yaml").read_text()
-    scenario = scenario.replace("../../sample_factory", str(a.data.resolve() / "sample_factory"))
+    scenario = sample_site.soak_scenario(a.data)
     for section in sections:
         scenario = sample_site.set_section(scenario, section)
     (site / "soak.yaml").write_text(scenario)

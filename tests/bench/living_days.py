@@ -35,8 +35,7 @@ def prepare(a):
     site = a.folder / "site"
     if not (site / "site.yaml").exists():
         sample_site.make_site(a.madori, a.data, site, "scan")
-    scenario = (a.data / "scenarios/soak/scenario.yaml").read_text()
-    scenario = scenario.replace("../../sample_factory", str(a.data.resolve() / "sample_factory"))
+    scenario = sample_site.soak_scenario(a.data)
     for day, change in CHANGES.items():
         text = scenario.replace("ceiling_height_m: 6.0}", f"ceiling_height_m: 6.0{change}}}")
         if change and text == scenario:

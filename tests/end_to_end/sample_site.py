@@ -36,6 +36,12 @@ def write_scenario(data, name, target, map_from_plan, quiet):
     target.write_text("\n".join(lines + ([map_from_plan] if map_from_plan else [])) + "\n")
 
 
+def soak_scenario(data):
+    """The text of the soak's scenario, for a folder elsewhere."""
+    text = (data / "scenarios/soak/scenario.yaml").read_text()
+    return text.replace("../../sample_factory", str(data.resolve() / "sample_factory"))
+
+
 def set_section(text, section):
     """A top-level section of one line instead of the one of that name, or at the end."""
     key = section.split(":", 1)[0]

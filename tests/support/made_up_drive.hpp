@@ -80,4 +80,11 @@ std::vector<DriveMoment> drive(const mapping::Walls& walls, const std::vector<Po
   return moments;
 }
 
+/// The same, with everything left to chance from a seed.
+inline std::vector<DriveMoment> drive(const mapping::Walls& walls, const std::vector<Point2<Map>>& stops,
+                                      const DriveSettings& settings, unsigned seed) {
+  std::mt19937 engine(seed);
+  return drive(walls, stops, settings, engine);
+}
+
 }  // namespace madori::test

@@ -100,12 +100,18 @@ TEST(AutonomyCycle, RecordedInputsGiveTheSameCommandsBitForBit) {
   }
 }
 
-TEST(AutonomyCycle, AStopAtAPlaceThatIsNotCertainIsHandedOverOnlyWhenSomebodyLooked) {
+/// On its way to unload at node 1.
+std::unique_ptr<test::ToyVehicle> sure_to_80_percent() {
   auto v = corridor_vehicle();
   v->pose->state = LocalizationState::Degraded;
   v->pose->place = 0.8;
   v->drive_to({{1, StopAction::Unload, 0.5}});
   v->say(OperatorWord::Resume);
+  return v;
+}
+
+TEST(AutonomyCycle, AStopAtAPlaceThatIsNotCertainIsHandedOverOnlyWhenSomebodyLooked) {
+  const auto v = sure_to_80_percent();
   const Notice asks = notice(Cause::StopUnsure, {{"node", "1"}, {"percent", "80"}});
   ASSERT_TRUE(v->run_until([&] { return v->state().standstill.cause == asks; }, 60.0));
   EXPECT_EQ(v->state().standstill.remedy, notice(Remedy::LookAtPlace));
@@ -115,11 +121,7 @@ TEST(AutonomyCycle, AStopAtAPlaceThatIsNotCertainIsHandedOverOnlyWhenSomebodyLoo
 }
 
 TEST(AutonomyCycle, AStopIsHandedOverByItselfOnceThePlaceIsCertain) {
-  auto v = corridor_vehicle();
-  v->pose->state = LocalizationState::Degraded;
-  v->pose->place = 0.8;
-  v->drive_to({{1, StopAction::Unload, 0.5}});
-  v->say(OperatorWord::Resume);
+  const auto v = sure_to_80_percent();
   ASSERT_TRUE(v->run_until([&] { return v->state().errand.arrived; }, 60.0));
   EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 5.0));
   v->pose->place = 0.97;

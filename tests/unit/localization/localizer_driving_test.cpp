@@ -5,6 +5,7 @@
 
 #include "localization/localizer/localizer.hpp"
 #include "localization/wall_extraction/wall_extraction.hpp"
+#include "tests/support/driven_localizer.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"
 
@@ -13,20 +14,11 @@ namespace {
 
 using Pose = Transform2<Map, Base>;
 
+using test::drive;
+using test::take;
 using test::ten_hertz;
 
 constexpr int kPlacedAfter = 15;  ///< scans: the first look, and one thought more
-
-std::vector<test::DriveMoment> drive(const mapping::Walls& walls, const std::vector<Point2<Map>>& stops,
-                                     const test::DriveSettings& settings, unsigned seed) {
-  std::mt19937 engine(seed);
-  return test::drive(walls, stops, settings, engine);
-}
-
-PoseEstimate take(Localizer& localizer, const test::DriveMoment& moment) {
-  (void)localizer.on_odometry(moment.odometry);
-  return localizer.on_scan(moment.scan.stamp, extract_walls(moment.scan, {}));
-}
 
 double off_m(const Pose& a, const Pose& b) {
   return distance_m(a.translation(), b.translation());

@@ -3,6 +3,7 @@ import ImageCanvas from "ol/source/ImageCanvas";
 import { api } from "../api";
 import type { KeptDay } from "../api_types";
 import type { FactoryMap } from "./factory_map";
+import { canvasOf } from "./picture_canvas";
 import { palette, theme } from "./theme";
 
 const kAges = 42; // values of a state, one for each age in days: hmi/schema, KeptDays
@@ -18,15 +19,8 @@ const wordOf = (hex: string): number => {
 };
 
 async function pixelsOf(url: string): Promise<ImageData> {
-  const image = new Image();
-  image.src = url;
-  await image.decode();
-  const canvas = document.createElement("canvas");
-  canvas.width = image.naturalWidth;
-  canvas.height = image.naturalHeight;
-  const context = canvas.getContext("2d", { willReadFrequently: true });
+  const { canvas, context } = await canvasOf(url);
   if (!context) throw new Error("no canvas");
-  context.drawImage(image, 0, 0);
   return context.getImageData(0, 0, canvas.width, canvas.height);
 }
 

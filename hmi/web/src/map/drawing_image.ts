@@ -1,17 +1,12 @@
+import { canvasOf } from "./picture_canvas";
+
 /**
  * The drawing as ink on nothing: dark pixels take the colour, white paper becomes transparent, so that it lies well on
  * a light page, a dark one and a photograph.
  */
 async function load(url: string, colour: readonly [number, number, number]): Promise<HTMLCanvasElement> {
-  const image = new Image();
-  image.src = url;
-  await image.decode();
-  const canvas = document.createElement("canvas");
-  canvas.width = image.naturalWidth;
-  canvas.height = image.naturalHeight;
-  const context = canvas.getContext("2d", { willReadFrequently: true });
+  const { canvas, context } = await canvasOf(url);
   if (!context) return canvas;
-  context.drawImage(image, 0, 0);
   const pixels = context.getImageData(0, 0, canvas.width, canvas.height);
   const words = new Uint32Array(pixels.data.buffer);
   const [r, g, b] = colour;
