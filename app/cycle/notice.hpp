@@ -205,6 +205,12 @@ inline constexpr CatalogueEntry kFloorUnseenEvent{
 inline constexpr CatalogueEntry kFloorSeenEvent{
     "event.floor-seen", "a lidar sees who lies on the floor ahead: {speed} m/s are no limit any more"};
 
+/// Pose, memory or what was learned of the drawing does not reach the disk.
+inline constexpr CatalogueEntry kNotKeptEvent{
+    "event.not-kept",
+    "what the vehicle learned cannot be kept: {why}; make room on the disk, or let it be written"};
+inline constexpr CatalogueEntry kKeptAgainEvent{"event.kept-again", "what the vehicle learned is kept again"};
+
 [[nodiscard]] const CatalogueEntry& entry(Cause cause);
 [[nodiscard]] const CatalogueEntry& entry(Remedy remedy);
 /// The notice with its English text. Precondition: `values` names every placeholder of the entry.

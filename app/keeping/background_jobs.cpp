@@ -26,26 +26,28 @@ void BackgroundJobs::wait() {
 
 std::string BackgroundJobs::problem() const {
   const std::scoped_lock lock(mutex_);
-  return problem_;
+  return problems_.empty() ? "" : problems_.begin()->second;
 }
 
 void BackgroundJobs::run(const std::stop_token& stop) {
   (void)take_role("keeping", ThreadRole::Behind);
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
-    const auto job = std::move(waiting_.begin()->second);
-    waiting_.erase(waiting_.begin());
+    const auto taken = waiting_.extract(waiting_.begin());
     busy_ = true;
     lock.unlock();
     std::string problem;
     try {
-      job();
+      taken.mapped()();
     } catch (const std::exception& e) {
       problem = e.what();
     }
     lock.lock();
     busy_ = false;
-    if (!problem.empty()) problem_ = problem;
+    if (problem.empty())
+      problems_.erase(taken.key());
+    else
+      problems_[taken.key()] = problem;
     changed_.notify_all();
   }
 }

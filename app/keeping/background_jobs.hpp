@@ -23,7 +23,7 @@ class BackgroundJobs {
   void put(const std::string& kind, std::function<void()> job);
   /// Returns when everything put so far is done.
   void wait();
-  /// What the last failed job threw; empty where all went well.
+  /// What the last job of a kind threw, of the kinds whose last job failed; empty where all went well.
   [[nodiscard]] std::string problem() const;
 
  private:
@@ -33,7 +33,7 @@ class BackgroundJobs {
   std::condition_variable_any changed_;
   std::map<std::string, std::function<void()>> waiting_;
   bool busy_ = false;
-  std::string problem_;
+  std::map<std::string, std::string> problems_;  ///< by kind
   std::jthread thread_;
 };
 

@@ -70,14 +70,13 @@ bool take_standstill(std::string_view mode, std::string_view sentence, hmi::Even
   return false;
 }
 
-/// What the clocks and the lidars did.
-bool take_clock(std::string_view text, hmi::EventView& view) {
-  auto known = said_by(kTimeGapEvent, text);
-  if (!known) known = said_by_any(kClockEvents, text);
-  if (!known) known = said_by(kLidarLostEvent, text);
-  if (!known) known = said_by(kLidarBackEvent, text);
-  if (!known) known = said_by(kFloorUnseenEvent, text);
-  if (!known) known = said_by(kFloorSeenEvent, text);
+/// What the clocks, the lidars and the disk did.
+bool take_device(std::string_view text, hmi::EventView& view) {
+  auto known = said_by_any(kClockEvents, text);
+  if (!known)
+    known = said_by_any(std::array{kTimeGapEvent, kLidarLostEvent, kLidarBackEvent, kFloorUnseenEvent,
+                                   kFloorSeenEvent, kNotKeptEvent, kKeptAgainEvent},
+                        text);
   if (!known) return false;
   view.what = shown(*known);
   view.severity = "warning";
@@ -110,7 +109,7 @@ hmi::EventView event_view(const EventRecord& event) {
                       {}};
   const std::string_view text = event.text;
   take_order(text, view);
-  if (take_clock(text, view)) return view;
+  if (take_device(text, view)) return view;
   const std::size_t colon = text.find(": ");
   if (colon == std::string_view::npos) return view;
   const auto head = text.substr(0, colon);

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "app/cycle/notice.hpp"
 #include "app/cycle/stages.hpp"
 #include "app/learned/kept_memory.hpp"
 #include "app/learned/learned_drawing.hpp"
@@ -40,6 +41,7 @@ class LentLink final : public VehicleLink {
 };
 
 constexpr Duration kTryAgain = std::chrono::seconds(3);
+constexpr Duration kLookAtKeeping = std::chrono::seconds(5);
 
 bool stands(const VehicleView& view) {
   if (drives(view.mode) || view.mode == Mode::Waiting) return false;
@@ -226,6 +228,7 @@ void SiteRun::tick(Stamp now) {
     run_->tick(now);
     recall_pose();
     if (keeper_) keeper_->observe(run_->state(), now);
+    tell_what_is_not_kept(now);
     return;
   }
   CycleInput input;
@@ -233,6 +236,15 @@ void SiteRun::tick(Stamp now) {
   link_->collect(input);
   link_->send({});  // the drive stays disabled
   if (hooks_.idle) hooks_.idle(input);
+}
+
+void SiteRun::tell_what_is_not_kept(Stamp now) {
+  if (!keeper_ || now - looked_at_keeping_ < kLookAtKeeping) return;
+  looked_at_keeping_ = now;
+  const std::string problem = keeper_->problem();
+  if (problem == not_kept_) return;
+  not_kept_ = problem;
+  tell(problem.empty() ? notice(kKeptAgainEvent).text : notice(kNotKeptEvent, {{"why", problem}}).text);
 }
 
 void SiteRun::tell(const std::string& text) {

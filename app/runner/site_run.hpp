@@ -110,6 +110,7 @@ class SiteRun {
   void take(Loaded loaded);
   void look_for_site();
   void recall_pose();
+  void tell_what_is_not_kept(Stamp now);
 
   std::filesystem::path site_;
   std::unique_ptr<VehicleLink> link_;
@@ -126,6 +127,8 @@ class SiteRun {
   std::shared_ptr<MountingRun> mounting_;
   // of the ticks' thread alone:
   std::shared_ptr<SiteKeeper> keeper_;
+  std::string not_kept_;  ///< why, as it was told last
+  Stamp looked_at_keeping_{};
   PoseRecall recall_{std::nullopt};
   std::string memory_;
   std::vector<mapping::SensorRecord> next_sensors_;

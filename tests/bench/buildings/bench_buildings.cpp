@@ -92,8 +92,8 @@ int main(int argc, char** argv) {
   app.add_option("--laps", a.drive.laps, "visits of all stations")->capture_default_str();
   app.add_option("--limit-s", a.drive.limit_s, "simulated seconds for one delivery")->capture_default_str();
   app.add_option("--jobs", a.jobs, "processes at once")->check(CLI::Range(1, 64))->capture_default_str();
-  app.add_flag("--hand-made", a.drive.hand_made,
-               "with the walls that a person marked in the drawing in place of the imported ones");
+  app.add_option("--hand-made", a.drive.hand_made,
+                 "folder: BUILDING/walls.csv, marked in the drawing by hand, in place of the imported walls");
   app.add_option("--trace", a.drive.trace,
                  "folder of a CSV a start: truth, pose, state, five times a second");
   app.add_option("--json", a.json_file, "file of all figures");

@@ -22,9 +22,10 @@ std::filesystem::path trace_file(const DriveOptions& options, std::string name) 
   return options.trace.empty() ? "" : options.trace / (name + ".csv");
 }
 
-app::SiteForDriving site_of(const BuildingStart& start, const std::filesystem::path& folder, bool hand_made) {
+app::SiteForDriving site_of(const BuildingStart& start, const std::filesystem::path& folder,
+                            const std::filesystem::path& hand_made) {
   make_site(start, folder);
-  if (hand_made) use_hand_made_walls(start, folder);
+  if (!hand_made.empty()) use_hand_made_walls(start, hand_made / start.building() / "walls.csv", folder);
   return app::load_for_driving(folder);
 }
 

@@ -12,7 +12,8 @@ struct DriveOptions {
   unsigned seed = 1;
   int laps = 2;            ///< the first one learns
   double limit_s = 300.0;  ///< of one delivery, simulated
-  bool hand_made = false;  ///< walls as a person marked them beside the drawing, in place of the import's
+  std::filesystem::path
+      hand_made;                ///< BUILDING/walls.csv below it in place of the imported walls; empty: those
   std::filesystem::path trace;  ///< folder of one CSV a start; empty: none
 };
 

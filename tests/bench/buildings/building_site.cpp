@@ -82,8 +82,7 @@ void make_site(const BuildingStart& start, const fs::path& site) {
   fs::copy(start.scenario, site / "start.yaml");
 }
 
-void use_hand_made_walls(const BuildingStart& start, const fs::path& site) {
-  const fs::path file = start.drawing.parent_path() / "walls.csv";
+void use_hand_made_walls(const BuildingStart& start, const fs::path& file, const fs::path& site) {
   std::ifstream lines(file);
   if (!lines) throw Error(file.string(), "not found", "only some drawings have walls that a person marked");
   const mapping::Site record = mapping::load_site(site);

@@ -27,8 +27,9 @@ struct BuildingStart {
 /// VLP-16, and the building's routes, true walls and start.
 void make_site(const BuildingStart& start, const std::filesystem::path& site);
 
-/// The walls.csv beside the drawing (pixels) take the place of the imported walls. Throws Error where nobody
-/// marked any.
-void use_hand_made_walls(const BuildingStart& start, const std::filesystem::path& site);
+/// The walls in `file` (u1,v1,u2,v2: pixels of the drawing, v down) take the place of the imported ones.
+/// Throws Error where the file is missing or broken.
+void use_hand_made_walls(const BuildingStart& start, const std::filesystem::path& file,
+                         const std::filesystem::path& site);
 
 }  // namespace madori::bench

@@ -211,6 +211,27 @@ TEST(SiteKeeper, KeepsThePoseAtMostEverySecondAndAtAStandstill) {
   EXPECT_EQ(at(5.0, 5.0, 2900), -1.0) << "lost: no pose is better than a wrong one";
 }
 
+TEST(SiteKeeper, SaysWhatIsNotKeptUntilItIs) {
+  const test::TemporaryFolder folder;
+  const mapping::Walls walls = drawing(hall(true));
+  const auto site = folder.path() / "site";
+  SiteKeeper keeper(site, walls, nullptr);  // as on a disk that is gone
+  CycleState state(CycleConfig{}, std::make_unique<LocalizerPose>(
+                                      walls, std::vector{test::spinning_lidar({0.0, 0.0, 1.2, 0.0})}));
+  state.pose.health = {LocalizationState::Localized, ""};
+  const auto problem_at = [&](double t) {
+    state.drive_heard = stamp_from_seconds(3000.0 + t);
+    state.drive.left_angle = static_cast<std::uint16_t>(100.0 * t);
+    keeper.observe(state, *state.drive_heard);
+    keeper.flush();
+    return keeper.problem();
+  };
+  EXPECT_NE(problem_at(0.0).find("last_pose.yaml"), std::string::npos);
+  EXPECT_NE(problem_at(0.5), "") << "nothing was tried since";
+  std::filesystem::create_directory(site);
+  EXPECT_EQ(problem_at(2.0), "");
+}
+
 TEST(SiteKeeper, LeavesWhatSomebodyElseHasPutInItsPlace) {
   const test::TemporaryFolder folder;
   const mapping::Walls walls = drawing(hall(true));

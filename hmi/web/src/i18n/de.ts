@@ -311,6 +311,9 @@ export const de: Record<TextKey, string> = {
   "cause.stop-unsure": "Das Fahrzeug ist nur zu {percent} % sicher, dass dies Punkt {node} ist",
   "remedy.look-at-place": "Nachsehen, ob es stimmt, dann Weiterfahren drücken; sonst den Ort zeigen: Wo bin ich?",
   "event.lidar-lost": "Lidar {name} schweigt: Das Fahrzeug fährt mit den anderen weiter, so schnell sie erlauben",
+  "event.not-kept":
+    "Was das Fahrzeug gelernt hat, lässt sich nicht behalten: {why}; auf dem Datenträger Platz schaffen oder das Schreiben erlauben",
+  "event.kept-again": "Was das Fahrzeug gelernt hat, wird wieder behalten",
   "event.floor-unseen":
     "Kein Lidar sieht, wer voraus am Boden liegt: Es wird höchstens {speed} m/s gefahren. Ein Lidar auf 0,2 m oder tiefer anbringen, oder in site.yaml eintragen, was ihn sonst schützt (low_bodies_guarded_by)",
   "event.floor-seen": "Ein Lidar sieht, wer voraus am Boden liegt: {speed} m/s sind keine Grenze mehr",

@@ -326,6 +326,9 @@ export const en = {
   "cause.stop-unsure": "The vehicle is only to {percent} % sure that this is node {node}",
   "remedy.look-at-place": "Look whether it is, then press Go on; else show its place: Where am I?",
   "event.lidar-lost": "Lidar {name} is silent: the vehicle goes on with the others, as fast as they allow",
+  "event.not-kept":
+    "What the vehicle learned cannot be kept: {why}; make room on the disk, or let it be written",
+  "event.kept-again": "What the vehicle learned is kept again",
   "event.floor-unseen":
     "No lidar sees who lies on the floor ahead: at most {speed} m/s are driven. Mount a lidar at 0.2 m or lower, or enter in site.yaml what else guards him (low_bodies_guarded_by)",
   "event.floor-seen": "A lidar sees who lies on the floor ahead: {speed} m/s are no limit any more",

@@ -327,6 +327,9 @@ export const ja: Record<TextKey, string> = {
   "cause.stop-unsure": "ここが点{node}である確かさは {percent} % です",
   "remedy.look-at-place": "正しければ「先へ進む」を押し、違えば「現在地は?」で場所を示してください",
   "event.lidar-lost": "ライダー {name} が応答しません。他のライダーで可能な速度で走行を続けます",
+  "event.not-kept":
+    "車両が学習した内容を保存できません: {why}。ディスクの空きを増やすか、書き込みを許可してください",
+  "event.kept-again": "車両が学習した内容は再び保存されています",
   "event.floor-unseen":
     "前方の床に倒れている人を検知できるライダーがないため、最高 {speed} m/s で走行します。ライダーを高さ 0.2 m 以下に取り付けるか、他の保護手段を site.yaml (low_bodies_guarded_by) に記入してください",
   "event.floor-seen": "前方の床に倒れている人をライダーで検知できるため、{speed} m/s の制限を解除しました",
