@@ -517,21 +517,12 @@ WarpFit Explanation::result() const {
   return fit;
 }
 
-/// How likely the ends of all starts are, as logarithms. The first start is where the memory lay before.
-std::vector<double> log_odds(const std::vector<Explanation>& ends) {
+/// What the ends of further starts are worth, as logarithms of odds against what keeps the place as it is.
+std::vector<double> log_odds(const std::vector<Explanation>& ends, double nats_here) {
   std::vector<double> odds;
   for (const Explanation& end : ends)
-    odds.push_back(kTrust * end.nats() + (odds.empty() ? 0.0 : std::log(kNeighbours)));
+    odds.push_back(kTrust * (end.nats() - nats_here) + std::log(kNeighbours));
   return odds;
-}
-
-/// All but the one that is taken.
-std::vector<OtherWay> others_than(std::size_t taken, const std::vector<Explanation>& ends,
-                                  const std::vector<double>& log_odds) {
-  std::vector<OtherWay> others;
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    if (i != taken) others.push_back({ends[i].warp(), std::exp(log_odds[i] - log_odds[taken])});
-  return others;
 }
 
 }  // namespace
@@ -565,26 +556,34 @@ WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const Drawing
     none.walls.resize(drawn.walls().size());
     return none;
   }
-  std::vector<Explanation> fields;
-  fields.push_back(explain(before, Shape::Field, options.rounds));
-  for (const DrawingWarp& start : further) fields.push_back(explain(start, Shape::Field, options.rounds));
-  const std::vector<double> odds = log_odds(fields);
-  const auto taken = static_cast<std::size_t>(std::max_element(odds.begin(), odds.end()) - odds.begin());
-  const std::vector<OtherWay> others = others_than(taken, fields, odds);
-  Explanation& field = fields[taken];
+  Explanation field = explain(before, Shape::Field, options.rounds);
+  field.try_ranges();
   const Explanation whole =
       explain(DrawingWarp(before.similarity(), {}, before.statistics()), Shape::Similarity, options.rounds);
   const Explanation identity = explain(DrawingWarp({}, {}, before.statistics()), Shape::Identity, 2);
-  field.try_ranges();
-  const double nats[3] = {identity.nats(), whole.nats(), field.nats()};
-  const double gain = std::max(nats[1], nats[2]) - nats[0];
-  const Explanation& best = gain < options.least_nats ? identity : nats[1] > nats[2] ? whole : field;
-  WarpFit fit = best.result();
-  WarpField shape = field.warp().field();
-  if (&best != &field) std::fill(shape.control_m.begin(), shape.control_m.end(), 0.0);
-  fit.warp = DrawingWarp(best.warp().similarity(), std::move(shape), field.warp().statistics());
-  fit.evidence_nats = gain;
-  if (&best == &field) fit.others = others;
+  const auto warp_of = [&](const Explanation& end, const Explanation& bent) {
+    WarpField shape = bent.warp().field();
+    if (&end != &bent) std::fill(shape.control_m.begin(), shape.control_m.end(), 0.0);
+    return DrawingWarp(end.warp().similarity(), std::move(shape), bent.warp().statistics());
+  };
+  const double gain = std::max(whole.nats(), field.nats()) - identity.nats();
+  const Explanation& here = gain < options.least_nats     ? identity
+                            : whole.nats() > field.nats() ? whole
+                                                          : field;
+  std::vector<Explanation> elsewhere;
+  for (const DrawingWarp& start : further) elsewhere.push_back(explain(start, Shape::Field, options.rounds));
+  const std::vector<double> odds = log_odds(elsewhere, here.nats());
+  const auto likeliest = std::max_element(odds.begin(), odds.end());
+  const bool stays = likeliest == odds.end() || *likeliest < 0.0;
+  const auto taken = static_cast<std::size_t>(likeliest - odds.begin());
+  if (!stays) elsewhere[taken].try_ranges();
+  const double log_taken = stays ? 0.0 : *likeliest;
+  WarpFit fit = stays ? here.result() : elsewhere[taken].result();
+  fit.warp = stays ? warp_of(here, field) : elsewhere[taken].warp();
+  fit.evidence_nats = stays ? gain : elsewhere[taken].nats() - identity.nats();
+  if (!stays) fit.others.push_back({warp_of(here, field), std::exp(-log_taken)});
+  for (std::size_t i = 0; i < elsewhere.size(); ++i)
+    if (stays || i != taken) fit.others.push_back({elsewhere[i].warp(), std::exp(odds[i] - log_taken)});
   return fit;
 }
 
