@@ -8,9 +8,6 @@
 namespace madori::app {
 namespace {
 
-constexpr std::array kStates{LocalizationState::Localized, LocalizationState::Degraded,
-                             LocalizationState::Ambiguous, LocalizationState::Lost};
-
 std::string state_line(const PoseEstimate& e) {
   std::array<char, 32> stamp{};
   std::snprintf(stamp.data(), stamp.size(), "%.6f", to_seconds(e.stamp));
@@ -37,7 +34,7 @@ double HealthLog::share(LocalizationState state) const {
 
 nlohmann::json HealthLog::json() const {
   nlohmann::json result = {{"last", to_string(last_.health.state)}, {"reason", last_.health.reason}};
-  for (const LocalizationState state : kStates) {
+  for (const LocalizationState state : kLocalizationStates) {
     result["share"][to_string(state)] = share(state);
   }
   return result;
@@ -47,7 +44,7 @@ std::string HealthLog::summary() const {
   std::string text = std::string("ends ") + to_string(last_.health.state);
   if (!last_.health.reason.empty()) text += " (" + last_.health.reason + ")";
   text += ";";
-  for (const LocalizationState state : kStates) {
+  for (const LocalizationState state : kLocalizationStates) {
     std::array<char, 64> part{};
     std::snprintf(part.data(), part.size(), " %s %.1f %%", to_string(state), 100.0 * share(state));
     text += part.data();

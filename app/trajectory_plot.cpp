@@ -21,8 +21,6 @@ constexpr double kLongestEllipseM = 3.0;
 constexpr std::array<Colour, 4> kColours{colours::kGreen, colours::kOrange, colours::kBlue,
                                          colours::kVermillion};
 constexpr std::array<Mark, 4> kMarks{Mark::Line, Mark::Dashed, Mark::Dot, Mark::Crossed};
-constexpr std::array kStates{LocalizationState::Localized, LocalizationState::Degraded,
-                             LocalizationState::Ambiguous, LocalizationState::Lost};
 
 const Colour& colour_of(LocalizationState state) {
   return kColours[static_cast<std::size_t>(state)];
@@ -83,7 +81,7 @@ std::vector<Colour> health_strip(const std::vector<PoseEstimate>& estimates) {
 
 std::vector<LegendEntry> legend_of(const std::vector<PoseEstimate>& estimates) {
   std::vector<LegendEntry> entries;
-  for (const LocalizationState state : kStates) {
+  for (const LocalizationState state : kLocalizationStates) {
     const auto count = std::count_if(estimates.begin(), estimates.end(),
                                      [&](const PoseEstimate& e) { return e.health.state == state; });
     std::array<char, 64> text{};

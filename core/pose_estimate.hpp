@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 
 #include "core/frames.hpp"
@@ -11,6 +12,8 @@ namespace madori {
 
 /// How far a pose can be trusted. Motion is refused while Lost.
 enum class LocalizationState { Localized, Degraded, Ambiguous, Lost };
+inline constexpr std::array kLocalizationStates{LocalizationState::Localized, LocalizationState::Degraded,
+                                                LocalizationState::Ambiguous, LocalizationState::Lost};
 
 [[nodiscard]] constexpr const char* to_string(LocalizationState state) {
   switch (state) {

@@ -14,7 +14,7 @@
 namespace madori::app {
 namespace {
 
-std::atomic<bool> interrupted = false;  // NOLINT: a signal handler reaches nothing else
+std::atomic<bool> stop_asked = false;  // NOLINT: a signal handler reaches nothing else
 
 struct BrakingArguments {
   BrakingRunOptions run;
@@ -67,9 +67,9 @@ void run(BrakingArguments& arguments) {
       std::string line;
       return static_cast<bool>(std::getline(std::cin, line));
     };
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
-  const auto stops = run_braking_test(arguments.run, interrupted);
+  std::signal(SIGINT, [](int) { stop_asked = true; });
+  std::signal(SIGTERM, [](int) { stop_asked = true; });
+  const auto stops = run_braking_test(arguments.run, stop_asked);
   const auto verdict = verdict_of(stops, braking_site(loaded.config));
   if (!verdict) return;
   print(stops, *verdict, record, stream);

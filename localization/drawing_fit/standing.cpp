@@ -12,14 +12,14 @@ constexpr double kStopM = 0.4;        ///< keyframes this near to the first of a
 constexpr double kLeastCosine = 0.3;  ///< between ray and normal
 
 /// Votes for one surface.
-struct Votes {
+struct SurfaceVotes {
   double hits = 0.0, through = 0.0;     ///< of the stops so far
   int hits_here = 0, through_here = 0;  ///< looks of the stop that is being counted
 };
 
 /// What a keyframe says of each surface in its reach.
 void look(const SightRing& ring, const Transform2<Map, Base>& pose, const MemoryCloud& cloud,
-          std::vector<Votes>& votes) {
+          std::vector<SurfaceVotes>& votes) {
   const Point2<Map> eye = pose * ring.sensor();
   const Transform2<Base, Map> base_from_map = pose.inverse();
   const double reach_sq = ring.reach_m() * ring.reach_m();
@@ -36,8 +36,8 @@ void look(const SightRing& ring, const Transform2<Map, Base>& pose, const Memory
 }
 
 /// A stop is over: its vote.
-void count(std::vector<Votes>& votes) {
-  for (Votes& v : votes) {
+void count(std::vector<SurfaceVotes>& votes) {
+  for (SurfaceVotes& v : votes) {
     const int looks = v.hits_here + v.through_here;
     if (looks == 0) continue;
     v.hits += static_cast<double>(v.hits_here) / looks;
@@ -50,7 +50,7 @@ void count(std::vector<Votes>& votes) {
 
 MemoryCloud standing_cloud(const Memory& memory) {
   MemoryCloud cloud = memory_cloud(memory);
-  std::vector<Votes> votes(cloud.size());
+  std::vector<SurfaceVotes> votes(cloud.size());
   Point2<Map> stop;
   for (std::size_t k = 0; k < memory.size(); ++k) {
     const Transform2<Map, Base>& pose = memory.poses()[k];

@@ -30,8 +30,8 @@ Box box_of(const Segment2<Map>& s, double margin_m) {
   return {{left - margin_m, bottom - margin_m}, {right + margin_m, top + margin_m}};
 }
 
-struct Line {
-  explicit Line(const Segment2<Map>& s) : a(s.a), length_m(s.length_m()) {
+struct DrawnLine {
+  explicit DrawnLine(const Segment2<Map>& s) : a(s.a), length_m(s.length_m()) {
     if (length_m > 0.0) ux = (s.b.x_m - s.a.x_m) / length_m, uy = (s.b.y_m - s.a.y_m) / length_m;
   }
   Point2<Map> a;
@@ -40,7 +40,7 @@ struct Line {
 
   [[nodiscard]] Point2<Map> at(double along_m) const { return {a.x_m + along_m * ux, a.y_m + along_m * uy}; }
   /// How far to the left of this line `other` lies, seen from `p` on this line; 0 where it does not.
-  [[nodiscard]] double left_of(const Point2<Map>& p, const Line& other) const {
+  [[nodiscard]] double left_of(const Point2<Map>& p, const DrawnLine& other) const {
     if (std::abs(ux * other.ux + uy * other.uy) < kParallel) return 0.0;
     const double along = (p.x_m - other.a.x_m) * other.ux + (p.y_m - other.a.y_m) * other.uy;
     if (along < 0.0 || along > other.length_m) return 0.0;
@@ -62,14 +62,14 @@ std::vector<SeenStretch> runs(const std::vector<char>& hidden, double length_m) 
   return seen;
 }
 
-VisibleFace face_of(const Line& line, const std::vector<const Line*>& others) {
+VisibleFace face_of(const DrawnLine& line, const std::vector<const DrawnLine*>& others) {
   const auto samples = static_cast<std::size_t>(std::max(1.0, std::ceil(line.length_m / kStepM)));
   std::array<std::vector<char>, 2> hidden{std::vector<char>(samples), std::vector<char>(samples)};
   for (std::size_t k = 0; k < samples; ++k) {
     const Point2<Map> p =
         line.at((static_cast<double>(k) + 0.5) / static_cast<double>(samples) * line.length_m);
     bool by[2] = {false, false};
-    for (const Line* other : others) {
+    for (const DrawnLine* other : others) {
       const double left = line.left_of(p, *other);
       if (std::abs(left) > kThinnestM && std::abs(left) < kThickestM) by[left > 0.0 ? 0 : 1] = true;
     }
@@ -81,7 +81,7 @@ VisibleFace face_of(const Line& line, const std::vector<const Line*>& others) {
 }  // namespace
 
 std::vector<VisibleFace> visible_faces(const mapping::Walls& walls) {
-  std::vector<Line> lines;
+  std::vector<DrawnLine> lines;
   std::vector<std::pair<Box, std::size_t>> boxes;
   for (const mapping::Wall& wall : walls) {
     if (wall.probability >= 0.5) boxes.emplace_back(box_of(wall.segment, 0.0), lines.size());
@@ -89,7 +89,7 @@ std::vector<VisibleFace> visible_faces(const mapping::Walls& walls) {
   }
   const Boxes tree(boxes.begin(), boxes.end());
   std::vector<VisibleFace> faces;
-  std::vector<const Line*> others;
+  std::vector<const DrawnLine*> others;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     others.clear();
     const Box near = box_of(walls[i].segment, kThickestM);

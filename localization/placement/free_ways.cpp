@@ -14,13 +14,13 @@ constexpr double kBeforeEndM = 0.5;  // of a beam: its own wall may be drawn tha
 constexpr double kBesideM = 0.5;     // a way has to leave a wall this far behind to have crossed it,
 constexpr double kAwayM = 0.25;      // and be this far from it by then: what runs along a wall says nothing
 constexpr double kAsideM = 0.08;     // what passes a wall's end so near may pass beside it
-constexpr double kPieceM = 2.0;      // errors of a drawing persist along a wall for about so long
+constexpr double kWallPieceM = 2.0;  // errors of a drawing persist along a wall for about so long
 constexpr int kFewestWays = 2;       // one beam alone may be a wrong point
 constexpr double kMissingWalls = 0.15;  // of the walls that are drawn: they are not there
 
 std::uint64_t piece_of(const Point2<Map>& p) {
-  const auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x_m / kPieceM)));
-  const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.y_m / kPieceM)));
+  const auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x_m / kWallPieceM)));
+  const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.y_m / kWallPieceM)));
   return (std::uint64_t{u} << 32U) | v;
 }
 

@@ -32,17 +32,17 @@ std::vector<Point2<Map>> near(const PointMap& map, const std::vector<Point2<Base
 }
 
 /// What the E-step leaves for the M-step: sums over all pairs, weighted by the posterior.
-struct Sums {
+struct PosteriorSums {
   double n = 0, xx = 0, xy = 0, yx = 0, yy = 0, dot = 0, cross = 0, x_squared = 0, y_squared = 0;
 };
 
-Sums expectation(const std::vector<Point2<Map>>& x, const std::vector<Point2<Base>>& y, const Pose& pose,
-                 double sigma2, double outliers) {
+PosteriorSums expectation(const std::vector<Point2<Map>>& x, const std::vector<Point2<Base>>& y,
+                          const Pose& pose, double sigma2, double outliers) {
   const auto m = static_cast<double>(x.size());
   const auto n = static_cast<double>(y.size());
   const double uniform = 2.0 * kPi * sigma2 * outliers / (1.0 - outliers) * m / n;
   std::vector<double> likely(x.size());
-  Sums s;
+  PosteriorSums s;
   for (const Point2<Base>& q : y) {
     const Point2<Map> moved = pose * q;
     double sum = uniform;
@@ -68,7 +68,7 @@ Sums expectation(const std::vector<Point2<Map>>& x, const std::vector<Point2<Bas
 }
 
 /// The rigid transform that the sums call for, and the variance that is left.
-Pose maximization(const Sums& s, double& sigma2) {
+Pose maximization(const PosteriorSums& s, double& sigma2) {
   const double c = s.dot - (s.xx * s.yx + s.xy * s.yy) / s.n;
   const double d = s.cross - (s.yx * s.xy - s.yy * s.xx) / s.n;
   const Pose turn(0.0, 0.0, std::atan2(d, c));
@@ -95,7 +95,7 @@ RegistrationResult cpd(const ScanPoints& points, const PointMap& map, const Pose
   bool converged = false;
   int iteration = 0;
   while (iteration < options.max_iterations && !converged) {
-    const Sums sums = expectation(x, y, pose, sigma2, options.outliers);
+    const PosteriorSums sums = expectation(x, y, pose, sigma2, options.outliers);
     ++iteration;
     if (!(sums.n > 1e-6)) break;
     const double before = sigma2;

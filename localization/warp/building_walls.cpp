@@ -6,7 +6,7 @@
 namespace madori::localization {
 namespace {
 
-constexpr double kPieceM = 2.0;       ///< of a wall that the warp bends
+constexpr double kBentPieceM = 2.0;   ///< of a wall that the warp bends
 constexpr double kStraightM = 0.005;  ///< what bends less than this is straight
 
 Point2<Map> between(const Segment2<Map>& s, double share) {
@@ -16,7 +16,7 @@ Point2<Map> between(const Segment2<Map>& s, double share) {
 int pieces_of(const Segment2<Map>& s, const DrawingWarp& warp) {
   const Point2<Building> a = warp.building(s.a);
   const Point2<Building> b = warp.building(s.b);
-  const int steps = std::max(1, static_cast<int>(std::ceil(s.length_m() / kPieceM)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(s.length_m() / kBentPieceM)));
   for (int k = 1; k < 2 * steps; ++k) {
     const double share = k / (2.0 * steps);
     const Point2<Building> p = warp.building(between(s, share));
@@ -35,7 +35,7 @@ struct Face {
 
 std::vector<Face> faces_of(const WallDeviation& wall, const WarpStatistics& statistics) {
   const auto sigma = [&](double seen_m) {  // a wall of two metres is one observation
-    return statistics.residual_m * std::sqrt(1.0 + kPieceM / std::max(0.2, seen_m));
+    return statistics.residual_m * std::sqrt(1.0 + kBentPieceM / std::max(0.2, seen_m));
   };
   const double seen[2] = {wall.sides[0].seen_m, wall.sides[1].seen_m};
   if (wall.seen_m() <= 0.0) return {{0.0, std::hypot(statistics.offset_m, statistics.residual_m), false}};

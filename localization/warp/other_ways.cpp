@@ -15,10 +15,10 @@ namespace {
 constexpr double kAroundM = 8.0;  ///< what is seen from one place, mostly
 constexpr double kWindowM = 2.4;  ///< twice as far as a fit reaches by itself (WallSides::kReachM)
 constexpr double kStepM = 0.2;
-constexpr double kBlurM = 0.15;     ///< no peak lies between two steps
-constexpr double kOwnM = 0.5;       ///< nearer, the fit finds it by itself
-constexpr std::size_t kTried = 3;   ///< a fit each
-constexpr double kSteepest = 0.48;  ///< of a step between control points, by their spacing: nothing folds
+constexpr double kBlurM = 0.15;         ///< no peak lies between two steps
+constexpr double kOwnM = 0.5;           ///< nearer, the fit finds it by itself
+constexpr std::size_t kTried = 3;       ///< a fit each
+constexpr double kAlmostFolded = 0.48;  ///< of a step between control points, by their spacing: nothing folds
 
 /// What is seen around a place, where the warp has it on the drawing.
 MemoryCloud surroundings(const MemoryCloud& cloud, const DrawingWarp& warp, const Point2<Building>& at) {
@@ -39,19 +39,19 @@ struct Shift {
 
 /// The peaks of the likelihood over shifts, highest first.
 std::vector<Shift> peaks(const WallIndex& drawn, const MemoryCloud& around) {
-  constexpr int kReach = static_cast<int>(kWindowM / kStepM);
-  constexpr int kWide = 2 * kReach + 1;
+  constexpr int kSteps = static_cast<int>(kWindowM / kStepM);
+  constexpr int kWide = 2 * kSteps + 1;
   const WallMixture mixture(DrawingModel{}, kBlurM);
   std::vector<double> nats(kWide * kWide);
   const auto at = [&](int x, int y) -> double& {
-    return nats[static_cast<std::size_t>((y + kReach) * kWide + x + kReach)];
+    return nats[static_cast<std::size_t>((y + kSteps) * kWide + x + kSteps)];
   };
-  for (int y = -kReach; y <= kReach; ++y)
-    for (int x = -kReach; x <= kReach; ++x)
+  for (int y = -kSteps; y <= kSteps; ++y)
+    for (int x = -kSteps; x <= kSteps; ++x)
       at(x, y) = log_likelihood(drawn, around, {x * kStepM, y * kStepM, 0.0}, mixture);
   std::vector<Shift> found;
-  for (int y = -kReach + 1; y < kReach; ++y)
-    for (int x = -kReach + 1; x < kReach; ++x) {
+  for (int y = -kSteps + 1; y < kSteps; ++y)
+    for (int x = -kSteps + 1; x < kSteps; ++x) {
       bool highest = std::hypot(x, y) * kStepM > kOwnM;
       for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) highest = highest && at(x, y) >= at(x + i, y + j);
@@ -75,8 +75,8 @@ bool folds(const WarpField& field) {
                       field.control_m[i + 1] - field.control_m[k + 1]);
   };
   for (int p = 0; p < field.width * field.height; ++p) {
-    if (p % field.width > 0 && step(p, p - 1) > kSteepest * field.spacing_m) return true;
-    if (p >= field.width && step(p, p - field.width) > kSteepest * field.spacing_m) return true;
+    if (p % field.width > 0 && step(p, p - 1) > kAlmostFolded * field.spacing_m) return true;
+    if (p >= field.width && step(p, p - field.width) > kAlmostFolded * field.spacing_m) return true;
   }
   return false;
 }

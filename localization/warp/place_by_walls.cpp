@@ -12,7 +12,7 @@
 namespace madori::localization {
 namespace {
 
-constexpr double kAroundM = 4.0;  ///< walls farther away say nothing of the place in the room
+constexpr double kNearbyM = 4.0;  ///< walls farther away say nothing of the place in the room
 constexpr int kBeams = 16;
 constexpr double kSeenM = 0.3;     ///< less of a wall does not tell where it stands
 constexpr double kNearestM = 0.3;  ///< nearer walls count no more
@@ -46,7 +46,7 @@ void meet(const Segment2<Map>& wall, const WallDeviation& deviation, const Point
 Point2<Map> place_by_walls(const mapping::Walls& drawn, const WarpFit& fit, const Point2<Map>& place) {
   std::vector<std::size_t> around;
   for (std::size_t i = 0; i < std::min(drawn.size(), fit.walls.size()); ++i)
-    if (distance_m(drawn[i].segment, place) < kAroundM) around.push_back(i);
+    if (distance_m(drawn[i].segment, place) < kNearbyM) around.push_back(i);
   Eigen::Matrix2d h = kHold * Eigen::Matrix2d::Identity();
   Eigen::Vector2d g = Eigen::Vector2d::Zero();
   for (int k = 0; k < kBeams; ++k) {
@@ -54,7 +54,7 @@ Point2<Map> place_by_walls(const mapping::Walls& drawn, const WarpFit& fit, cons
     Seen seen;
     for (const std::size_t i : around)
       meet(drawn[i].segment, fit.walls[i], place, std::cos(direction), std::sin(direction), seen);
-    if (seen.side == nullptr || seen.distance_m > kAroundM || seen.side->seen_m < kSeenM) continue;
+    if (seen.side == nullptr || seen.distance_m > kNearbyM || seen.side->seen_m < kSeenM) continue;
     // By 1 / distance two walls opposite each other divide what the room is wider by as it is drawn.
     const double weight = 1.0 / std::max(kNearestM, seen.distance_m);
     h += weight * seen.normal * seen.normal.transpose();

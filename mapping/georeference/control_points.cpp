@@ -15,9 +15,8 @@
 namespace madori::mapping {
 namespace {
 
-/// A drawing point is clicked to about a pixel. The few residuals of a small fit scatter widely, so noise is
-/// judged as if four more of one pixel had been seen.
-constexpr double kClickPx = 1.0;
+/// The few residuals of a small fit scatter widely, so noise is judged as if four more of one pixel had been
+/// seen.
 constexpr double kClickWeight = 4.0;
 constexpr double kSmallestStretch = 0.002;
 /// A fit must be this many times better than its rival to be believed.

@@ -12,8 +12,6 @@
 namespace madori::mapping {
 namespace {
 
-/// One end of a length is clicked to about a pixel.
-constexpr double kClickPx = 1.0;
 constexpr double kDisagreement = 0.01;
 
 /// Least-squares scale of all but `left_out`.

@@ -9,6 +9,8 @@
 
 namespace madori::mapping {
 
+inline constexpr double kClickPx = 1.0;  ///< a point of a drawing is clicked to about so much
+
 enum class Verdict { Good, Usable, Refused };
 [[nodiscard]] const char* to_string(Verdict verdict);
 

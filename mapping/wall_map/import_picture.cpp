@@ -22,7 +22,7 @@ constexpr double kFaintest = 0.5;  // of the full colour: a line of no probabili
 
 /// The picture's colours: sixteen shades of each family. Few colours keep the file small and quick to pack.
 constexpr int kShades = 16;
-enum Family { Paper = 0, Rejected = 1, Wall = 2, Ink = 3 };
+enum Family { Paper = 0, Rejected = 1, Accepted = 2, Ink = 3 };
 constexpr std::array<std::array<int, 3>, 4> kFullColour{
     {{165, 165, 165}, {255, 140, 40}, {0, 50, 150}, {40, 40, 40}}};  // RGB
 
@@ -125,7 +125,7 @@ void draw_footer(Layer& layer, double zoom, std::optional<double> m_per_px) {
   cv::Mat& sheet = layer.sheet();
   const int base = sheet.rows - kFooter / 2;
   cv::line(sheet, {20, base}, {60, base}, 255, 4, cv::LINE_AA);
-  layer.lay_footer(Wall);
+  layer.lay_footer(Accepted);
   cv::line(sheet, {150, base}, {190, base}, 255, 2, cv::LINE_AA);
   layer.lay_footer(Rejected);
   write_text(sheet, "wall", 70, base + 7);
@@ -159,7 +159,7 @@ std::vector<std::uint8_t> import_picture(const GrayImage& drawing, std::span<con
   const int bold = std::max(2, picture.cols / 600);
   for (std::size_t i = 0; i < walls.size(); ++i)
     layer.line(walls[i], bold, probabilities.empty() ? 1 : probabilities[i]);
-  layer.lay(Wall);
+  layer.lay(Accepted);
   draw_footer(layer, zoom, m_per_px);
   return palette_png(picture.cols, picture.rows, {picture.data, picture.total()}, palette());
 }

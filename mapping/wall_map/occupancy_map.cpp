@@ -11,14 +11,14 @@
 namespace madori::mapping {
 namespace {
 
-constexpr double kMostCells = 1e8;
-constexpr int kFractionBits = 8;  // cv::line takes ends in 1/256 of a cell
+constexpr double kMostPictureCells = 1e8;
+constexpr int kCellFractionBits = 8;  // cv::line takes ends in 1/256 of a cell
 
 cv::Point to_cell(const Point2<Map>& p, double cell_m, int rows) {
   const double u = p.x_m / cell_m - 0.5;
   const double v = rows - p.y_m / cell_m - 0.5;
-  return {static_cast<int>(std::lround(u * (1 << kFractionBits))),
-          static_cast<int>(std::lround(v * (1 << kFractionBits)))};
+  return {static_cast<int>(std::lround(u * (1 << kCellFractionBits))),
+          static_cast<int>(std::lround(v * (1 << kCellFractionBits)))};
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ cv::Point to_cell(const Point2<Map>& p, double cell_m, int rows) {
 OccupancyMap make_occupancy_map(const Walls& walls, double width_m, double height_m, double cell_m) {
   const double columns = std::ceil(width_m / cell_m);
   const double rows = std::ceil(height_m / cell_m);
-  if (columns * rows > kMostCells)
+  if (columns * rows > kMostPictureCells)
     throw Error("a map of " + std::to_string(std::lround(width_m)) + " m x " +
                     std::to_string(std::lround(height_m)) + " m",
                 "would have more than 100 million cells",
@@ -34,7 +34,7 @@ OccupancyMap make_occupancy_map(const Walls& walls, double width_m, double heigh
   cv::Mat grid(static_cast<int>(rows), static_cast<int>(columns), CV_8UC1, cv::Scalar(254));
   for (const auto& wall : walls)
     cv::line(grid, to_cell(wall.segment.a, cell_m, grid.rows), to_cell(wall.segment.b, cell_m, grid.rows),
-             cv::Scalar(0), 1, cv::LINE_8, kFractionBits);
+             cv::Scalar(0), 1, cv::LINE_8, kCellFractionBits);
   OccupancyMap map;
   map.pgm = "P5\n" + std::to_string(grid.cols) + ' ' + std::to_string(grid.rows) + "\n255\n";
   map.pgm.append(reinterpret_cast<const char*>(grid.data), grid.total());

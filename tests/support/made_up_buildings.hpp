@@ -2,6 +2,7 @@
 
 #include <initializer_list>
 #include <random>
+#include <vector>
 
 #include "core/transform2.hpp"
 #include "mapping/wall_map/distance_field.hpp"
@@ -43,6 +44,10 @@ inline mapping::Walls laboratory_hall() {
   add_wall(walls, 20.0, 3.0, 18.6, 3.0);
   return walls;
 }
+/// A way twice around it.
+inline const std::vector<Point2<Map>> kTwoRounds{
+    {2.5, 1.2}, {11.0, 1.2}, {14.4, 1.0}, {14.4, 4.2}, {14.4, 8.2}, {12.5, 8.2}, {11.0, 7.2},
+    {7.0, 7.8}, {6.5, 3.8},  {6.5, 1.2},  {2.5, 1.2},  {11.0, 1.2}, {14.4, 1.0}, {14.4, 4.2}};
 
 /// A factory floor of 80 m x 50 m: outer wall with bays, columns, office block, machine rows, storage.
 inline mapping::Walls factory_floor() {

@@ -12,6 +12,7 @@
 #include "core/frames.hpp"
 #include "core/point_cloud.hpp"
 #include "core/transform2.hpp"
+#include "planning/obstacle_check/sight_history.hpp"
 
 namespace madori::test {
 
@@ -40,6 +41,9 @@ struct LyingBody {
     return {{{a, b}, {b, c}, {c, d}, {d, a}}};
   }
 };
+
+/// What a lidar of 16 beams sees above the Base origin.
+inline constexpr planning::SensorView kVlp{0.0, 0.0, 0.9, to_rad(-15.0), to_rad(15.0)};
 
 /// A flat floor and a few bodies, seen by 16 beams of a lidar above the Base origin. For tests of planning
 /// and control alone; the virtual factory has the real one.

@@ -9,22 +9,23 @@
 namespace madori::mapping {
 namespace {
 
-constexpr double kThinnest = 1.5, kThickest = 4;  // pens: between them strokes end and bodies begin
-constexpr double kWidestStroke = 0.008;           // of the drawing
+constexpr double kFewestPens = 1.5, kMostPens = 4;  // between them strokes end and bodies begin
+constexpr double kWidestStroke = 0.008;             // of the drawing
 constexpr std::size_t kPlaces = 25;
-constexpr double kBlur = 0.1;               // of a width, natural logarithm
+constexpr double kWidthBlur = 0.1;          // of a width, natural logarithm
 constexpr double kGapInPens = 2, kGap = 4;  // a stroke that crosses, and what its corners hide
 
 /// The width, of those that can divide strokes from bodies, that the drawing uses least.
 double widest_stroke_px(const LabelSheet& sheet) {
   const double widest = kWidestStroke * sheet.edges.size_px(),
                pen = std::min(sheet.strokes.pen_px, 0.5 * widest);
-  const double from = std::log(kThinnest * pen), to = std::log(std::min(kThickest * pen, widest));
+  const double from = std::log(kFewestPens * pen), to = std::log(std::min(kMostPens * pen, widest));
   const double step = (to - from) / (kPlaces - 1);
   std::array<double, kPlaces> crowd{};
   for (std::size_t i = 0; i < sheet.strokes.width_px.size(); ++i)
     for (std::size_t k = 0; k < kPlaces && sheet.strokes.width_px[i] > 0; ++k) {
-      const double off = (from + static_cast<double>(k) * step - std::log(sheet.strokes.width_px[i])) / kBlur;
+      const double off =
+          (from + static_cast<double>(k) * step - std::log(sheet.strokes.width_px[i])) / kWidthBlur;
       crowd[k] += sheet.edges.edges[i].length_px * std::exp(-0.5 * off * off);
     }
   const auto least = std::min_element(crowd.begin(), crowd.end()) - crowd.begin();

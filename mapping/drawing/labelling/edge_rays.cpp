@@ -18,10 +18,10 @@ constexpr double kFar = 0.3;            // of the sheet: free beyond is free
 constexpr double kStep = 0.7;           // pixels: no 8-connected line is stepped over
 constexpr int kEvents = 5;
 constexpr double kNeutral = 128;
-constexpr double kBeside = 1, kBesideEnds = 3.2;  // pixels: the edge's own blur, and what is beside it
-constexpr double kPastEnd = 6;                    // pixels: what abuts at an end is over
-constexpr double kThickest = 0.025;               // of the sheet: thicker is no wall
-constexpr std::size_t kEdgesAtOnce = 8;           // their rays stay in the processor's first cache
+constexpr double kBesideBegins = 1, kBesideEnds = 3.2;  // pixels: the edge's own blur, and what is beside it
+constexpr double kPastEnd = 6;                          // pixels: what abuts at an end is over
+constexpr double kThickest = 0.025;                     // of the sheet: thicker is no wall
+constexpr std::size_t kEdgesAtOnce = 8;                 // their rays stay in the processor's first cache
 
 bool are_parallel(const Edge& a, const Edge& b) {
   return std::abs(a.normal.cross(b.normal)) < kParallelSine;
@@ -124,12 +124,12 @@ struct Ray {
 
   void see(std::size_t pixel, double reach) {
     const double d = walk.distance();
-    if (d > kBeside && d < kBesideEnds) {
+    if (d > kBesideBegins && d < kBesideEnds) {
       near.add(sheet->grey.pixels[pixel]);
       if (!sheet->grey.red_green.empty()) red_green.add(sheet->grey.red_green[pixel]);
       if (!sheet->grey.yellow_blue.empty()) yellow_blue.add(sheet->grey.yellow_blue[pixel]);
     }
-    if (count == 0 && d > kBeside && d < reach) fill.add(sheet->grey.pixels[pixel]);
+    if (count == 0 && d > kBesideBegins && d < reach) fill.add(sheet->grey.pixels[pixel]);
   }
 
   void meet(int edge) {

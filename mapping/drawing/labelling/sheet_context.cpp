@@ -13,8 +13,8 @@
 namespace madori::mapping {
 namespace {
 
-constexpr double kUncertain = 1e-4;   // of every judgement, at least
-constexpr double kSmallStyle = 0.01;  // of all length: less is too little to compare with
+constexpr double kLeastUncertain = 1e-4;  // of every judgement
+constexpr double kSmallStyle = 0.01;      // of all length: less is too little to compare with
 
 double entropy(double p) {
   const double a = std::max(p, 1e-6), b = std::max(1 - p, 1e-6);
@@ -68,7 +68,7 @@ class Context {
     std::vector<double> above(edges_.size());
     double sum = 0;
     for (const std::size_t i : order) above[i] = (sum += length_[i]) / total_;
-    add("odds", [&](std::size_t i) { return log_odds(p_[i], kUncertain); });
+    add("odds", [&](std::size_t i) { return log_odds(p_[i], kLeastUncertain); });
     add("above", [&](std::size_t i) { return above[i]; });
     const auto quantile = [&](double share) {
       const auto at =
@@ -105,7 +105,7 @@ class Context {
       of.length += length;
       of.walls += length * p;
       of.squares += length * p * p;
-      of.odds += length * log_odds(p, kUncertain);
+      of.odds += length * log_odds(p, kLeastUncertain);
       of.probable += p > 0.5 ? length : 0;
     }
     return sums;

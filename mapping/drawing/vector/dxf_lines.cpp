@@ -25,7 +25,7 @@ using Dataset = std::unique_ptr<GDALDataset>;
 constexpr std::size_t kMostLines = 5'000'000;
 constexpr double kLeastAjar = 0.08, kMostAjar = 1.5;  // radians
 
-Dataset open(const std::filesystem::path& file) {
+Dataset open_dxf(const std::filesystem::path& file) {
   static std::once_flag once;
   std::call_once(once, [] {
     GDALAllRegister();
@@ -205,7 +205,7 @@ double DxfLine::length() const {
 DxfContent read_dxf_lines(const std::filesystem::path& file) {
   DxfContent content;
   read_header_units(checked_header(file), content.units);
-  const Dataset dataset = open(file);
+  const Dataset dataset = open_dxf(file);
   CPLPushErrorHandler(CPLQuietErrorHandler);
   std::map<std::string, std::size_t> layers;
   for (auto&& feature : dataset->GetLayer(0)) add_feature(*feature, layers, content);

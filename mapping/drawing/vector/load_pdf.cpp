@@ -24,7 +24,7 @@ double choose_dpi(const poppler::rectf& page, std::optional<double> dpi) {
   return std::clamp(kWantedPx / inches, 72.0, 600.0);
 }
 
-std::unique_ptr<poppler::document> open(const std::filesystem::path& file) {
+std::unique_ptr<poppler::document> open_pdf(const std::filesystem::path& file) {
   std::unique_ptr<poppler::document> document(poppler::document::load_from_file(file.string()));
   if (!document) throw Error(file.string(), "is no readable PDF", "open it in a viewer and export it again");
   if (document->is_locked())
@@ -36,7 +36,7 @@ std::unique_ptr<poppler::document> open(const std::filesystem::path& file) {
 
 GrayImage load_pdf(const std::filesystem::path& file, int page_number, std::optional<double> dpi) {
   poppler::set_debug_error_function([](const std::string&, void*) {}, nullptr);
-  const auto document = open(file);
+  const auto document = open_pdf(file);
   if (page_number < 1 || page_number > document->pages())
     throw Error(file.string(), "has no page " + std::to_string(page_number),
                 "choose --page 1 to " + std::to_string(document->pages()));

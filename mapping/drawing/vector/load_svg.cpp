@@ -42,7 +42,7 @@ Size natural_size(RsvgHandle* svg) {
   return has_box != 0 ? Size{box.width, box.height} : Size{};
 }
 
-Handle open(const std::filesystem::path& file) {
+Handle open_svg(const std::filesystem::path& file) {
   GError* error = nullptr;
   Handle svg(rsvg_handle_new_from_file(file.c_str(), &error));
   if (!svg) {
@@ -71,7 +71,7 @@ GrayImage to_gray(cairo_surface_t* surface, double dpi) {
 }  // namespace
 
 GrayImage load_svg(const std::filesystem::path& file, std::optional<double> dpi) {
-  const Handle svg = open(file);
+  const Handle svg = open_svg(file);
   const Size size = natural_size(svg.get());
   if (!(size.width > 0.0 && size.height > 0.0))
     throw Error(file.string(), "states no size", "save it with a width, a height or a viewBox");

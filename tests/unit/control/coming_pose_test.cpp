@@ -7,7 +7,7 @@
 namespace madori::control {
 namespace {
 
-constexpr double kStepS = 0.02;
+constexpr double kCommandEveryS = 0.02;
 
 /// A vehicle whose wheels obey a dead time late, as they are told but no faster than they can.
 struct LateVehicle {
@@ -19,16 +19,16 @@ struct LateVehicle {
   void step(const VelocityCommand& told) {
     unheard.push_back(told);
     VelocityCommand wanted = v;
-    if (static_cast<double>(unheard.size()) * kStepS > response.reaction_s + 1e-9) {
+    if (static_cast<double>(unheard.size()) * kCommandEveryS > response.reaction_s + 1e-9) {
       wanted = unheard.front();
       unheard.pop_front();
     }
     const auto to = [](double now, double wish, double most) {
       return now + std::clamp(wish - now, -most, most);
     };
-    v = {to(v.linear_mps, wanted.linear_mps, response.change_mps2 * kStepS),
-         to(v.angular_radps, wanted.angular_radps, response.turn_change_radps2 * kStepS)};
-    const double half = 0.5 * v.angular_radps * kStepS, way = v.linear_mps * kStepS;
+    v = {to(v.linear_mps, wanted.linear_mps, response.change_mps2 * kCommandEveryS),
+         to(v.angular_radps, wanted.angular_radps, response.turn_change_radps2 * kCommandEveryS)};
+    const double half = 0.5 * v.angular_radps * kCommandEveryS, way = v.linear_mps * kCommandEveryS;
     pose = pose * Transform2<Base, Base>(way * std::cos(half), way * std::sin(half), 2.0 * half);
   }
 };
@@ -42,7 +42,7 @@ TEST(ComingPose, IsWhereTheVehicleIsOneReactionLater) {
     LateVehicle vehicle;
     vehicle.response.reaction_s = reaction_s;
     SentCommands sent;
-    const int late = static_cast<int>(std::lround(reaction_s / kStepS));
+    const int late = static_cast<int>(std::lround(reaction_s / kCommandEveryS));
     std::vector<Transform2<Map, Base>> foreseen;
     double worst_m = 0.0;
     for (int i = 0; i < 400; ++i) {

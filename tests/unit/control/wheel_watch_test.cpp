@@ -10,20 +10,20 @@
 namespace madori::control {
 namespace {
 
-constexpr double kStepS = 0.02;
+constexpr double kStatusEveryS = 0.02;
 const WheelWatchOptions kOptions;
 
 /// A rim that obeys: late by a dead time, no quicker than `acceleration_mps2`, off by a share.
 class Rim {
  public:
   Rim(double late_s, double acceleration_mps2, double share)
-      : told_(static_cast<std::size_t>(late_s / kStepS) + 1),
+      : told_(static_cast<std::size_t>(late_s / kStatusEveryS) + 1),
         acceleration_mps2_(acceleration_mps2),
         share_(share) {}
   double turn(double asked_mps) {
     told_.push_back(asked_mps);
     told_.pop_front();
-    const double step = acceleration_mps2_ * kStepS;
+    const double step = acceleration_mps2_ * kStatusEveryS;
     speed_mps_ += std::clamp(share_ * told_.front() - speed_mps_, -step, step);
     return speed_mps_;
   }
@@ -40,8 +40,9 @@ VelocityCommand command_of(double left_mps, double right_mps) {
 /// Seconds until the watch speaks; nothing where it never does.
 std::optional<double> said_after(WheelWatch& watch, double seconds, double asked_mps, double left_mps,
                                  double right_mps) {
-  for (double t = 0.0; t < seconds; t += kStepS)
-    if (watch.update(command_of(asked_mps, asked_mps), command_of(left_mps, right_mps), kStepS, kOptions))
+  for (double t = 0.0; t < seconds; t += kStatusEveryS)
+    if (watch.update(command_of(asked_mps, asked_mps), command_of(left_mps, right_mps), kStatusEveryS,
+                     kOptions))
       return t;
   return std::nullopt;
 }
@@ -56,12 +57,12 @@ RC_GTEST_PROP(WheelWatch, AWheelThatObeysIsNeverSaidNotTo, ()) {
     const bool stops = *rc::gen::inRange(0, 4) == 0;  // at once, as a stop is never delayed
     const double to_left = stops ? 0.0 : percent(-50, 150), to_right = stops ? 0.0 : percent(-50, 150);
     for (int k = *rc::gen::inRange(5, 100); k > 0; --k) {
-      const double step = stops ? 10.0 : kOptions.acceleration_mps2 * kStepS;
+      const double step = stops ? 10.0 : kOptions.acceleration_mps2 * kStatusEveryS;
       asked_left += std::clamp(to_left - asked_left, -step, step);
       asked_right += std::clamp(to_right - asked_right, -step, step);
       const auto found =
           watch.update(command_of(asked_left, asked_right),
-                       command_of(left.turn(asked_left), right.turn(asked_right)), kStepS, kOptions);
+                       command_of(left.turn(asked_left), right.turn(asked_right)), kStatusEveryS, kOptions);
       RC_ASSERT(!found);
     }
   }
@@ -72,8 +73,8 @@ TEST(WheelWatch, AMotorThatFailsIsNamed) {
   ASSERT_FALSE(said_after(watch, 3.0, 0.8, 0.8, 0.8));
   std::optional<DisobedientWheel> found;
   double after_s = 0.0;
-  for (; !found && after_s < 1.0; after_s += kStepS)
-    found = watch.update(command_of(0.8, 0.8), command_of(0.8, 0.0), kStepS, kOptions);
+  for (; !found && after_s < 1.0; after_s += kStatusEveryS)
+    found = watch.update(command_of(0.8, 0.8), command_of(0.8, 0.0), kStatusEveryS, kOptions);
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->left);
   EXPECT_NEAR(found->asked_mps, 0.8, 1e-9);
@@ -107,7 +108,7 @@ TEST(WheelWatch, AVehicleThatIsHeldIsNoMatterOfAWheel) {
 TEST(WheelWatch, WhereTheDriveFollowsNoCommandNothingIsJudged) {
   WheelWatch watch;
   for (int k = 0; k < 100; ++k)
-    EXPECT_FALSE(watch.update(std::nullopt, command_of(0.9, 0.9), kStepS, kOptions)) << "it is pushed";
+    EXPECT_FALSE(watch.update(std::nullopt, command_of(0.9, 0.9), kStatusEveryS, kOptions)) << "it is pushed";
   EXPECT_FALSE(said_after(watch, 0.3, 0.0, 0.7, 0.7)) << "it brakes from there";
 }
 

@@ -12,9 +12,9 @@
 namespace madori::localization {
 namespace {
 
-const std::vector<Point2<Map>> kRound{{2.0, 1.2},  {7.0, 1.2},  {11.0, 1.2}, {14.5, 1.0}, {14.4, 4.5},
-                                      {14.0, 8.0}, {10.2, 7.6}, {7.2, 7.6},  {7.0, 4.0},  {6.8, 1.3},
-                                      {11.0, 1.2}, {14.5, 1.0}, {14.4, 4.5}};
+const std::vector<Point2<Map>> kRoundAndOn{{2.0, 1.2},  {7.0, 1.2},  {11.0, 1.2}, {14.5, 1.0}, {14.4, 4.5},
+                                           {14.0, 8.0}, {10.2, 7.6}, {7.2, 7.6},  {7.0, 4.0},  {6.8, 1.3},
+                                           {11.0, 1.2}, {14.5, 1.0}, {14.4, 4.5}};
 
 struct Errors {
   double rms_m = 0.0;
@@ -52,7 +52,7 @@ test::DriveSettings bad_wheels() {
 TEST(Localizer, FindsItsPlaceOnAnExactDrawingFromARoughStart) {
   std::mt19937 engine(11);
   const mapping::Walls walls = test::laboratory_hall();
-  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  const auto moments = test::drive(walls, kRoundAndOn, bad_wheels(), engine);
   const Transform2<Map, Base> truth = moments.front().truth;
   Localizer localizer(walls,
                       InitialPose{{truth.x_m() + 0.4, truth.y_m() - 0.3, truth.yaw_rad() + to_rad(10.0)}});
@@ -64,7 +64,7 @@ TEST(Localizer, FindsItsPlaceOnAnExactDrawingFromARoughStart) {
 TEST(Localizer, FollowsTheBuildingWhereTheDrawingIsWrong) {
   std::mt19937 engine(12);
   const mapping::Walls walls = test::laboratory_hall();
-  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  const auto moments = test::drive(walls, kRoundAndOn, bad_wheels(), engine);
   mapping::Walls drawing = walls;
   for (std::size_t i = 10; i < 18; ++i) {  // the machines stand half a metre beside where they are drawn
     drawing[i].segment.a.x_m += 0.5;
@@ -76,7 +76,7 @@ TEST(Localizer, FollowsTheBuildingWhereTheDrawingIsWrong) {
 
 TEST(Localizer, MapsWithoutADrawing) {
   std::mt19937 engine(13);
-  const auto moments = test::drive(test::laboratory_hall(), kRound, bad_wheels(), engine);
+  const auto moments = test::drive(test::laboratory_hall(), kRoundAndOn, bad_wheels(), engine);
   Localizer localizer({}, InitialPose{moments.front().truth});
   const Errors errors = run(localizer, moments);
   EXPECT_LT(errors.rms_m, 0.10);
@@ -86,7 +86,7 @@ TEST(Localizer, MapsWithoutADrawing) {
 TEST(Localizer, TheSameReadingsGiveTheSamePosesBitForBit) {
   std::mt19937 engine(14);
   const mapping::Walls walls = test::laboratory_hall();
-  auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  auto moments = test::drive(walls, kRoundAndOn, bad_wheels(), engine);
   moments.resize(150);
   Localizer a(walls, InitialPose{moments.front().truth}), b(walls, InitialPose{moments.front().truth});
   for (const auto& m : moments) {
@@ -103,7 +103,7 @@ TEST(Localizer, TheSameReadingsGiveTheSamePosesBitForBit) {
 TEST(Localizer, WhereThinkingIsNotWaitedForTheSameWordsGiveTheSamePoses) {
   std::mt19937 engine(14);
   const mapping::Walls walls = test::laboratory_hall();
-  auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  auto moments = test::drive(walls, kRoundAndOn, bad_wheels(), engine);
   moments.resize(300);
   const InitialPose begin{moments.front().truth};
   Localizer live(walls, begin), again(walls, begin), waiting(walls, begin);
@@ -129,7 +129,7 @@ TEST(Localizer, WhereThinkingIsNotWaitedForTheSameWordsGiveTheSamePoses) {
 TEST(Localizer, SurvivesEmptyScansAndLateReadings) {
   std::mt19937 engine(15);
   const mapping::Walls walls = test::laboratory_hall();
-  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  const auto moments = test::drive(walls, kRoundAndOn, bad_wheels(), engine);
   Localizer localizer(walls, InitialPose{moments.front().truth});
   for (std::size_t i = 0; i < moments.size(); ++i) {
     (void)localizer.on_odometry(moments[i].odometry);
@@ -152,7 +152,7 @@ PoseEstimate feed(Localizer& localizer, const test::DriveMoment& m) {
 TEST(Localizer, FindsItsPlaceWithoutAStartPose) {
   std::mt19937 engine(16);
   const mapping::Walls walls = test::laboratory_hall();
-  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  const auto moments = test::drive(walls, kRoundAndOn, bad_wheels(), engine);
   Localizer localizer(walls, std::nullopt);
   const Errors errors = run(localizer, moments);
   EXPECT_LT(errors.rms_m, 0.05);
@@ -162,7 +162,7 @@ TEST(Localizer, FindsItsPlaceWithoutAStartPose) {
 TEST(Localizer, AMirroredDrawingIsNeverBelieved) {
   std::mt19937 engine(17);
   const mapping::Walls walls = test::laboratory_hall();
-  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  const auto moments = test::drive(walls, kRoundAndOn, bad_wheels(), engine);
   mapping::Walls mirrored = walls;
   for (auto& wall : mirrored) {
     wall.segment.a.x_m = 20.0 - wall.segment.a.x_m;
@@ -307,7 +307,7 @@ TEST(Localizer, TheMemoryGrowsWithTheBuildingAndNotWithTheWay) {
 TEST(Localizer, BeginsInWhatAnEarlierDriveRemembered) {
   std::mt19937 engine(20);
   const mapping::Walls walls = test::laboratory_hall();
-  const auto moments = test::drive(walls, kRound, bad_wheels(), engine);
+  const auto moments = test::drive(walls, kRoundAndOn, bad_wheels(), engine);
   Localizer first(walls, InitialPose{moments.front().truth});
   for (const auto& m : moments) (void)feed(first, m);
   const Transform2<Map, Base> truth = moments.front().truth;

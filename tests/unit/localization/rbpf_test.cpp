@@ -72,17 +72,13 @@ TEST(GridMatch, FindsThePoseAndLikesItBest) {
   EXPECT_GT(right, log_likelihood(scan, map, {6.5, 1.25, 0.2}, 12.0) + 1.0);
 }
 
-const std::vector<Point2<Map>> kTwoRounds{{2.5, 1.2},  {11.0, 1.2}, {14.4, 1.0}, {14.4, 4.2}, {14.4, 8.2},
-                                          {12.5, 8.2}, {11.0, 7.2}, {7.0, 7.8},  {6.5, 3.8},  {6.5, 1.2},
-                                          {2.5, 1.2},  {11.0, 1.2}, {14.4, 1.0}, {14.4, 4.2}};
-
 TEST(RbpfMapper, MapsAHallWithBadWheelsAndRepeatsItself) {
   std::mt19937 engine(7);
   test::DriveSettings settings;
   settings.lidar = test::ScanSettings{};
   settings.bias_rad_per_m = 0.03;
   settings.sigma_distance = 0.03;
-  const auto moments = test::drive(test::laboratory_hall(), kTwoRounds, settings, engine);
+  const auto moments = test::drive(test::laboratory_hall(), test::kTwoRounds, settings, engine);
   std::vector<Pose> truth;
   for (const auto& moment : moments)
     if (moment.has_scan) truth.push_back(moment.truth);

@@ -34,7 +34,7 @@ void move_some(mapping::Walls& walls, std::mt19937& engine) {
   for (std::size_t i = 3; i < walls.size(); i += 12) walls.erase(walls.begin() + static_cast<long>(i));
 }
 
-SurfaceScan surfaces(const LaserScan& scan) {
+SurfaceScan far_surfaces(const LaserScan& scan) {
   const ScanPoints points = scan_points(scan, {});
   std::vector<Point2<Base>> list;
   for (std::size_t i = 0; i < points.size(); ++i) list.push_back(points.point(i));
@@ -55,7 +55,7 @@ std::vector<CalibrationKeyframe> keyframes(const mapping::Walls& building, const
     const auto scan = test::simulate_scan(building, pose, lidar, engine);
     const double x = pose.x_m() * (1.0 + strain[0]) + 0.5 * strain[2] * pose.y_m() + 0.1 * noise(engine);
     const double y = pose.y_m() * (1.0 + strain[1]) + 0.5 * strain[2] * pose.x_m() + 0.1 * noise(engine);
-    result.push_back({{x, y, pose.yaw_rad() + 0.01 * noise(engine)}, surface_pieces(surfaces(scan))});
+    result.push_back({{x, y, pose.yaw_rad() + 0.01 * noise(engine)}, surface_pieces(far_surfaces(scan))});
   }
   return result;
 }
@@ -65,7 +65,7 @@ TEST(SurfacePieces, LieOnTheWallsAndFaceTheSensor) {
   std::mt19937 engine(2);
   const Transform2<Map, Base> pose(7.0, 3.0, 0.4);
   const auto pieces =
-      surface_pieces(surfaces(test::simulate_scan(walls, pose, test::full_turn(720, 30.0), engine)));
+      surface_pieces(far_surfaces(test::simulate_scan(walls, pose, test::full_turn(720, 30.0), engine)));
   EXPECT_GT(pieces.size(), 15U);
   for (const SurfacePiece& piece : pieces) {
     double nearest = 1e9;
@@ -155,7 +155,7 @@ TEST(SelfCalibration, MotionsTellLengthsThatNoScanSees) {
     test::ScanSettings lidar = test::full_turn(360, 8.0);
     lidar.range_sigma_m = 0.01;
     seen.push_back({{truth.x_m() * 1.012, 2.0, 0.3 * i},
-                    surface_pieces(surfaces(test::simulate_scan(building, truth, lidar, engine)))});
+                    surface_pieces(far_surfaces(test::simulate_scan(building, truth, lidar, engine)))});
     if (i > 0) {
       RelativeFactor f;
       f.from = i - 1;
@@ -180,7 +180,7 @@ TEST(SelfCalibration, KnowsWhatItDoesNotSee) {
   std::vector<CalibrationKeyframe> seen;
   for (int i = 0; i < 30; ++i) {
     const Transform2<Map, Base> pose(20.0 + 0.5 * i, 1.4, 0.0);
-    seen.push_back({pose, surface_pieces(surfaces(
+    seen.push_back({pose, surface_pieces(far_surfaces(
                               test::simulate_scan(corridor, pose, test::full_turn(720, 15.0), engine)))});
   }
   const auto found = self_calibrate(WallIndex(corridor), seen);

@@ -38,18 +38,13 @@ TEST(LaidWay, CarriesOnBeyondItsAnchors) {
   EXPECT_TRUE(laid_way(way, {}).empty());
 }
 
-/// Twice around the laboratory hall.
-const std::vector<Point2<Map>> kTwoRounds{{2.5, 1.2},  {11.0, 1.2}, {14.4, 1.0}, {14.4, 4.2}, {14.4, 8.2},
-                                          {12.5, 8.2}, {11.0, 7.2}, {7.0, 7.8},  {6.5, 3.8},  {6.5, 1.2},
-                                          {2.5, 1.2},  {11.0, 1.2}, {14.4, 1.0}, {14.4, 4.2}};
-
 TEST(GraphMapper, MapsAHallWithBadWheels) {
   std::mt19937 engine(5);
   test::DriveSettings settings;
   settings.lidar = test::ScanSettings{};
   settings.bias_rad_per_m = 0.03;
   settings.sigma_distance = 0.03;
-  const auto moments = test::drive(test::laboratory_hall(), kTwoRounds, settings, engine);
+  const auto moments = test::drive(test::laboratory_hall(), test::kTwoRounds, settings, engine);
   GraphMapper mapper;
   std::vector<Transform2<Map, Base>> truth;
   for (const auto& moment : moments) {
@@ -100,7 +95,7 @@ TEST(SlowLidarMapper, MapsAHallAndFindsItselfInIt) {
   settings.steps_per_scan = 6;
   settings.sigma_rad_per_m = 0.03;
   const mapping::Walls walls = test::laboratory_hall();
-  const auto moments = test::drive(walls, kTwoRounds, settings, engine);
+  const auto moments = test::drive(walls, test::kTwoRounds, settings, engine);
   SlowLidarMapper mapper;
   double worst_m = 0.0;
   for (const auto& moment : moments) {
@@ -148,7 +143,7 @@ TEST(SlowLidarMapper, BelievesAJumpOnceScansAgreeOnItAndNotBefore) {
   settings.lidar = test::ScanSettings{};
   settings.steps_per_scan = 6;
   const mapping::Walls walls = test::laboratory_hall();
-  const auto moments = test::drive(walls, kTwoRounds, settings, engine);
+  const auto moments = test::drive(walls, test::kTwoRounds, settings, engine);
   SlowLidarMapper mapper;
   for (const auto& moment : moments) {
     (void)mapper.on_odometry(moment.odometry);
@@ -208,7 +203,7 @@ TEST(SurfaceBundle, BringsPosesBackWithoutBendingTheMap) {
   settings.steps_per_scan = 6;
   std::vector<ScanPoints> scans;
   std::vector<Transform2<Map, Base>> truth, astray;
-  for (const auto& moment : test::drive(test::laboratory_hall(), kTwoRounds, settings, engine)) {
+  for (const auto& moment : test::drive(test::laboratory_hall(), test::kTwoRounds, settings, engine)) {
     if (!moment.has_scan) continue;
     ScanPoints points = scan_points(moment.scan, {});
     for (auto* array : {&points.x_m, &points.y_m})

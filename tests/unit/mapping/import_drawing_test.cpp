@@ -8,12 +8,12 @@
 
 #include <csignal>
 #include <fstream>
-#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/result.hpp"
+#include "mapping/site/atomic_file.hpp"
 #include "mapping/wall_map/wall.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -30,11 +30,6 @@ fs::path draw_room(const test::TemporaryFolder& folder, const std::string& name 
   cv::rectangle(picture, {200, 290}, {250, 310}, 255, cv::FILLED);
   cv::imwrite((folder.path() / name).string(), picture);
   return folder.path() / name;
-}
-
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::string refusal(const ImportOptions& options) {
@@ -70,7 +65,7 @@ TEST_F(ImportDrawing, MakesAWholeSite) {
   for (const char* name :
        {"site.yaml", "drawing.png", "walls.csv", "walls.pcd", "map.pgm", "map.yaml", "import.png"})
     EXPECT_TRUE(fs::exists(o.site / name)) << name;
-  EXPECT_EQ(content(o.site / "drawing.png"), content(o.drawing));
+  EXPECT_EQ(file_content(o.site / "drawing.png"), file_content(o.drawing));
   EXPECT_GT(report.points.sampled, report.points.points.size());
   const Site site = load_scaled_site(o.site);
   EXPECT_EQ(site.drawing.width_px, 500);
@@ -105,7 +100,7 @@ TEST_F(ImportDrawing, BadInputIsRefusedWithoutATrace) {
   expect_refused(folder_.write("plan.dwg", "AC1027"), "save it as DXF");
   expect_refused(folder_.write("plan.pdf", "%PDF-1.4 and nothing else"), "no readable PDF");
   expect_refused(folder_.write("plan.svg", "<svg"), "no readable SVG");
-  const std::string whole = content(draw_room(folder_));
+  const std::string whole = file_content(draw_room(folder_));
   expect_refused(folder_.write("truncated.png", whole.substr(0, whole.size() / 2)), "truncated.png");
   cv::imwrite((folder_.path() / "white.png").string(), cv::Mat(300, 300, CV_8UC1, cv::Scalar(255)));
   expect_refused(folder_.path() / "white.png", "no wall was found");
@@ -137,17 +132,17 @@ TEST_F(ImportDrawing, AnExistingSiteIsOnlyReplacedOnRequest) {
   import_drawing(o);
   fs::create_directory(o.site / "routes");
   std::ofstream(o.site / "routes/tree.csv") << "ID,EDA\n";
-  const std::string before = content(o.site / "walls.csv");
+  const std::string before = file_content(o.site / "walls.csv");
   EXPECT_THAT(refusal(o), HasSubstr("--force"));
   o.drawing = folder_.write("bad.png", "no image");
   o.force = true;
   EXPECT_NE(refusal(o), "");
-  EXPECT_EQ(content(o.site / "walls.csv"), before);
+  EXPECT_EQ(file_content(o.site / "walls.csv"), before);
   o.drawing = draw_room(folder_, "again.png");
   o.m_per_px = 0.04;
   import_drawing(o);
-  EXPECT_NE(content(o.site / "walls.csv"), before);
-  EXPECT_EQ(content(o.site / "routes/tree.csv"), "ID,EDA\n");
+  EXPECT_NE(file_content(o.site / "walls.csv"), before);
+  EXPECT_EQ(file_content(o.site / "routes/tree.csv"), "ID,EDA\n");
 }
 
 /// Exit 0 where the import failed with an Error although every file may only have `limit` bytes.
@@ -170,11 +165,11 @@ TEST_F(ImportDrawing, AFullDiskLosesNothing) {
   EXPECT_EQ(import_with_file_limit(o, 500), 0);
   EXPECT_FALSE(fs::exists(o.site / "site.yaml"));
   import_drawing(o);
-  const std::string before = content(o.site / "walls.csv");
+  const std::string before = file_content(o.site / "walls.csv");
   o.force = true;
   o.m_per_px = 0.05;
   EXPECT_EQ(import_with_file_limit(o, 500), 0);
-  EXPECT_EQ(content(o.site / "walls.csv"), before);
+  EXPECT_EQ(file_content(o.site / "walls.csv"), before);
 }
 
 TEST_F(ImportDrawing, AFolderThatCannotBeWrittenIsSaid) {

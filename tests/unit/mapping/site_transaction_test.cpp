@@ -5,21 +5,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "core/result.hpp"
+#include "mapping/site/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::mapping {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 TEST(SiteTransaction, ChangesNothingWithoutCommit) {
   const test::TemporaryFolder folder;
@@ -29,7 +22,7 @@ TEST(SiteTransaction, ChangesNothingWithoutCommit) {
     change.write("walls.csv", "new");
     change.remove("walls.csv");
   }
-  EXPECT_EQ(content(folder.path() / "walls.csv"), "old");
+  EXPECT_EQ(file_content(folder.path() / "walls.csv"), "old");
   EXPECT_FALSE(fs::exists(folder.path() / ".staging"));
 }
 
@@ -47,8 +40,8 @@ TEST(SiteTransaction, CommitsPutsAndRemovals) {
   change.write("routes/tree.csv", "ID,EDA\n");
   change.remove("drawing.png");
   change.commit();
-  EXPECT_EQ(content(folder.path() / "drawing.pdf"), "new");
-  EXPECT_EQ(content(folder.path() / "routes/tree.csv"), "ID,EDA\n");
+  EXPECT_EQ(file_content(folder.path() / "drawing.pdf"), "new");
+  EXPECT_EQ(file_content(folder.path() / "routes/tree.csv"), "ID,EDA\n");
   EXPECT_FALSE(fs::exists(folder.path() / "drawing.png"));
 }
 
@@ -68,8 +61,8 @@ TEST(SiteTransaction, FinishesACommitThatWasCutShort) {
   folder.write(".staging/b", "new b");
   folder.write(".staging/JOURNAL", "- c\n+ a\n+ b\n");
   recover_site(folder.path());
-  EXPECT_EQ(content(folder.path() / "a"), "new a");
-  EXPECT_EQ(content(folder.path() / "b"), "new b");
+  EXPECT_EQ(file_content(folder.path() / "a"), "new a");
+  EXPECT_EQ(file_content(folder.path() / "b"), "new b");
   EXPECT_FALSE(fs::exists(folder.path() / "c"));
   EXPECT_FALSE(fs::exists(folder.path() / ".staging"));
 }
@@ -92,7 +85,7 @@ TEST(SiteTransaction, SurvivesKillAtAnyMoment) {
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     recover_site(folder.path());
-    ASSERT_EQ(content(folder.path() / "a"), content(folder.path() / "b")) << "turn " << turn;
+    ASSERT_EQ(file_content(folder.path() / "a"), file_content(folder.path() / "b")) << "turn " << turn;
   }
 }
 

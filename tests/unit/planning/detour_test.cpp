@@ -11,9 +11,9 @@
 namespace madori::planning {
 namespace {
 
-const CheckOptions kCheck;
+const CheckOptions kDetourCheck;
 
-Path straight(double length_m) {
+Path straight_way(double length_m) {
   return make_waypoints({{{0, 0}}, {{length_m, 0}}}).value();
 }
 
@@ -26,30 +26,30 @@ std::vector<Point2<Map>> row(double x_m, double low_m, double high_m) {
 
 DetourRequest request_for(const Path& path, const std::vector<Point2<Map>>& obstacles,
                           const WallGrid& walls) {
-  return {7, path, 0, {}, check_path(path, 0, 8.0, obstacles, walls, kCheck), obstacles};
+  return {7, path, 0, {}, check_path(path, 0, 8.0, obstacles, walls, kDetourCheck), obstacles};
 }
 
 TEST(SideDetour, GoesAroundAPalletAndComesBack) {
-  const Path path = straight(14);
+  const Path path = straight_way(14);
   const auto obstacles = row(6.0, -0.4, 0.4);
   const WallGrid walls;
-  const auto detour =
-      side_detour(path, 0, check_path(path, 0, 8.0, obstacles, walls, kCheck), obstacles, walls, kCheck);
+  const auto detour = side_detour(path, 0, check_path(path, 0, 8.0, obstacles, walls, kDetourCheck),
+                                  obstacles, walls, kDetourCheck);
   ASSERT_TRUE(detour);
-  EXPECT_FALSE(check_path(detour.value().path, 0, 20.0, obstacles, walls, kCheck).blocked());
+  EXPECT_FALSE(check_path(detour.value().path, 0, 20.0, obstacles, walls, kDetourCheck).blocked());
   EXPECT_NEAR(std::abs(detour.value().offset_m), 0.9, 0.21);
   EXPECT_EQ(detour.value().path.points.back().position, path.points.back().position);
   for (const auto& point : detour.value().path.points) EXPECT_LT(std::abs(point.curvature_per_m), 1.5);
 }
 
 TEST(SideDetour, TakesTheOpenSide) {
-  const Path path = straight(14);
+  const Path path = straight_way(14);
   const auto obstacles = row(6.0, -3.0, 0.2);
   const WallGrid walls;
-  const auto check = check_path(path, 0, 8.0, obstacles, walls, kCheck);
-  EXPECT_GT(side_detour(path, 0, check, obstacles, walls, kCheck).value().offset_m, 0.0);
+  const auto check = check_path(path, 0, 8.0, obstacles, walls, kDetourCheck);
+  EXPECT_GT(side_detour(path, 0, check, obstacles, walls, kDetourCheck).value().offset_m, 0.0);
   const WallGrid left(std::vector<Segment2<Map>>{{{0.0, 0.6}, {14.0, 0.6}}});
-  EXPECT_FALSE(side_detour(path, 0, check, obstacles, left, kCheck)) << "a drawn wall on the open side";
+  EXPECT_FALSE(side_detour(path, 0, check, obstacles, left, kDetourCheck)) << "a drawn wall on the open side";
 }
 
 /// Inside a bend an offset beyond its radius would fold back on itself: whatever is offered can be followed.
@@ -61,9 +61,9 @@ TEST(SideDetour, OffersNothingInABendThatCannotBeFollowed) {
   for (double x = 4.6; x < 7.0; x += 0.1) {
     for (double y = -0.6; y < 2.4; y += 0.2) {
       const std::vector<Point2<Map>> obstacles{{x, y}, {x + 0.1, y}, {x, y + 0.1}};
-      const auto check = check_path(path, 0, 12.0, obstacles, walls, kCheck);
+      const auto check = check_path(path, 0, 12.0, obstacles, walls, kDetourCheck);
       if (!check.blocked()) continue;
-      const auto detour = side_detour(path, 0, check, obstacles, walls, kCheck, options);
+      const auto detour = side_detour(path, 0, check, obstacles, walls, kDetourCheck, options);
       if (!detour) continue;
       ++offered;
       const auto& points = detour.value().path.points;
@@ -82,24 +82,24 @@ TEST(SideDetour, OffersNothingInABendThatCannotBeFollowed) {
 }
 
 TEST(SideDetour, NeedsRoomToComeBack) {
-  const Path path = straight(7);
+  const Path path = straight_way(7);
   const auto obstacles = row(6.0, -0.2, 0.2);
   const WallGrid walls;
-  EXPECT_FALSE(
-      side_detour(path, 0, check_path(path, 0, 8.0, obstacles, walls, kCheck), obstacles, walls, kCheck));
+  EXPECT_FALSE(side_detour(path, 0, check_path(path, 0, 8.0, obstacles, walls, kDetourCheck), obstacles,
+                           walls, kDetourCheck));
 }
 
 TEST(FreeSpace, FindsAWayAroundALongBarrierAndTheSameOneForASeed) {
-  const Path path = straight(16);
+  const Path path = straight_way(16);
   const auto obstacles = row(6.0, -2.6, 2.6);
   const WallGrid walls;
   DetourOptions options;
   options.side.furthest_m = 1.0;
   options.free_space.max_checks = 200'000;
-  const auto answer = plan_detour(request_for(path, obstacles, walls), kCheck, options);
+  const auto answer = plan_detour(request_for(path, obstacles, walls), kDetourCheck, options);
   ASSERT_TRUE(answer.path.has_value()) << answer.reason;
   EXPECT_EQ(answer.id, 7U);
-  EXPECT_FALSE(check_path(*answer.path, 0, 40.0, obstacles, walls, kCheck).blocked());
+  EXPECT_FALSE(check_path(*answer.path, 0, 40.0, obstacles, walls, kDetourCheck).blocked());
   EXPECT_EQ(answer.path->points.back().position, path.points.back().position);
 }
 
@@ -111,14 +111,15 @@ TEST(FreeSpace, WaysAreNotMuchLongerThanNeeded) {
     FreeSpaceOptions options;
     options.max_checks = 200'000;
     options.seed = seed;
-    const auto path = free_space_path({}, {8.0, 0.0, 0.0}, obstacles, walls, kCheck, options);
+    const auto path = free_space_path({}, {8.0, 0.0, 0.0}, obstacles, walls, kDetourCheck, options);
     ASSERT_TRUE(path) << path.reason();
     double length_m = 0.0;
     const auto& points = path.value().points;
     for (std::size_t i = 1; i < points.size(); ++i)
       length_m += distance_m(points[i - 1].position, points[i].position);
     EXPECT_LT(length_m, 1.35 * 2.0 * std::hypot(4.0, 1.4)) << "seed " << seed;
-    EXPECT_FALSE(check_path(path.value(), 0, 40.0, obstacles, walls, kCheck).blocked()) << "seed " << seed;
+    EXPECT_FALSE(check_path(path.value(), 0, 40.0, obstacles, walls, kDetourCheck).blocked())
+        << "seed " << seed;
   }
 }
 
@@ -127,15 +128,15 @@ TEST(FreeSpace, AClosedRoomHasNoWayAndTheSearchEnds) {
       {{-3, -3}, {5, -3}}, {{5, -3}, {5, 3}}, {{5, 3}, {-3, 3}}, {{-3, 3}, {-3, -3}}});
   FreeSpaceOptions options;
   options.max_checks = 20'000;
-  const auto path = free_space_path({}, {8.0, 0.0, 0.0}, {}, walls, kCheck, options);
+  const auto path = free_space_path({}, {8.0, 0.0, 0.0}, {}, walls, kDetourCheck, options);
   ASSERT_FALSE(path);
   EXPECT_EQ(path.reason(), "no free way was found within the time allowed");
 }
 
 TEST(DetourPlanner, AnswersFromItsOwnThread) {
-  const Path path = straight(14);
+  const Path path = straight_way(14);
   const auto obstacles = row(6.0, -0.4, 0.4);
-  DetourPlanner planner(kCheck, {});
+  DetourPlanner planner(kDetourCheck, {});
   EXPECT_FALSE(planner.take());
   planner.submit(request_for(path, obstacles, WallGrid()));
   std::optional<DetourAnswer> answer;

@@ -9,7 +9,7 @@
 namespace madori::planning {
 namespace {
 
-const SensorView kVlp{0.0, 0.0, 0.9, to_rad(-15.0), to_rad(15.0)};
+using test::kVlp;
 
 /// Ten revolutions of a standing lidar while `move` shifts the bodies; the movers at the end.
 template <class Move>

@@ -10,7 +10,7 @@
 namespace madori::planning {
 namespace {
 
-const SensorView kVlp{0.0, 0.0, 0.9, to_rad(-15.0), to_rad(15.0)};
+using test::kVlp;
 
 Stamp at(double seconds) {
   return stamp_from_seconds(seconds);

@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "core/angle.hpp"
+#include "tests/support/toy_lidar.hpp"
 
 namespace madori::planning {
 namespace {
 
-const SensorView kVlp{0.0, 0.0, 0.9, to_rad(-15.0), to_rad(15.0)};
+using test::kVlp;
 
-Stamp at(double seconds) {
+Stamp second(double seconds) {
   return stamp_from_seconds(seconds);
 }
 
@@ -17,7 +18,7 @@ Stamp at(double seconds) {
 SightHistory room(double end_s) {
   SightHistory sights;
   for (double t = 0.0; t < end_s; t += 0.2) {
-    EXPECT_TRUE(sights.begin(kVlp, {}, at(t)));
+    EXPECT_TRUE(sights.begin(kVlp, {}, second(t)));
     for (double deg = 0.0; deg < 360.0; deg += 0.3) {
       const double angle = to_rad(deg);
       const double away = std::abs(wrap_angle(angle)) < std::atan2(0.2, 3.0) ? 3.0 : 6.0;
@@ -29,7 +30,7 @@ SightHistory room(double end_s) {
 
 TEST(SightHistory, OnlyWhatWasSeenThroughWasEmpty) {
   const auto sights = room(1.0);
-  const auto empty = [&](double x, double y) { return sights.was_empty({x, y}, 0.1, 0.1, 1.5, at(1.1)); };
+  const auto empty = [&](double x, double y) { return sights.was_empty({x, y}, 0.1, 0.1, 1.5, second(1.1)); };
   EXPECT_TRUE(empty(2.0, 0.0)) << "before the pillar";
   EXPECT_TRUE(empty(-4.0, 2.0));
   EXPECT_FALSE(empty(2.9, 0.0)) << "at the pillar";
@@ -40,16 +41,17 @@ TEST(SightHistory, OnlyWhatWasSeenThroughWasEmpty) {
 
 TEST(SightHistory, WhatNoBeamWouldHitIsNotKnownToBeEmpty) {
   const auto sights = room(1.0);
-  EXPECT_FALSE(sights.was_empty({1.5, 0.0}, 0.1, 0.1, 0.2, at(1.1))) << "below the lowest beam";
-  EXPECT_TRUE(sights.was_empty({4.5, 1.5}, 0.1, 0.1, 0.2, at(1.1))) << "further away it reaches so low";
+  EXPECT_FALSE(sights.was_empty({1.5, 0.0}, 0.1, 0.1, 0.2, second(1.1))) << "below the lowest beam";
+  EXPECT_TRUE(sights.was_empty({4.5, 1.5}, 0.1, 0.1, 0.2, second(1.1))) << "further away it reaches so low";
 }
 
 TEST(SightHistory, OneScanIsNotEnoughAndOldOnesAreForgotten) {
-  EXPECT_FALSE(room(0.1).was_empty({2.0, 0.0}, 0.1, 0.1, 1.5, at(1.0)));
+  EXPECT_FALSE(room(0.1).was_empty({2.0, 0.0}, 0.1, 0.1, 1.5, second(1.0)));
   auto sights = room(1.0);
-  EXPECT_FALSE(sights.was_empty({2.0, 0.0}, 0.1, 0.1, 1.5, at(0.3))) << "nothing is old enough to be asked";
-  sights.begin(kVlp, {}, at(9.0));
-  EXPECT_FALSE(sights.was_empty({2.0, 0.0}, 0.1, 0.1, 1.5, at(9.5)));
+  EXPECT_FALSE(sights.was_empty({2.0, 0.0}, 0.1, 0.1, 1.5, second(0.3)))
+      << "nothing is old enough to be asked";
+  sights.begin(kVlp, {}, second(9.0));
+  EXPECT_FALSE(sights.was_empty({2.0, 0.0}, 0.1, 0.1, 1.5, second(9.5)));
 }
 
 TEST(SightHistory, EachSensorIsRememberedForItselfThoughTheirScansComeInNoOrder) {
@@ -59,28 +61,28 @@ TEST(SightHistory, EachSensorIsRememberedForItselfThoughTheirScansComeInNoOrder)
   SightHistory sights;
   for (int i = 0; i < 30; ++i)
     for (const SensorView& view : {left, right}) {  // the right one's scans are older than the left one's
-      if (!sights.begin(view, {}, at(0.04 * i - (view == right ? 0.01 : 0.0)))) continue;
+      if (!sights.begin(view, {}, second(0.04 * i - (view == right ? 0.01 : 0.0)))) continue;
       for (double deg = -80.0; deg <= 80.0; deg += 0.3)
         sights.add(6.0 * std::cos(view.facing_rad + to_rad(deg)),
                    6.0 * std::sin(view.facing_rad + to_rad(deg)), true);
     }
-  EXPECT_TRUE(sights.was_empty({0.0, 3.0}, 0.1, 0.1, 1.5, at(1.2)));
-  EXPECT_TRUE(sights.was_empty({0.0, -3.0}, 0.1, 0.1, 1.5, at(1.2)));
-  EXPECT_FALSE(sights.was_empty({3.0, 0.0}, 0.1, 0.1, 1.5, at(1.2))) << "nobody looks there";
+  EXPECT_TRUE(sights.was_empty({0.0, 3.0}, 0.1, 0.1, 1.5, second(1.2)));
+  EXPECT_TRUE(sights.was_empty({0.0, -3.0}, 0.1, 0.1, 1.5, second(1.2)));
+  EXPECT_FALSE(sights.was_empty({3.0, 0.0}, 0.1, 0.1, 1.5, second(1.2))) << "nobody looks there";
 }
 
 TEST(SightHistory, EveryDirectionAndItsNeighboursAreTold) {
   SightHistory sights;
   for (const double t : {0.0, 0.2}) {
-    sights.begin(kVlp, {}, at(t));
+    sights.begin(kVlp, {}, second(t));
     for (double deg = 0.0; deg < 360.0; deg += 0.2)
       sights.add(6.0 * std::cos(to_rad(deg)), 6.0 * std::sin(to_rad(deg)), true);
   }
   for (double deg = -180.0; deg <= 180.0; deg += 1.0) {
     const Point2<Odom> near{3.0 * std::cos(to_rad(deg)), 3.0 * std::sin(to_rad(deg))};
     const Point2<Odom> far{6.2 * std::cos(to_rad(deg)), 6.2 * std::sin(to_rad(deg))};
-    EXPECT_TRUE(sights.was_empty(near, 0.1, 0.1, 1.5, at(0.6))) << deg;
-    EXPECT_FALSE(sights.was_empty(far, 0.1, 0.1, 1.5, at(0.6))) << deg;
+    EXPECT_TRUE(sights.was_empty(near, 0.1, 0.1, 1.5, second(0.6))) << deg;
+    EXPECT_FALSE(sights.was_empty(far, 0.1, 0.1, 1.5, second(0.6))) << deg;
   }
 }
 

@@ -27,8 +27,8 @@ struct Seen {
   std::vector<DevicePacket> packets;
 
   explicit Seen(const FactorySetup& setup) : factory(setup), receiver({}) {}
-  void run(double seconds, const WheelCommand& wheels = {}) {
-    for (int i = 0; i < std::lround(seconds * 100.0); ++i) {
+  void run(double duration_s, const WheelCommand& wheels = {}) {
+    for (int i = 0; i < std::lround(duration_s * 100.0); ++i) {
       factory.step(milliseconds(10), wheels);
       const auto arrived = factory.take_packets();
       receiver.push(arrived);
