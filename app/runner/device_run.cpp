@@ -88,6 +88,9 @@ class Onlookers {
 }  // namespace
 
 std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
+  // First of all: who is asked to end while it still reads the site ends in order, too.
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
   const LogAside log;
   const SiteLock lock(options.site);
   Onlookers onlookers(options);
@@ -122,8 +125,6 @@ std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
     spdlog::info("panel at {}", panel->address());
   else
     vehicle.load_now();  // nobody could complete the site
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
   // Beside: it reads every file of the site.
   const auto self_test = std::async(std::launch::async, [site = options.site] {
     (void)take_role("self-test", ThreadRole::Behind);
