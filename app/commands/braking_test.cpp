@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -10,11 +9,10 @@
 #include "app/commands.hpp"
 #include "app/cycle/site_config.hpp"
 #include "app/json_output.hpp"
+#include "app/runner/interruption.hpp"
 
 namespace madori::app {
 namespace {
-
-std::atomic<bool> stop_asked = false;  // NOLINT: a signal handler reaches nothing else
 
 struct BrakingArguments {
   BrakingRunOptions run;
@@ -67,9 +65,7 @@ void run(BrakingArguments& arguments) {
       std::string line;
       return static_cast<bool>(std::getline(std::cin, line));
     };
-  std::signal(SIGINT, [](int) { stop_asked = true; });
-  std::signal(SIGTERM, [](int) { stop_asked = true; });
-  const auto stops = run_braking_test(arguments.run, stop_asked);
+  const auto stops = run_braking_test(arguments.run, interrupted_by({SIGINT, SIGTERM}));
   const auto verdict = verdict_of(stops, braking_site(loaded.config));
   if (!verdict) return;
   print(stops, *verdict, record, stream);

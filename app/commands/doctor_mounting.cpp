@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "app/lidars.hpp"
 #include "app/mounting/mounting_run.hpp"
 #include "app/recording/replay.hpp"
+#include "app/runner/interruption.hpp"
 #include "app/runner/real_time.hpp"
 #include "app/runner/site_lock.hpp"
 #include "core/angle.hpp"
@@ -27,8 +27,6 @@ struct Measured {
   localization::MountingCalibration found;
   std::vector<MountingFinding> findings;
 };
-
-std::atomic<bool> interrupted = false;  // NOLINT: a signal handler reaches nothing else
 
 Measured from_log(const std::string& run, const mapping::Site& site, const CycleConfig& vehicle) {
   MountingLog log(vehicle.odometry.wheels);
@@ -58,7 +56,7 @@ Measured from_drive(const std::string& folder, const mapping::Site& site, const 
   const SiteLock lock(folder);
   SocketLink link(devices, wheels, site.sensors);
   MountingRun run(site.vehicle, site.sensors);
-  std::signal(SIGINT, [](int) { interrupted = true; });
+  const std::atomic<bool>& interrupted = interrupted_by({SIGINT});
   std::atomic<bool> never = false;
   int told = -1;
   const auto over = [&] { return run.view().state == State::Done || run.view().state == State::Stopped; };

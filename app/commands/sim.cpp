@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,7 @@
 
 #include "app/commands.hpp"
 #include "app/json_output.hpp"
+#include "app/runner/interruption.hpp"
 #include "app/simulated/camera_stream.hpp"
 #include "app/simulated/jpeg.hpp"
 #include "app/trajectory_file.hpp"
@@ -30,12 +30,6 @@ struct SimArguments {
   std::optional<std::uint16_t> camera_port;
   std::optional<std::uint64_t> seed;
 };
-
-std::atomic<bool> stop_requested = false;  // NOLINT: a signal handler reaches nothing else
-
-void request_stop(int /*signal*/) {
-  stop_requested = true;
-}
 
 simulation::FactorySetup setup_of(const SimArguments& arguments) {
   const fs::path own = fs::path(arguments.site) / "scenario.yaml";
@@ -119,10 +113,9 @@ void simulate(SimArguments arguments) {
     camera.emplace(*arguments.camera_port, [&factory] { return to_jpeg(simulation::take_picture(factory)); });
   if (camera) std::printf("camera http %s\n", camera->url().c_str());
   print_devices(factory, hub, truth.port());
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  const std::atomic<bool>& interrupted = interrupted_by({SIGINT, SIGTERM});
   const auto report =
-      run_live(factory, hub, truth, arguments.live, stop_requested, [&](const simulation::GroundTruth& t) {
+      run_live(factory, hub, truth, arguments.live, interrupted, [&](const simulation::GroundTruth& t) {
         if (tum.is_open()) tum << tum_line(t.stamp, t.map_from_base);
         if (camera) camera->poll();
       });

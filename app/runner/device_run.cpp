@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <csignal>
 #include <future>
 #include <memory>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "app/lidars.hpp"
 #include "app/panel/panel.hpp"
 #include "app/recording/recorder.hpp"
+#include "app/runner/interruption.hpp"
 #include "app/runner/log_aside.hpp"
 #include "app/runner/real_time.hpp"
 #include "app/runner/self_test.hpp"
@@ -25,8 +25,6 @@
 
 namespace madori::app {
 namespace {
-
-std::atomic<bool> interrupted = false;  // NOLINT: a signal handler reaches nothing else
 
 /// The name of a run's folder: the time at which it began, without colons.
 std::string run_name() {
@@ -89,8 +87,7 @@ class Onlookers {
 
 std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
   // First of all: who is asked to end while it still reads the site ends in order, too.
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
+  const std::atomic<bool>& interrupted = interrupted_by({SIGINT, SIGTERM});
   const LogAside log;
   const SiteLock lock(options.site);
   Onlookers onlookers(options);

@@ -6,6 +6,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "localization/placement/wall_piece.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -14,15 +16,8 @@ constexpr double kBeforeEndM = 0.5;  // of a beam: its own wall may be drawn tha
 constexpr double kBesideM = 0.5;     // a way has to leave a wall this far behind to have crossed it,
 constexpr double kAwayM = 0.25;      // and be this far from it by then: what runs along a wall says nothing
 constexpr double kAsideM = 0.08;     // what passes a wall's end so near may pass beside it
-constexpr double kWallPieceM = 2.0;  // errors of a drawing persist along a wall for about so long
 constexpr int kFewestWays = 2;       // one beam alone may be a wrong point
 constexpr double kMissingWalls = 0.15;  // of the walls that are drawn: they are not there
-
-std::uint64_t piece_of(const Point2<Map>& p) {
-  const auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x_m / kWallPieceM)));
-  const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.y_m / kWallPieceM)));
-  return (std::uint64_t{u} << 32U) | v;
-}
 
 /// Whether a wall goes on to both sides of where a way meets it: one that merely grazes a wall's end, a
 /// door's jamb, is off by the pose's error.
@@ -101,7 +96,7 @@ double nats_of_crossed_walls(const FreeWays& ways, const Transform2<Map, Map>& c
   std::unordered_map<std::uint64_t, Piece> pieces;
   const auto cross = [&](const Segment2<Map>& way, int counts) {
     walk({correction * way.a, correction * way.b}, drawn, [&](const Point2<Map>& p) {
-      Piece& piece = pieces[piece_of(p)];
+      Piece& piece = pieces[wall_piece_of(p.x_m, p.y_m)];
       piece.ways += counts;
       piece.probability = std::max(piece.probability, walls.nearest(p.x_m, p.y_m).probability);
     });

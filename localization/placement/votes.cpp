@@ -7,11 +7,11 @@
 #include <unordered_map>
 
 #include "localization/drawing_fit/wall_hits.hpp"
+#include "localization/placement/wall_piece.hpp"
 
 namespace madori::localization {
 namespace {
 
-constexpr double kPieceM = 2.0;
 /// How often a vote is right has the density q^(kTruthful - 1) between a half and one: walls mostly stand
 /// where they are drawn.
 constexpr double kTruthful = 3.0;
@@ -29,9 +29,7 @@ WallPieces wall_pieces(const MemoryCloud& cloud) {
   WallPieces pieces;
   std::unordered_map<std::uint64_t, int> known;
   for (const CloudSurface& p : cloud) {
-    const auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x_m / kPieceM)));
-    const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.y_m / kPieceM)));
-    const std::uint64_t key = (std::uint64_t{u} << 33U) ^ (std::uint64_t{v} << 2U) ^
+    const std::uint64_t key = wall_piece_of(p.x_m, p.y_m) << 2U |
                               static_cast<std::uint64_t>(p.direction % (WallIndex::kDirections / 2) / 2);
     pieces.of_surface.push_back(known.try_emplace(key, static_cast<int>(known.size())).first->second);
   }

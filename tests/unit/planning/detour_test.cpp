@@ -7,15 +7,14 @@
 #include "core/angle.hpp"
 #include "planning/detour/detour_planner.hpp"
 #include "planning/waypoints/waypoints.hpp"
+#include "tests/support/straight_way.hpp"
 
 namespace madori::planning {
 namespace {
 
-const CheckOptions kDetourCheck;
+using test::straight_way;
 
-Path straight_way(double length_m) {
-  return make_waypoints({{{0, 0}}, {{length_m, 0}}}).value();
-}
+const CheckOptions kDetourCheck;
 
 /// A row of points across the way.
 std::vector<Point2<Map>> row(double x_m, double low_m, double high_m) {

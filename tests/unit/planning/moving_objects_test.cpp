@@ -4,6 +4,7 @@
 
 #include "core/angle.hpp"
 #include "planning/waypoints/waypoints.hpp"
+#include "tests/support/straight_way.hpp"
 #include "tests/support/toy_lidar.hpp"
 
 namespace madori::planning {
@@ -88,25 +89,21 @@ TEST(MovingObjects, APersonBesideTheLidarIsStillFollowedByTheUpperPart) {
   EXPECT_NEAR(objects.movers()[0].vy_mps, 1.0, 0.3);
 }
 
-Path straight() {
-  return make_waypoints({{{0, 0}}, {{10, 0}}}).value();
-}
-
 TEST(CheckMovers, ACrossingThatMeetsTheVehicleBlocksAndOneThatIsOverDoesNot) {
   const Mover<Map> meets{{3.0, -2.5}, 0.0, 1.2, 0.2};
-  const auto check = check_movers(straight(), 0, 7.0, 1.0, {meets}, {}, {});
+  const auto check = check_movers(test::straight_way(10), 0, 7.0, 1.0, {meets}, {}, {});
   ASSERT_TRUE(check.blocked());
   EXPECT_LT(check.free_m, 3.0 - CheckOptions().vehicle.front_m);
   const Mover<Map> leaves{{3.0, 1.5}, 0.0, 1.2, 0.2};
-  EXPECT_FALSE(check_movers(straight(), 0, 7.0, 1.0, {leaves}, {}, {}).blocked());
+  EXPECT_FALSE(check_movers(test::straight_way(10), 0, 7.0, 1.0, {leaves}, {}, {}).blocked());
   const Mover<Map> far{{9.0, -1.5}, 0.0, 1.5, 0.2};
-  EXPECT_FALSE(check_movers(straight(), 0, 7.0, 0.5, {far}, {}, {}).blocked())
+  EXPECT_FALSE(check_movers(test::straight_way(10), 0, 7.0, 0.5, {far}, {}, {}).blocked())
       << "gone long before the vehicle comes";
 }
 
 TEST(CheckMovers, AStandingVehicleDoesNotSetOffBeforeSomebodyWhoWillCrossItsWay) {
   const Mover<Map> comes{{2.2, -3.0}, 0.0, 1.4, 0.2};
-  EXPECT_TRUE(check_movers(straight(), 0, 7.0, 0.0, {comes}, {}, {}).blocked());
+  EXPECT_TRUE(check_movers(test::straight_way(10), 0, 7.0, 0.0, {comes}, {}, {}).blocked());
 }
 
 TEST(CheckMovers, WhoComesIntoTheCircleOfATurnHoldsIt) {

@@ -7,47 +7,47 @@
 #include "core/angle.hpp"
 #include "core/segment_distance.hpp"
 #include "planning/waypoints/waypoints.hpp"
+#include "tests/support/straight_way.hpp"
 
 namespace madori::planning {
 namespace {
 
+using test::straight_way;
+
 const CheckOptions kOptions;
 const WallGrid kNoWalls;
 
-Path straight(double length_m) {
-  return make_waypoints({{{0, 0}}, {{length_m, 0}}}).value();
-}
-
 TEST(PathCheck, AFreeWayIsFree) {
-  const auto check = check_path(straight(6), 0, 5.0, {{3.0, 2.0}}, kNoWalls, kOptions);
+  const auto check = check_path(straight_way(6), 0, 5.0, {{3.0, 2.0}}, kNoWalls, kOptions);
   EXPECT_FALSE(check.blocked());
   EXPECT_EQ(check.care_m, PathCheck::kFree);
 }
 
 TEST(PathCheck, AnObstacleLeavesRoomForTheVehiclesFront) {
-  const auto check = check_path(straight(8), 0, 7.0, {{5.0, 0.1}}, kNoWalls, kOptions);
+  const auto check = check_path(straight_way(8), 0, 7.0, {{5.0, 0.1}}, kNoWalls, kOptions);
   ASSERT_TRUE(check.blocked());
   EXPECT_LE(check.free_m, 5.0 - kOptions.vehicle.front_m - kOptions.ends_margin_m);
   EXPECT_GE(check.free_m, 5.0 - kOptions.vehicle.front_m - kOptions.ends_margin_m - 2.0 * kOptions.step_m);
   EXPECT_FALSE(check.by_wall);
   EXPECT_LE(check.care_m, check.free_m);
   EXPECT_GT(check.last_blocked, check.first_blocked);
-  EXPECT_FALSE(check_path(straight(8), 0, 3.0, {{5.0, 0.1}}, kNoWalls, kOptions).blocked())
+  EXPECT_FALSE(check_path(straight_way(8), 0, 3.0, {{5.0, 0.1}}, kNoWalls, kOptions).blocked())
       << "beyond what is asked";
 }
 
 TEST(PathCheck, TheScannersProtectiveFieldStaysFree) {
   CheckOptions options;
   options.protective.ahead_m = 0.8;
-  const auto check = check_path(straight(8), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options);
+  const auto check = check_path(straight_way(8), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options);
   ASSERT_TRUE(check.blocked());
   EXPECT_LE(check.free_m, 5.0 - options.vehicle.front_m - options.protective.ahead_m);
   EXPECT_GE(check.free_m, 5.0 - options.vehicle.front_m - options.protective.ahead_m - 2.0 * options.step_m);
-  EXPECT_FALSE(check_path(straight(3.3), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options).blocked());
-  EXPECT_TRUE(check_path(straight(3.5), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options).blocked());
+  EXPECT_FALSE(check_path(straight_way(3.3), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options).blocked());
+  EXPECT_TRUE(check_path(straight_way(3.5), 0, 7.0, {{5.0, 0.1}}, kNoWalls, options).blocked());
   const WallGrid walls(std::vector<Segment2<Map>>{{{5.0, -2.0}, {5.0, 2.0}}});
-  EXPECT_FALSE(check_path(straight(3.3), 0, 7.0, {}, walls, options).blocked());
-  EXPECT_TRUE(check_path(straight(3.5), 0, 7.0, {}, walls, options).by_wall) << "the scanner sees walls too";
+  EXPECT_FALSE(check_path(straight_way(3.3), 0, 7.0, {}, walls, options).blocked());
+  EXPECT_TRUE(check_path(straight_way(3.5), 0, 7.0, {}, walls, options).by_wall)
+      << "the scanner sees walls too";
 }
 
 TEST(PathCheck, TheFieldIsSweptByATurnAndReachesBesideTheVehicle) {
@@ -71,21 +71,21 @@ TEST(PathCheck, TheFieldIsSweptByATurnAndReachesBesideTheVehicle) {
 
 TEST(PathCheck, SomethingBesideTheWayOnlyAsksForCare) {
   const double side = kOptions.vehicle.half_width_m + kOptions.sides_margin_m + 0.05;
-  const auto check = check_path(straight(6), 0, 5.0, {{3.0, side}}, kNoWalls, kOptions);
+  const auto check = check_path(straight_way(6), 0, 5.0, {{3.0, side}}, kNoWalls, kOptions);
   EXPECT_FALSE(check.blocked());
   EXPECT_LT(check.care_m, 3.0);
 }
 
 TEST(PathCheck, ADrawnWallBlocks) {
   const WallGrid walls(std::vector<Segment2<Map>>{{{4.0, -2.0}, {4.0, 2.0}}});
-  const auto check = check_path(straight(8), 0, 7.0, {}, walls, kOptions);
+  const auto check = check_path(straight_way(8), 0, 7.0, {}, walls, kOptions);
   ASSERT_TRUE(check.blocked());
   EXPECT_TRUE(check.by_wall);
   EXPECT_NEAR(check.where.x_m, 4.0, 1e-9);
 }
 
 TEST(PathCheck, ATurnOnTheSpotSweepsItsCorners) {
-  Path path = straight(2);
+  Path path = straight_way(2);
   PathPoint turn = path.points.back();
   turn.heading_rad = kPi;
   path.points.push_back(turn);
