@@ -68,7 +68,8 @@ void MapState::place(const LocalizerOptions& options) {
 }
 
 /// All places are compared while it is not sure which one it is, and now and then afterwards. The memory goes
-/// where most of the belief is.
+/// where most of the belief is, and to the middle of it where several ways to lie at one place are likely: a
+/// wall that is drawn too thick draws the memory to either face.
 void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options) {
   const bool unsure = !placed || evidence.here < options.health.localized;
   const bool everywhere = !evidence.looked || evidence.walls_seen > next_survey_walls;
@@ -83,9 +84,16 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
     evidence.looked = true;
     next_survey_walls = evidence.walls_seen * (unsure ? options.survey_growth_unsure : options.survey_growth);
   }
+  several_ways = false;
   const auto best = drawing->belief.best();
   if (!best) return;
-  const double here = drawing->belief.probability_here(memory.poses().back());
+  const Transform2<Map, Base>& at = memory.poses().back();
+  const double here = drawing->belief.probability_here(at);
+  if (placed && drawing->belief.probability_around(at) >= options.health.localized) {
+    several_ways = best->probability < options.health.localized;
+    if (several_ways || here < options.health.believed) move(drawing->belief.middle_around(at));
+    return;
+  }
   const bool clear = best->probability > options.health.believed;
   const bool leaves = placed && clear && here < options.health.believed;
   if (leaves) {
@@ -100,16 +108,19 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
 /// The memory as a whole settles on the drawing, and the drawing pulls on its keyframes.
 void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options) {
   cloud = memory_cloud(memory);
-  const Alignment found =
-      drawing->walls.drawn().align(cloud, {options.settle_half_m, options.settle_half_rad});
-  const Transform2<Map, Base>& first = memory.poses().front();
   const double area_m2 = drawing->belief.area_m2();
-  const double told_so =
-      told ? log_prior(*told, found.correction * first, area_m2) - log_prior(*told, first, area_m2) : 0.0;
-  if (found.gain + told_so > options.move_gain) {
-    move(found.correction);
-    cloud = memory_cloud(memory);
+  if (!several_ways) {
+    const Alignment found =
+        drawing->walls.drawn().align(cloud, {options.settle_half_m, options.settle_half_rad});
+    const Transform2<Map, Base>& before = memory.poses().front();
+    const double told_so =
+        told ? log_prior(*told, found.correction * before, area_m2) - log_prior(*told, before, area_m2) : 0.0;
+    if (found.gain + told_so > options.move_gain) {
+      move(found.correction);
+      cloud = memory_cloud(memory);
+    }
   }
+  const Transform2<Map, Base>& first = memory.poses().front();
   drawing->walls.learn(cloud);
   const DrawingFit& fit = drawing->walls.standing();
   evidence.inliers = fit.model().inliers;

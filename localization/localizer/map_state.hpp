@@ -33,6 +33,7 @@ struct MapState {
   std::optional<OnDrawing> drawing;  ///< absent: mapping without a drawing
   std::optional<StartPrior> told;    ///< by whoever gave the start pose; absent: nobody did
   bool placed = false;               ///< the memory lies where it is believed to lie
+  bool several_ways = false;  ///< at one place: it lies in the middle of them, and the drawing has no say
   HealthEvidence evidence;
   std::size_t unconfirmed_size = 0;  ///< of the memory when it was last moved to another place
   double next_survey_walls = 0.0;    ///< walls seen when all places are looked at again

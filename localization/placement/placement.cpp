@@ -264,6 +264,22 @@ double PlaceBelief::probability_around(const Transform2<Map, Base>& at) const {
   return probability_within(at, kAroundM, kAroundRad, &Placement::around);
 }
 
+Transform2<Map, Map> PlaceBelief::middle_around(const Transform2<Map, Base>& at) const {
+  double sum = 0.0, x_m = 0.0, y_m = 0.0, turn_rad = 0.0;
+  for (const Placement& p : placements_) {
+    const Transform2<Map, Base> there = p.correction * at;
+    if (p.mirrored || !same_place(there, at, kAroundM, kAroundRad)) continue;
+    sum += p.probability;
+    x_m += p.probability * (there.x_m() - at.x_m());
+    y_m += p.probability * (there.y_m() - at.y_m());
+    turn_rad += p.probability * wrap_angle(there.yaw_rad() - at.yaw_rad());
+  }
+  if (!(sum > 0.0)) return {};
+  const Transform2<Map, Base> middle{at.x_m() + x_m / sum, at.y_m() + y_m / sum,
+                                     wrap_angle(at.yaw_rad() + turn_rad / sum)};
+  return middle * at.inverse();
+}
+
 std::optional<Placement> PlaceBelief::best() const {
   for (const Placement& p : placements_)
     if (!p.mirrored && p.near > kAnyPlace) return p;

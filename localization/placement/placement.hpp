@@ -84,6 +84,9 @@ class PlaceBelief {
   [[nodiscard]] double probability_here(const Transform2<Map, Base>& at) const;
   /// ... within 1 m and 20 degrees.
   [[nodiscard]] double probability_around(const Transform2<Map, Base>& at) const;
+  /// What takes the memory from where it lies to the middle of the belief within 1 m and 20 degrees of it, at
+  /// the vehicle; it stays where there is none.
+  [[nodiscard]] Transform2<Map, Map> middle_around(const Transform2<Map, Base>& at) const;
   /// The likeliest that does not need a mirror; nothing before the first weigh().
   [[nodiscard]] std::optional<Placement> best() const;
   /// Of the likeliest place but where the memory lies.
