@@ -10,8 +10,8 @@ namespace madori {
 
 /// A sweep in the Base frame of its last firing: each point is moved by what the vehicle did since its own.
 /// `odom_from_base_at(Stamp)` gives the wheels' pose, or nothing: then the vehicle counts as standing.
-/// Points that `keep(Point2<Base>)` refuses are left out. The result's stamp is the last firing's, its time
-/// offsets are zero, heights are above the floor. It takes the place of what `result` holds.
+/// Points that `keep(Point2<Base>, height_m)` refuses are left out. The result's stamp is the last firing's,
+/// its time offsets are zero, heights are above the floor. It takes the place of what `result` holds.
 template <class PoseAt, class Keep>
 void sweep_in_base(const PointCloud<Lidar>& cloud, const LidarMounting& mounting, PoseAt&& odom_from_base_at,
                    Keep&& keep, PointCloud<Base>& result) {
@@ -33,11 +33,12 @@ void sweep_in_base(const PointCloud<Lidar>& cloud, const LidarMounting& mounting
       moved = end_from_odom * odom_from_base_at(moment).value_or(*end) * base_from_lidar;
     }
     const Point2<Base> at = moved * Point2<Lidar>{static_cast<double>(p.x_m), static_cast<double>(p.y_m)};
-    if (!keep(at)) continue;
+    const float height_m = p.z_m + static_cast<float>(mounting.z_m);
+    if (!keep(at, static_cast<double>(height_m))) continue;
     CloudPoint q = p;
     q.x_m = static_cast<float>(at.x_m);
     q.y_m = static_cast<float>(at.y_m);
-    q.z_m = p.z_m + static_cast<float>(mounting.z_m);
+    q.z_m = height_m;
     q.time_offset_s = 0.0F;
     result.points.push_back(q);
   }

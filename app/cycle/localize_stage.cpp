@@ -45,19 +45,21 @@ Transform2<Odom, Base> odometry_at(const Ring<OdometryReading>& track, Stamp mom
          Transform2<Base, Base>(share * step.x_m(), share * step.y_m(), share * step.yaw_rad());
 }
 
-/// Whether a return is of the vehicle itself: a level lidar that looks along its sides may see them.
-bool is_own(const Point2<Base>& at, const planning::VehicleOutline& v) {
-  return at.x_m < v.front_m && at.x_m > -v.rear_m && std::abs(at.y_m) < v.half_width_m;
+/// Whether a return is of the vehicle itself, or of nothing: no body stands where the vehicle does. A level
+/// lidar that looks along its sides may see them; what is higher than all of it, it drives under.
+bool is_own(const Point2<Base>& at, double height_m, const CycleConfig& config) {
+  const planning::VehicleOutline& v = config.check.vehicle;
+  return height_m < config.field.top_m && at.x_m < v.front_m && at.x_m > -v.rear_m &&
+         std::abs(at.y_m) < v.half_width_m;
 }
 
 void lay_in_base(const PointCloud<Lidar>& cloud, const Ring<OdometryReading>& track,
                  const CycleConfig& config, PointCloud<Base>& sweep) {
   const LidarModel& lidar = config.lidars[cloud.lidar];
-  const bool planar = lidar.kind == LidarKind::Planar;
   sweep_in_base(
       cloud, lidar.mounting,
       [&](Stamp moment) { return track.empty() ? std::nullopt : std::optional(odometry_at(track, moment)); },
-      [&](const Point2<Base>& at) { return !planar || !is_own(at, config.check.vehicle); }, sweep);
+      [&](const Point2<Base>& at, double height_m) { return !is_own(at, height_m, config); }, sweep);
 }
 
 /// Whether nobody knows any more where the vehicle was when a revolution was taken: its bodies would stand

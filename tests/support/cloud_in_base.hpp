@@ -14,7 +14,7 @@ inline PointCloud<Base> cloud_in_base(const PointCloud<Lidar>& cloud, const Lida
         const auto reading = track.at(moment);
         return reading ? std::optional(reading->odom_from_base) : std::nullopt;
       },
-      [](const Point2<Base>&) { return true; });
+      [](const Point2<Base>&, double) { return true; });
 }
 
 }  // namespace madori::test

@@ -77,6 +77,16 @@ TEST(AutonomyCycle, StandingAHairWithinItsOwnMarginBesideABodyItGetsOutAfterAWhi
   }
 }
 
+TEST(AutonomyCycle, WhatIsSeenWhereTheVehicleStandsIsNoBody) {
+  auto v = corridor_vehicle();
+  v->config.squeeze_after_s = v->config.back_out_after_s = 1e6;
+  v->lidar.posts.push_back({{0.1, 0.1}, 0.02, 0.89});  // lower than the highest part of the vehicle
+  v->each_step = [&] { v->lidar.posts[0].at = (v->rolling.pose() * Point2<Base>{0.1, 0.1}); };
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << v->state().standstill.cause.text;
+}
+
 TEST(AutonomyCycle, ABlockedLegIsLeftOutOfANewRoute) {
   auto v = corridor_vehicle();
   v->config.detour_after_s = 1000.0;
