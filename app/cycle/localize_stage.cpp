@@ -48,9 +48,7 @@ Transform2<Odom, Base> odometry_at(const Ring<OdometryReading>& track, Stamp mom
 /// Whether a return is of the vehicle itself, or of nothing: no body stands where the vehicle does. A level
 /// lidar that looks along its sides may see them; what is higher than all of it, it drives under.
 bool is_own(const Point2<Base>& at, double height_m, const CycleConfig& config) {
-  const planning::VehicleOutline& v = config.check.vehicle;
-  return height_m < config.field.top_m && at.x_m < v.front_m && at.x_m > -v.rear_m &&
-         std::abs(at.y_m) < v.half_width_m;
+  return height_m < config.field.top_m && config.check.vehicle.contains(at);
 }
 
 void lay_in_base(const PointCloud<Lidar>& cloud, const Ring<OdometryReading>& track,

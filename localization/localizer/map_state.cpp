@@ -52,8 +52,12 @@ void MapState::move(const Transform2<Map, Map>& by) {
 void MapState::place(const LocalizerOptions& options) {
   MemoryCloud cloud = memory_cloud(memory);
   evidence.walls_seen = DrawingFit::walls_seen(cloud);
-  weigh_places(cloud, options);
-  if (placed) lay_on_drawing(cloud, options);
+  const bool several_ways = weigh_places(cloud, options);
+  if (placed) {
+    cloud = memory_cloud(memory);
+    if (!several_ways) settle(cloud, options);
+    lay_on_drawing(cloud, options);
+  }
   const Transform2<Map, Base>& at = memory.poses().back();
   evidence.here = placed ? drawing->belief.probability_here(at) : 0.0;
   evidence.around = placed ? drawing->belief.probability_around(at) : 0.0;
@@ -70,7 +74,7 @@ void MapState::place(const LocalizerOptions& options) {
 /// All places are compared while it is not sure which one it is, and now and then afterwards. The memory goes
 /// where most of the belief is, and to the middle of it where several ways to lie at one place are likely: a
 /// wall that is drawn too thick draws the memory to either face.
-void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options) {
+bool MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options) {
   const bool unsure = !placed || evidence.here < options.health.localized;
   const bool everywhere = !evidence.looked || evidence.walls_seen > next_survey_walls;
   if (drawing->earlier && !drawing->known)
@@ -84,15 +88,14 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
     evidence.looked = true;
     next_survey_walls = evidence.walls_seen * (unsure ? options.survey_growth_unsure : options.survey_growth);
   }
-  several_ways = false;
   const auto best = drawing->belief.best();
-  if (!best) return;
+  if (!best) return false;
   const Transform2<Map, Base>& at = memory.poses().back();
   const double here = drawing->belief.probability_here(at);
   if (placed && drawing->belief.probability_around(at) >= options.health.localized) {
-    several_ways = best->probability < options.health.localized;
+    const bool several_ways = best->probability < options.health.localized;
     if (several_ways || here < options.health.believed) move(drawing->belief.middle_around(at));
-    return;
+    return several_ways;
   }
   const bool clear = best->probability > options.health.believed;
   const bool leaves = placed && clear && here < options.health.believed;
@@ -103,24 +106,24 @@ void MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   }
   if (!placed || leaves) move(best->correction);
   placed = placed || clear || told.has_value();
+  return false;
 }
 
-/// The memory as a whole settles on the drawing, and the drawing pulls on its keyframes.
-void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options) {
-  cloud = memory_cloud(memory);
-  const double area_m2 = drawing->belief.area_m2();
-  if (!several_ways) {
-    const Alignment found =
-        drawing->walls.drawn().align(cloud, {options.settle_half_m, options.settle_half_rad});
-    const Transform2<Map, Base>& before = memory.poses().front();
-    const double told_so =
-        told ? log_prior(*told, found.correction * before, area_m2) - log_prior(*told, before, area_m2) : 0.0;
-    if (found.gain + told_so > options.move_gain) {
-      move(found.correction);
-      cloud = memory_cloud(memory);
-    }
-  }
+/// The memory as a whole goes to where the drawing explains it best.
+void MapState::settle(MemoryCloud& cloud, const LocalizerOptions& options) {
+  const Alignment found =
+      drawing->walls.drawn().align(cloud, {options.settle_half_m, options.settle_half_rad});
   const Transform2<Map, Base>& first = memory.poses().front();
+  const double area_m2 = drawing->belief.area_m2();
+  const double told_so =
+      told ? log_prior(*told, found.correction * first, area_m2) - log_prior(*told, first, area_m2) : 0.0;
+  if (found.gain + told_so <= options.move_gain) return;
+  move(found.correction);
+  cloud = memory_cloud(memory);
+}
+
+/// The drawing is learned by what is seen, and pulls on the memory's keyframes.
+void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options) {
   drawing->walls.learn(cloud);
   const DrawingFit& fit = drawing->walls.standing();
   evidence.inliers = fit.model().inliers;
@@ -131,7 +134,8 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
   std::vector<UnaryFactor> unary =
       drawing->walls.drawn().pulls(cloud, memory.poses(), drawing->walls.shared_error());
   // What was told holds the memory by as much as it is believed where the memory lies.
-  const double as_told = told ? prior_holds(*told, first, area_m2) : 0.0;
+  const Transform2<Map, Base>& first = memory.poses().front();
+  const double as_told = told ? prior_holds(*told, first, drawing->belief.area_m2()) : 0.0;
   const StartPrior placed_here{first, options.tie_m, options.tie_rad};
   if (told) unary.push_back({0, told->map_from_base, as_told * told->information()});
   unary.push_back({0, first, (1.0 - as_told) * placed_here.information()});

@@ -33,7 +33,6 @@ struct MapState {
   std::optional<OnDrawing> drawing;  ///< absent: mapping without a drawing
   std::optional<StartPrior> told;    ///< by whoever gave the start pose; absent: nobody did
   bool placed = false;               ///< the memory lies where it is believed to lie
-  bool several_ways = false;  ///< at one place: it lies in the middle of them, and the drawing has no say
   HealthEvidence evidence;
   std::size_t unconfirmed_size = 0;  ///< of the memory when it was last moved to another place
   double next_survey_walls = 0.0;    ///< walls seen when all places are looked at again
@@ -51,7 +50,9 @@ struct MapState {
 
  private:
   void place(const LocalizerOptions& options);
-  void weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options);
+  /// Whether the memory lies in the middle of several ways to lie at one place: then it settles on none.
+  bool weigh_places(const MemoryCloud& cloud, const LocalizerOptions& options);
+  void settle(MemoryCloud& cloud, const LocalizerOptions& options);
   void lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options);
   void move(const Transform2<Map, Map>& by);
   bool correct_recent_drift(const LocalizerOptions& options);
