@@ -36,13 +36,12 @@ Particles grid_around(const Pose& map_from_base) {
   constexpr double kTurnRad = 0.07;
   Particles poses;
   poses.origin = map_from_base.translation();
-  poses.add(map_from_base, 0.0);
+  poses.add(map_from_base);
   for (int i = -kSteps; i <= kSteps; ++i)
     for (int j = -kSteps; j <= kSteps; ++j)
       for (int k = -kTurns; k <= kTurns; ++k)
         poses.add({map_from_base.x_m() + i * kStepM, map_from_base.y_m() + j * kStepM,
-                   map_from_base.yaw_rad() + k * kTurnRad},
-                  0.0);
+                   map_from_base.yaw_rad() + k * kTurnRad});
   return poses;
 }
 
@@ -56,7 +55,7 @@ void weigh(const ScanPoints& points, double noise_m, const WallTables& tables, d
   const LikelihoodField& field = noise_m > tables.fine.model().hit_sigma_m ? tables.coarse : tables.fine;
   Particles poses;
   poses.origin = hypotheses.front().fit.map_from_base.translation();
-  for (const Hypothesis& h : hypotheses) poses.add(h.fit.map_from_base, 0.0);
+  for (const Hypothesis& h : hypotheses) poses.add(h.fit.map_from_base);
   const BeamBlocks beams(points, field);
   std::vector<std::uint32_t> sums(poses.size());
   sum_counts(poses, beams, field, sums);

@@ -56,7 +56,7 @@ Particles around(const PlaceIndex& index, const std::vector<Cell>& cells) {
       for (const double up : kSides)
         for (const double right : kSides) {
           const Point2<Map>& p = index.places()[place];
-          poses.add({p.x_m + right * step, p.y_m + up * step, turn * section + turned * section / 3.0}, 0.0);
+          poses.add({p.x_m + right * step, p.y_m + up * step, turn * section + turned * section / 3.0});
         }
   return poses;
 }

@@ -15,17 +15,12 @@ struct Particles {
   std::vector<float> x_m;
   std::vector<float> y_m;
   std::vector<float> yaw_rad;
-  std::vector<float> weight;  ///< sums to one
 
   [[nodiscard]] std::size_t size() const { return x_m.size(); }
-  void resize(std::size_t n) {
-    for (auto* array : {&x_m, &y_m, &yaw_rad, &weight}) array->resize(n);
-  }
-  void add(const Transform2<Map, Base>& map_from_base, double w) {
+  void add(const Transform2<Map, Base>& map_from_base) {
     x_m.push_back(static_cast<float>(map_from_base.x_m() - origin.x_m));
     y_m.push_back(static_cast<float>(map_from_base.y_m() - origin.y_m));
     yaw_rad.push_back(static_cast<float>(map_from_base.yaw_rad()));
-    weight.push_back(static_cast<float>(w));
   }
   [[nodiscard]] Transform2<Map, Base> pose(std::size_t i) const {
     return {origin.x_m + x_m[i], origin.y_m + y_m[i], yaw_rad[i]};

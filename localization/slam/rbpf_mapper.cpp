@@ -176,7 +176,7 @@ void RbpfMapper::propose(const SurfaceScan& scan, const MeasuredMotion& motion, 
   const Eigen::Matrix3d covariance = covariance_of(motion, path_m, options_);
   Particles drawn;
   drawn.origin = particles_.front().way->map_from_base.translation();
-  for (const Particle& p : particles_) drawn.add(p.way->map_from_base, 1.0);
+  for (const Particle& p : particles_) drawn.add(p.way->map_from_base);
   move_particles(step_of(motion.motion, covariance, engine_), drawn.x_m.data(), drawn.y_m.data(),
                  drawn.yaw_rad.data(), drawn.size());
   for (std::size_t i = 0; i < particles_.size(); ++i) {

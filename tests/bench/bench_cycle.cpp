@@ -1,24 +1,20 @@
 // From packet to pose: VLP-16 at 10 Hz in the sample factory, 30 % of the walls hidden. What the vehicle
 // would receive is made first (all 16 lasers, wheels that slip), then the bytes are played, and the work of
 // each revolution is timed: all of its packets decoded and assembled, moved to the last firing, walls
-// extracted, and a pose made of them in three ways. Processor time of this thread (what a core of one's own
-// would take) and time by the clock. The Localizer thinks in a thread beside, which is not counted in the
-// first. A load is no measurement: prefer the first figure on a busy machine.
+// extracted, and a pose made of them by the Localizer. Processor time of this thread (what a core of one's
+// own would take) and time by the clock. The Localizer thinks in a thread beside, which is not counted in
+// the first. A load is no measurement: prefer the first figure on a busy machine.
 //   bench_cycle [seconds of driving, default 60]
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <functional>
-#include <string>
 #include <variant>
 #include <vector>
 
 #include "control/diff_drive/odometry.hpp"
 #include "localization/localizer/localizer.hpp"
-#include "localization/particle_filter/particle_filter.hpp"
-#include "localization/registration/segment_icp.hpp"
 #include "sensors/vlp16/encode.hpp"
 #include "simulation/lidar/vlp16_model.hpp"
 #include "tests/support/cloud_in_base.hpp"
@@ -82,51 +78,6 @@ double seconds_of(clockid_t clock) {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// What makes a pose of a revolution's walls.
-struct PoseSource {
-  std::string name;
-  std::function<void(const OdometryReading&)> on_odometry;
-  std::function<Pose(Stamp, const ScanPoints&)> on_scan;
-};
-
-/// Filter of a thousand particles, then registration: the cycle as the design draws it.
-class FilterAndRefine {
- public:
-  FilterAndRefine(const Drive& drive)
-      : field_(drive.walls, BeamModel{}), grid_(drive.walls), filter_(options(), 7), pose_(drive.start) {
-    filter_.start_at(drive.start, Eigen::Vector3d(0.01, 0.01, 0.001).asDiagonal(), kParticles);
-  }
-  void on_odometry(const OdometryReading& reading) {
-    if (!track_.empty())
-      model_.extend(step_, track_.newest().odom_from_base.inverse() * reading.odom_from_base);
-    (void)track_.add(reading);
-  }
-  Pose on_scan(Stamp /*stamp*/, const ScanPoints& points) {
-    filter_.predict(step_.motion, step_.covariance);
-    (void)filter_.correct(points, field_);
-    (void)filter_.resample_if_needed();
-    const Pose guess = filter_.estimate().map_from_base;
-    step_ = {};
-    return pose_ = segment_icp(points, grid_, guess, icp_).map_from_base;
-  }
-
- private:
-  static constexpr std::size_t kParticles = 1000;
-  static ParticleFilterOptions options() {
-    ParticleFilterOptions options;
-    options.min_particles = options.max_particles = kParticles;
-    return options;
-  }
-  SegmentIcpOptions icp_ = {.first_scale_m = 0.25};
-  LikelihoodField field_;
-  SegmentGrid grid_;
-  ParticleFilter filter_;
-  OdometryModel model_;
-  OdometryTrack track_;
-  OdometryStep step_;
-  Pose pose_;
-};
-
 struct Times {
   std::vector<double> processor_ms, clock_ms, error_m;
   double points = 0.0;
@@ -142,7 +93,8 @@ Point2<Map> truth_at(const Drive& drive, Stamp stamp) {
   return {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m)};
 }
 
-Times play(const Drive& drive, const PoseSource& source) {
+Times play(const Drive& drive) {
+  Localizer localizer(drive.walls, InitialPose{drive.start});
   Times times;
   OdometryTrack track;
   std::vector<PointCloud<Lidar>> clouds;
@@ -157,15 +109,15 @@ Times play(const Drive& drive, const PoseSource& source) {
     Stamp stamp{};
     if (const auto* reading = std::get_if<OdometryReading>(&event)) {
       (void)track.add(*reading);
-      source.on_odometry(*reading);
+      (void)localizer.on_odometry(*reading);
     } else {
       const Packet& packet = std::get<Packet>(event);
       (void)assembler.push(packet.bytes, packet.stamp);
       for (const auto& cloud : clouds) {
-        const PointCloud<Base> base = cloud_in_base(cloud, lidar, track);
+        const PointCloud<Base> base = test::cloud_in_base(cloud, lidar, track);
         const ScanPoints walls = extract_walls(base, lidar);
         times.points += static_cast<double>(walls.size());
-        pose = source.on_scan(stamp = base.stamp, walls);
+        pose = localizer.on_scan(stamp = base.stamp, walls).map_from_base;
       }
       clouds.clear();
     }
@@ -184,28 +136,14 @@ double at_share(std::vector<double> values, double share) {
   return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
-void report(const Drive& drive, const PoseSource& source) {
-  const Times t = play(drive, source);
-  std::printf(
-      "%-42s %4zu revolutions of %.0f wall points: processor median %.2f ms, p99 %.2f, most %.2f; by the "
-      "clock "
-      "median %.2f, p99 %.2f; error median %.3f m, most %.3f\n",
-      source.name.c_str(), t.clock_ms.size(), t.points / static_cast<double>(t.clock_ms.size()),
-      at_share(t.processor_ms, 0.5), at_share(t.processor_ms, 0.99), at_share(t.processor_ms, 1.0),
-      at_share(t.clock_ms, 0.5), at_share(t.clock_ms, 0.99), at_share(t.error_m, 0.5),
-      at_share(t.error_m, 1.0));
-  std::fflush(stdout);
-}
-
 void run(double seconds) {
-  const Drive drive = recorded_drive(seconds);
-  FilterAndRefine filter(drive);
-  report(drive, {"1000 particles, then registration", [&](const auto& r) { filter.on_odometry(r); },
-                 [&](Stamp s, const ScanPoints& p) { return filter.on_scan(s, p); }});
-  Localizer localizer(drive.walls, InitialPose{drive.start});
-  report(drive,
-         {"Localizer, its map thought over beside", [&](const auto& r) { (void)localizer.on_odometry(r); },
-          [&](Stamp s, const ScanPoints& p) { return localizer.on_scan(s, p).map_from_base; }});
+  const Times t = play(recorded_drive(seconds));
+  std::printf(
+      "%zu revolutions of %.0f wall points: processor median %.2f ms, p99 %.2f, most %.2f; by the clock "
+      "median %.2f, p99 %.2f; error median %.3f m, most %.3f\n",
+      t.clock_ms.size(), t.points / static_cast<double>(t.clock_ms.size()), at_share(t.processor_ms, 0.5),
+      at_share(t.processor_ms, 0.99), at_share(t.processor_ms, 1.0), at_share(t.clock_ms, 0.5),
+      at_share(t.clock_ms, 0.99), at_share(t.error_m, 0.5), at_share(t.error_m, 1.0));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ void sensor_kernel_tracking(benchmark::State& state) {
   const BeamBlocks beams(tasks()[0].scan, field);
   Particles particles;
   particles.origin = field.frame().origin;
-  for (const Pose& pose : thousand_poses(tasks()[0].truth)) particles.add(pose, 1.0);
+  for (const Pose& pose : thousand_poses(tasks()[0].truth)) particles.add(pose);
   std::vector<std::uint32_t> sums(particles.size());
   for (auto _ : state) {
     sum_counts(particles, beams, field, sums);

@@ -1,11 +1,8 @@
-// Sensor update per particle and beam, beside the bare loads of the same places of the same table; motion and
-// resampling per particle. One core; `--benchmark_repetitions=5` for a spread.
+// Sensor update per particle and beam, beside the bare loads of the same places of the same table; motion
+// per particle. One core; `--benchmark_repetitions=5` for a spread.
 #include <benchmark/benchmark.h>
 
-#include <map>
-
 #include "localization/particle_filter/motion_kernel.hpp"
-#include "localization/particle_filter/resampling.hpp"
 #include "localization/particle_filter/sensor_kernel.hpp"
 #include "tests/bench/localization_scene.hpp"
 
@@ -30,9 +27,8 @@ struct Scene {
       const Pose pose = tracking ? Pose(truth.x_m() + 0.1 * n(engine), truth.y_m() + 0.1 * n(engine),
                                         truth.yaw_rad() + 0.03 * n(engine))
                                  : test::random_pose(walls, distance, 0.3, 3.0, engine);
-      p.add(pose, 1.0);
+      p.add(pose);
     }
-    std::fill(p.weight.begin(), p.weight.end(), 1.0F / static_cast<float>(p.size()));
     return p;
   }
 };
@@ -96,31 +92,19 @@ void bare_loads(benchmark::State& state) {
 }
 BENCHMARK(bare_loads)->ArgName("tracking")->Arg(1)->Arg(0);
 
-void motion_and_resampling(benchmark::State& state) {
+void motion(benchmark::State& state) {
   Particles p = particles(true);
-  Particles next;
-  std::mt19937 engine(3);
-  std::uniform_real_distribution<double> any(0.0, 1.0);
-  std::uniform_real_distribution<float> weight(0.0F, 1.0F);
-  std::vector<float> weights(p.size());
-  float sum = 0.0F;
-  for (float& w : weights) sum += w = weight(engine);
-  for (float& w : weights) w /= sum;
   MotionStep step{{0.0F, 0.0F, 0.0F}, {0.01F, 0.0F, 0.01F, 0.0F, 0.0F, 0.01F}, 1, 2};
-  BinCounter bins;
   for (auto _ : state) {
     ++step.key1;
     move_particles(step, p.x_m.data(), p.y_m.data(), p.yaw_rad.data(), p.size());
-    p.weight = weights;
-    benchmark::DoNotOptimize(kld_number(bins.count(p, {}), {}));
-    resample(p, p.size(), any(engine), next);
-    std::swap(p, next);
+    benchmark::DoNotOptimize(p.x_m.data());
   }
   state.counters["per_particle"] =
       benchmark::Counter(static_cast<double>(p.size()),
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(motion_and_resampling);
+BENCHMARK(motion);
 
 }  // namespace
 }  // namespace madori::bench

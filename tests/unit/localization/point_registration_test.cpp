@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "localization/registration/cpd.hpp"
-#include "localization/registration/ndt.hpp"
 #include "localization/registration/segment_icp.hpp"
 #include "localization/slam/strategies.hpp"
 #include "tests/support/made_up_buildings.hpp"
@@ -31,30 +30,6 @@ class PointRegistration : public testing::Test {
            std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < to_rad(degrees);
   }
 };
-
-TEST_F(PointRegistration, NdtRecoversAKnownTransform) {
-  const NdtMap ndt_map(map_.points());
-  int good = 0;
-  int converged = 0;
-  for (int i = 0; i < 40; ++i) {
-    const Pose truth = any_pose();
-    const Pose start(truth.x_m() + 0.1, truth.y_m() - 0.1, truth.yaw_rad() + to_rad(2.0));
-    const RegistrationResult r = ndt(scan_from(truth), ndt_map, start);
-    good += right(r.map_from_base, truth, 0.05, 1.0);
-    converged += r.converged;
-  }
-  EXPECT_GE(good, 36);
-  EXPECT_GE(converged, 28);  // else Newton steps to and fro between two cells, a few millimetres
-}
-
-TEST_F(PointRegistration, NdtBoundsTheFlatnessOfACell) {
-  const NdtMap flat(sample_walls({{0, {{0.0, 1.0}, {10.0, 1.0}}}}, 0.05));
-  const NdtMap::Cell* cell = flat.find(1, 0, 5.0, 1.0);
-  ASSERT_NE(cell, nullptr);
-  EXPECT_NEAR(cell->c / cell->a, 20.0, 0.1);
-  EXPECT_EQ(flat.find(1, 0, 500.0, 1.0), nullptr);
-  EXPECT_FALSE(ndt({}, flat, {}).converged);
-}
 
 /// From 0.3 m and 5 degrees off, the distance and turn of bench_registration.
 TEST_F(PointRegistration, IcpRecoversAKnownTransform) {
