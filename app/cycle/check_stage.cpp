@@ -60,10 +60,23 @@ double wall_slack_m(const CycleState& state, const CycleConfig& config, double s
   return 0.0;
 }
 
-/// Whether the vehicle stands free with these margins, and its next metres are free too.
-bool passes(CycleState& state, const std::vector<Point2<Map>>& obstacles,
-            const planning::CheckOptions& margins, const CycleConfig& config) {
+/// What the way is checked against. A vehicle that goes with less than all margins, since it stands within
+/// them, may leave what it stands beside.
+const std::vector<Point2<Map>>& to_pass(CycleState& state, const std::vector<Point2<Map>>& obstacles,
+                                        const planning::Squeeze& squeeze, const CycleConfig& config) {
+  if (squeeze.share >= 1.0) return obstacles;
+  auto& passable = state.bench.set_back;
+  passable = obstacles;
+  planning::set_back(passable, state.pose.map_from_base, planning::with_margins(config.check, squeeze));
+  return passable;
+}
+
+/// Whether the vehicle stands free with so much of the margins, and its next metres are free too.
+bool passes(CycleState& state, const std::vector<Point2<Map>>& seen, const planning::Squeeze& squeeze,
+            const CycleConfig& config) {
   constexpr double kAheadM = 3.0;  ///< what is further away is judged when the vehicle gets there
+  const planning::CheckOptions margins = planning::with_margins(config.check, squeeze);
+  const auto& obstacles = to_pass(state, seen, squeeze, config);
   const planning::WallGrid& walls = *state.site->walls();
   if (!planning::is_free(state.pose.map_from_base, obstacles, walls, margins)) return false;
   if (may_turn(state, config) && !turn_is_free(state, obstacles, margins)) return false;
@@ -80,7 +93,7 @@ planning::Squeeze squeeze_here(CycleState& state, const std::vector<Point2<Map>>
   constexpr double kLeast = 0.2;
   constexpr double kAllAgain = 1.5;  ///< more than all of them: what is seen of a body flickers
   const auto passes_with = [&](const planning::Squeeze& squeeze) {
-    return passes(state, obstacles, planning::with_margins(config.check, squeeze), config);
+    return passes(state, obstacles, squeeze, config);
   };
   const bool squeezes = state.block.squeeze.share < 1.0;
   const bool stands = state.mode == Mode::Waiting && state.block.since && !state.block.by_mover &&
@@ -129,8 +142,9 @@ void note_blocked(CycleState& state, Stamp now, double clear_for_s) {
   }
 }
 
-void check_ahead(CycleState& state, const std::vector<Point2<Map>>& obstacles, Stamp now,
+void check_ahead(CycleState& state, const std::vector<Point2<Map>>& seen, Stamp now,
                  const CycleConfig& config) {
+  const auto& obstacles = to_pass(state, seen, state.block.squeeze, config);
   const std::size_t from = std::min(state.progress.pursuit.index, state.way.plain.points.size() - 1);
   const auto margins = planning::with_margins(config.check, state.block.squeeze);
   state.ahead.check = state.bench.checker.check(state.way.plain, from, config.look_ahead_m, obstacles,
@@ -234,11 +248,11 @@ void ask_for_detour(CycleState& state, const CycleInput& input, const CycleConfi
   if (!check.blocked()) check.first_blocked = check.last_blocked = state.progress.pursuit.index;
   const auto goal = state.site->routes().index_of(state.errand.stop.node);
   const bool any_end_heading = goal && !state.site->routes().nodes()[*goal].heading_rad;
-  output.detour_wanted =
-      planning::DetourRequest{state.detour.id,          state.way.plain, state.progress.pursuit.index,
-                              state.pose.map_from_base, check,           obstacle_points(state, config),
-                              state.block.squeeze,      any_end_heading, !stuck,
-                              state.site->walls()};
+  const auto& obstacles = to_pass(state, obstacle_points(state, config), state.block.squeeze, config);
+  output.detour_wanted = planning::DetourRequest{
+      state.detour.id, state.way.plain,    state.progress.pursuit.index, state.pose.map_from_base,
+      check,           obstacles,          state.block.squeeze,          any_end_heading,
+      !stuck,          state.site->walls()};
 }
 
 }  // namespace madori::app

@@ -89,7 +89,8 @@ constexpr std::array kRecoveries{
              "a way around: beside the route, through the free space, a manoeuvre",
              "every 4 s, one search at a time", may_go_around, nullptr, ask_for_detour},
     Recovery{"less margin", "waits for 10 s, not for somebody who crosses",
-             "half of every margin, then a fifth; ways around with as much",
+             "half of every margin, then a fifth; ways around with as much; what is within them already may "
+             "be left",
              "until the next 3 m have one and a half times all of them", is_narrow, nullptr, squeeze},
     Recovery{"back out", "blocked for 12 s, too near to something to go around it",
              "0.8 m back the way it came, else straight", "twice a route, within 60 s of its last move",

@@ -14,9 +14,9 @@ void KeyframeMotion::add_matched(const Transform2<Base, Base>& motion, const Eig
   information_ = information;
 }
 
-void KeyframeMotion::add_unmatched(const Transform2<Base, Base>& by_wheels, double agreement) {
+void KeyframeMotion::add_unmatched(const Transform2<Base, Base>& motion, double agreement) {
   agreement_ = std::min(agreement_, agreement);
-  motion_ = motion_ * by_wheels;
+  motion_ = motion_ * motion;
   information_.setZero();
   wheels_.covariance += Eigen::Vector3d(0.04, 0.04, 0.25).asDiagonal();
 }

@@ -19,8 +19,8 @@ class KeyframeMotion {
   /// `information` of (x, y, yaw) at the scan's pose, Map axes.
   void add_matched(const Transform2<Base, Base>& motion, const Eigen::Matrix3d& information,
                    double agreement);
-  /// A scan that they do not: the wheels' motion since the one before stands in, and they may have slipped.
-  void add_unmatched(const Transform2<Base, Base>& by_wheels, double agreement);
+  /// A scan that they do not: what the wheels, or the whole memory, say of it stands in, and either may be off.
+  void add_unmatched(const Transform2<Base, Base>& motion, double agreement);
 
   /// Driven, metres.
   [[nodiscard]] double path_m() const { return wheels_.path_m; }

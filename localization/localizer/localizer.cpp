@@ -138,14 +138,16 @@ void Localizer::start(const SurfaceScan& scan) {
   started_ = true;
 }
 
-/// The motion of a scan, as far as the recent keyframes tell it; else the wheels'.
-void Localizer::go_on(const MatchResult& recent, const OdometryStep& step) {
+/// The motion of a scan, as far as the recent keyframes tell it; else to where the whole memory, or the
+/// wheels, put it.
+void Localizer::go_on(const MatchResult& recent, const Transform2<Map, Base>& place,
+                      const OdometryStep& step) {
   if (recent.inlier_share > options_.lost_inliers) {
     const Transform2<Base, Base> motion = anchor_.inverse() * recent.map_from_base;
     since_keyframe_.add_matched(motion, recent.information, recent.inlier_share);
     model_.learn(step, motion, 0.02, 0.005);
   } else {
-    since_keyframe_.add_unmatched(step.motion, recent.inlier_share);
+    since_keyframe_.add_unmatched(anchor_.inverse() * place, recent.inlier_share);
   }
 }
 
@@ -245,7 +247,7 @@ void Localizer::follow(const SurfaceScan& scan, const OdometryStep& step) {
     matched.information.setZero();
     map_.memory.note_break();
   }
-  go_on(recent, step);
+  go_on(recent, matched.map_from_base, step);
   anchor_ = matched.map_from_base;
   covariance_ = matched_covariance(matched, map_);
 }

@@ -83,7 +83,7 @@ class Localizer {
   void start(const SurfaceScan& scan);
   void remember_if_new(const SurfaceScan& scan);
   void remember(const SurfaceScan& scan);
-  void go_on(const MatchResult& recent, const OdometryStep& step);
+  void go_on(const MatchResult& recent, const Transform2<Map, Base>& place, const OdometryStep& step);
   void think_if_due(Stamp stamp);
   void take_in_thoughts(Stamp stamp);
   [[nodiscard]] bool was_carried(Stamp stamp, const ScanPoints& points, const OdometryStep& step,

@@ -60,7 +60,7 @@ void MapState::place(const LocalizerOptions& options) {
   }
   const Transform2<Map, Base>& at = memory.poses().back();
   evidence.here = placed ? drawing->belief.probability_here(at) : 0.0;
-  evidence.around = placed ? drawing->belief.probability_around(at) : 0.0;
+  evidence.around = placed ? drawing->belief.probability_around(at, at) : 0.0;
   if (const auto bent = drawing->walls.bent(); placed && bent) {
     evidence.here *= bent->share_within(at, kNearM);
     evidence.around *= bent->share_within(at, kAroundM);
@@ -92,9 +92,11 @@ bool MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   if (!best) return false;
   const Transform2<Map, Base>& at = memory.poses().back();
   const double here = drawing->belief.probability_here(at);
-  if (placed && drawing->belief.probability_around(at) >= options.health.localized) {
+  const auto middle = drawing->belief.middle_around(at, placed ? at : best->correction * at);
+  if (drawing->belief.probability_around(at, middle) >= options.health.localized) {
     const bool several_ways = best->probability < options.health.localized;
-    if (several_ways || here < options.health.believed) move(drawing->belief.middle_around(at));
+    if (!placed || several_ways || here < options.health.believed) move(middle * at.inverse());
+    placed = true;
     return several_ways;
   }
   const bool clear = best->probability > options.health.believed;

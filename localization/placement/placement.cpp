@@ -248,36 +248,44 @@ void PlaceBelief::moved(const Transform2<Map, Map>& by) {
     if (!p.mirrored) p.correction = p.correction * by.inverse();
 }
 
-double PlaceBelief::probability_within(const Transform2<Map, Base>& at, double m, double rad,
-                                       double Placement::*share) const {
+double PlaceBelief::probability_within(const Transform2<Map, Base>& at, const Transform2<Map, Base>& place,
+                                       double m, double rad, double Placement::*share) const {
   double sum = 0.0;
   for (const Placement& p : placements_)
-    if (!p.mirrored && same_place(p.correction * at, at, m, rad)) sum += p.probability * p.*share;
+    if (!p.mirrored && same_place(p.correction * at, place, m, rad)) sum += p.probability * p.*share;
   return sum;
 }
 
 double PlaceBelief::probability_here(const Transform2<Map, Base>& at) const {
-  return probability_within(at, kNearM, kNearRad, &Placement::near);
+  return probability_within(at, at, kNearM, kNearRad, &Placement::near);
 }
 
-double PlaceBelief::probability_around(const Transform2<Map, Base>& at) const {
-  return probability_within(at, kAroundM, kAroundRad, &Placement::around);
+double PlaceBelief::probability_around(const Transform2<Map, Base>& at,
+                                       const Transform2<Map, Base>& place) const {
+  return probability_within(at, place, kAroundM, kAroundRad, &Placement::around);
 }
 
-Transform2<Map, Map> PlaceBelief::middle_around(const Transform2<Map, Base>& at) const {
+Transform2<Map, Base> PlaceBelief::middle_around(const Transform2<Map, Base>& at,
+                                                 const Transform2<Map, Base>& place) const {
+  // Whatever lies within 1 m of one middle lies within 2 m of each of them.
+  const std::array middles{mean_around(at, place, 1.0), mean_around(at, place, 2.0), place};
+  return *std::ranges::max_element(
+      middles, {}, [&](const Transform2<Map, Base>& middle) { return probability_around(at, middle); });
+}
+
+Transform2<Map, Base> PlaceBelief::mean_around(const Transform2<Map, Base>& at,
+                                               const Transform2<Map, Base>& middle, double scale) const {
   double sum = 0.0, x_m = 0.0, y_m = 0.0, turn_rad = 0.0;
   for (const Placement& p : placements_) {
     const Transform2<Map, Base> there = p.correction * at;
-    if (p.mirrored || !same_place(there, at, kAroundM, kAroundRad)) continue;
+    if (p.mirrored || !same_place(there, middle, scale * kAroundM, scale * kAroundRad)) continue;
     sum += p.probability;
-    x_m += p.probability * (there.x_m() - at.x_m());
-    y_m += p.probability * (there.y_m() - at.y_m());
-    turn_rad += p.probability * wrap_angle(there.yaw_rad() - at.yaw_rad());
+    x_m += p.probability * (there.x_m() - middle.x_m());
+    y_m += p.probability * (there.y_m() - middle.y_m());
+    turn_rad += p.probability * wrap_angle(there.yaw_rad() - middle.yaw_rad());
   }
-  if (!(sum > 0.0)) return {};
-  const Transform2<Map, Base> middle{at.x_m() + x_m / sum, at.y_m() + y_m / sum,
-                                     wrap_angle(at.yaw_rad() + turn_rad / sum)};
-  return middle * at.inverse();
+  if (!(sum > 0.0)) return middle;
+  return {middle.x_m() + x_m / sum, middle.y_m() + y_m / sum, wrap_angle(middle.yaw_rad() + turn_rad / sum)};
 }
 
 std::optional<Placement> PlaceBelief::best() const {

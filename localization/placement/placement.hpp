@@ -82,11 +82,13 @@ class PlaceBelief {
   [[nodiscard]] const std::vector<Placement>& placements() const { return placements_; }
   /// The share of the belief within 0.5 m and 10 degrees of the memory as it lies, at the vehicle.
   [[nodiscard]] double probability_here(const Transform2<Map, Base>& at) const;
-  /// ... within 1 m and 20 degrees.
-  [[nodiscard]] double probability_around(const Transform2<Map, Base>& at) const;
-  /// What takes the memory from where it lies to the middle of the belief within 1 m and 20 degrees of it, at
-  /// the vehicle; it stays where there is none.
-  [[nodiscard]] Transform2<Map, Map> middle_around(const Transform2<Map, Base>& at) const;
+  /// ... within 1 m and 20 degrees of `place`, where the memory puts the vehicle `at`.
+  [[nodiscard]] double probability_around(const Transform2<Map, Base>& at,
+                                          const Transform2<Map, Base>& place) const;
+  /// Where the vehicle, which the memory puts `at`, is if it is near `place`: the middle of the belief around
+  /// it, so that as much as possible is within 1 m and 20 degrees; `place` where there is none.
+  [[nodiscard]] Transform2<Map, Base> middle_around(const Transform2<Map, Base>& at,
+                                                    const Transform2<Map, Base>& place) const;
   /// The likeliest that does not need a mirror; nothing before the first weigh().
   [[nodiscard]] std::optional<Placement> best() const;
   /// Of the likeliest place but where the memory lies.
@@ -98,9 +100,12 @@ class PlaceBelief {
   struct Seen;
   void judge(const DrawingFit& fit, const Seen& seen, const std::optional<StartPrior>& prior,
              Placement& placement) const;
-  /// Of the places within m and rad of `at`, each by its share that is so near to it.
-  [[nodiscard]] double probability_within(const Transform2<Map, Base>& at, double m, double rad,
-                                          double Placement::*share) const;
+  /// Of the placements that put the vehicle within m and rad of `place`, each by its share that is so near.
+  [[nodiscard]] double probability_within(const Transform2<Map, Base>& at, const Transform2<Map, Base>& place,
+                                          double m, double rad, double Placement::*share) const;
+  /// Of where those within `scale` times 1 m and 20 degrees of `middle` put it.
+  [[nodiscard]] Transform2<Map, Base> mean_around(const Transform2<Map, Base>& at,
+                                                  const Transform2<Map, Base>& middle, double scale) const;
   void share_out(std::vector<Placement> found, const Seen& seen, const Seen& mirrored);
 
   std::shared_ptr<const mapping::DistanceField> walls_;

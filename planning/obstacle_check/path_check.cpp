@@ -6,6 +6,7 @@
 
 #include "core/angle.hpp"
 #include "core/segment_distance.hpp"
+#include "planning/obstacle_check/clearance.hpp"
 #include "planning/waypoints/waypoints.hpp"
 
 namespace madori::planning {
@@ -39,8 +40,10 @@ struct Zone {
     return std::max({outline.reach_m(), radius_m, field ? field->reach_m() : 0.0});
   }
   [[nodiscard]] bool holds(const Point2<Base>& p) const {
-    return outline.contains(p) || p.x_m * p.x_m + p.y_m * p.y_m <= radius_m * radius_m ||
-           (field && field->contains(p));
+    return outline.contains(p) || in_circle(p) || (field && field->contains(p));
+  }
+  [[nodiscard]] bool in_circle(const Point2<Base>& p) const {
+    return p.x_m * p.x_m + p.y_m * p.y_m <= radius_m * radius_m;
   }
 };
 
@@ -176,6 +179,32 @@ PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
                      const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
                      const CheckOptions& options) {
   return PathChecker().check(path, from, ahead_m, obstacles, walls, options);
+}
+
+void set_back(std::vector<Point2<Map>>& obstacles, const Transform2<Map, Base>& map_from_base,
+              const CheckOptions& options) {
+  constexpr double kSeenWithinM = 0.02;  // from look to look
+  constexpr double kDeepestM = 0.1;      // of the corner of what stands oblique to the columns
+  const Zone zone(options, options.ends_margin_m, options.sides_margin_m);
+  const VehicleOutline beyond = zone.outline.grown(kSeenWithinM, kSeenWithinM);
+  const auto base_from_map = map_from_base.inverse();
+  for (Point2<Map>& obstacle : obstacles) {
+    Point2<Base> p = base_from_map * obstacle;
+    if (!zone.outline.contains(p) && !zone.in_circle(p)) continue;
+    if ((zone.field && zone.field->contains(p)) || clearance_m(options.vehicle, p) < -kDeepestM) continue;
+    if (zone.outline.contains(p)) {
+      const double aside_m = std::copysign(beyond.half_width_m, p.y_m);
+      const double ahead_m =
+          p.x_m - beyond.front_m > -beyond.rear_m - p.x_m ? beyond.front_m : -beyond.rear_m;
+      if (std::abs(aside_m - p.y_m) < std::abs(ahead_m - p.x_m))
+        p.y_m = aside_m;
+      else
+        p.x_m = ahead_m;
+    }
+    const double middle_m = std::hypot(p.x_m, p.y_m);
+    const double out = std::max(1.0, (zone.radius_m + kSeenWithinM) / std::max(middle_m, kSeenWithinM));
+    obstacle = map_from_base * Point2<Base>{p.x_m * out, p.y_m * out};
+  }
 }
 
 bool is_free(const Transform2<Map, Base>& pose, const std::vector<Point2<Map>>& obstacles,

@@ -111,6 +111,13 @@ class PathChecker {
                                    const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
                                    const CheckOptions& options);
 
+/// For a vehicle that has come to stand nearer to something than the margins, and has to get away from it:
+/// what is seen within them where it stands is set back to just outside (by what looks differ by). A way
+/// that is free then leads away from it, or along it, and no nearer. Left where they are: what is in the
+/// protective field, and what is deeper in the outline than what is seen may be off by.
+void set_back(std::vector<Point2<Map>>& obstacles, const Transform2<Map, Base>& map_from_base,
+              const CheckOptions& options);
+
 /// Whether the vehicle standing so touches nothing.
 [[nodiscard]] bool is_free(const Transform2<Map, Base>& map_from_base,
                            const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,

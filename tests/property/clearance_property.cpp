@@ -9,6 +9,7 @@
 
 #include "planning/obstacle_check/clearance.hpp"
 #include "planning/obstacle_check/motion_guard.hpp"
+#include "planning/obstacle_check/path_check.hpp"
 
 namespace madori::planning {
 namespace {
@@ -133,6 +134,28 @@ RC_GTEST_PROP(ClearanceOfAnOutline, IsTheLeastOverTheSegment, ()) {
   const double found = clearance_m(world.vehicle, s);
   RC_ASSERT(found <= least + 1e-9);
   RC_ASSERT(found > least - 0.003);
+}
+
+/// What is set back is outside the margins and no nearer than it was; what was outside stays where it was.
+RC_GTEST_PROP(SetBack, AVehicleMayLeaveWhatItStandsAgainst, ()) {
+  const World world = any_world();
+  CheckOptions options;
+  options.vehicle = world.vehicle;
+  options = with_margins(options, {between(0.1, 1.0), 0.0});
+  std::vector<Point2<Map>> obstacles = world.bodies;
+  set_back(obstacles, world.pose, options);
+  const auto base_from_map = world.pose.inverse();
+  const VehicleOutline& v = world.vehicle;
+  const double circle_m = v.half_width_m + options.sides_margin_m - std::min(v.front_m, v.rear_m);
+  const double most_m = std::max(std::hypot(options.ends_margin_m, options.sides_margin_m), circle_m);
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const double was_m = clearance_m(world.vehicle, base_from_map * world.bodies[i]);
+    const double is_m = clearance_m(world.vehicle, base_from_map * obstacles[i]);
+    const bool free = is_free(world.pose, {obstacles[i]}, {}, options);
+    RC_ASSERT(free || (was_m < -0.1 && obstacles[i] == world.bodies[i]));
+    RC_ASSERT(is_m >= was_m - 1e-9);
+    if (was_m > most_m) RC_ASSERT(obstacles[i] == world.bodies[i]);
+  }
 }
 
 }  // namespace

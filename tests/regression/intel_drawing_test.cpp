@@ -57,8 +57,9 @@ TEST(IntelDrawing, FollowsTheLogOnALocallyWrongDrawing) {
   for (StampedPose& pose : truth) pose.map_from_base = moved * pose.map_from_base;
   const nlohmann::json score = score_against_truth(run.trajectory, truth);
   EXPECT_EQ(score["matched"], 910);
-  EXPECT_LT(score["position_m"]["median"].get<double>(), 0.25);
-  EXPECT_LT(score["position_m"]["p95"].get<double>(), 0.6);
+  EXPECT_LT(score["position_m"]["median"].get<double>(), 0.29);  // a fifth of what the start was off stays
+  EXPECT_LT(score["position_m"]["p95"].get<double>(), 0.5);
+  EXPECT_LT(score["position_m"]["max"].get<double>(), 1.0);
   EXPECT_LT(score["heading_deg"]["mean"].get<double>(), 1.8);
   EXPECT_GT(score["within"]["share"].get<double>(), 0.9);
   const nlohmann::json pairs =

@@ -373,5 +373,30 @@ TEST(LocalizerDriving, EmptyScansLateOnesAndBrokenReadingsDoNoHarm) {
   }
 }
 
+/// Four ways to lie at one place: against any of two walls each way. The vehicle is in their middle, and says
+/// that it is certain to a metre; it is not asked for again, and does not take it for moved by hand.
+TEST(LocalizerDriving, ARoomThatIsDrawnTooLargeIsDrivenFromTheMiddleOfTheWaysToLie) {
+  constexpr double kTooWideM = 0.5;  // on every side
+  mapping::Walls room, drawing;
+  test::add_box(room, 0.0, 0.0, 14.0, 10.0);
+  test::add_box(room, 20.0, 3.0, 24.0, 9.0);  // other rooms of the building
+  test::add_box(drawing, -kTooWideM, -kTooWideM, 14.0 + kTooWideM, 10.0 + kTooWideM);
+  test::add_box(drawing, 20.0, 3.0, 24.0, 9.0);
+  const auto moments =
+      drive(room, {{3.0, 3.0}, {11.0, 3.0}, {11.0, 7.0}, {3.0, 7.0}, {3.0, 3.0}}, ten_hertz(), 3);
+  const Transform2<Map, Base> truth = moments.front().truth;
+  Localizer localizer(drawing, InitialPose{{truth.x_m() + 0.3, truth.y_m() - 0.2, truth.yaw_rad() + 0.1}});
+  int lost = 0, looks = 0;
+  double most_m = 0.0;
+  for (const auto& moment : moments) {
+    const PoseEstimate e = take(localizer, moment);
+    lost += e.health.state == LocalizationState::Lost || e.health.state == LocalizationState::Ambiguous;
+    most_m = std::max(most_m, off_m(e.map_from_base, moment.truth));
+    ++looks;
+  }
+  EXPECT_LT(lost, looks / 20) << "of " << looks;
+  EXPECT_LT(most_m, 1.0);
+}
+
 }  // namespace
 }  // namespace madori::localization

@@ -127,5 +127,29 @@ TEST(VehicleOutline, TouchesSegmentsThatCrossWithoutAnEndInside) {
   EXPECT_FALSE(outline.touches({{0.7, 0.5}, {1.0, 0.2}}));
 }
 
+TEST(PathCheck, WhatTheVehicleStandsAgainstIsLeftAndNotComeNearerTo) {
+  const CheckOptions margins = with_margins(kOptions, {0.2, 0.0});
+  const Transform2<Map, Base> here;
+  const double behind_m = -kOptions.vehicle.rear_m - 0.01, beside_m = kOptions.vehicle.half_width_m + 0.005;
+  std::vector<Point2<Map>> obstacles{{behind_m, 0.2}, {0.3, -beside_m}, {3.0, 2.0}};
+  ASSERT_TRUE(check_path(straight_way(6), 0, 5.0, obstacles, kNoWalls, margins).blocked());
+  set_back(obstacles, here, margins);
+  EXPECT_TRUE(is_free(here, obstacles, kNoWalls, margins));
+  EXPECT_FALSE(check_path(straight_way(6), 0, 5.0, obstacles, kNoWalls, margins).blocked());
+  EXPECT_FALSE(is_free({-0.05, 0.0, 0.0}, obstacles, kNoWalls, margins)) << "back";
+  EXPECT_FALSE(is_free({0.0, -0.05, 0.0}, obstacles, kNoWalls, margins)) << "aside";
+  EXPECT_FALSE(is_free({0.0, 0.0, to_rad(20.0)}, obstacles, kNoWalls, margins)) << "its tail swings out";
+  EXPECT_EQ(obstacles.back(), (Point2<Map>{3.0, 2.0})) << "nothing else is moved";
+}
+
+TEST(PathCheck, WhatIsInTheFieldOrDeepInTheOutlineStaysWhereItIs) {
+  CheckOptions margins = with_margins(kOptions, {0.2, 0.0});
+  margins.protective.ahead_m = 0.5;
+  const std::vector<Point2<Map>> seen{{kOptions.vehicle.front_m + 0.3, 0.0}, {0.3, 0.0}};
+  std::vector<Point2<Map>> obstacles = seen;
+  set_back(obstacles, {}, margins);
+  EXPECT_EQ(obstacles, seen);
+}
+
 }  // namespace
 }  // namespace madori::planning
