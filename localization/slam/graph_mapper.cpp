@@ -47,16 +47,16 @@ void GraphMapper::follow(const SurfaceScan& scan, const OdometryStep& step) {
   const double enough = std::min(options_.sure_inliers, options_.known_share * usual_inliers_);
   auto [place, recent] = match_scan(scan, anchor_, step, enough, map_, options_);
   usual_inliers_ += 0.05 * (place.inlier_share - usual_inliers_);
-  Transform2<Base, Base> motion = step.motion;
+  const bool found = place.inlier_share > options_.lost_inliers;
+  Transform2<Base, Base> motion = found ? anchor_.inverse() * place.map_from_base : step.motion;
   if (recent.inlier_share > options_.lost_inliers) {
     motion = anchor_.inverse() * recent.map_from_base;
     since_keyframe_.add_matched(motion, recent.information, recent.inlier_share);
     off_wheels_ = std::max(off_wheels_, sigmas_squared(step, motion));
     model_.learn(step, motion, 0.02, 0.005);
   } else {
-    since_keyframe_.add_unmatched(step.motion, recent.inlier_share);
+    since_keyframe_.add_unmatched(motion, recent.inlier_share);
   }
-  const bool found = place.inlier_share > options_.lost_inliers;
   if (!found) {
     place.map_from_base = anchor_ * step.motion;
     place.information.setZero();
