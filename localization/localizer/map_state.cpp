@@ -92,14 +92,15 @@ bool MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   if (!best) return false;
   const Transform2<Map, Base>& at = memory.poses().back();
   const double here = drawing->belief.probability_here(at);
-  const auto middle = drawing->belief.middle_around(at, placed ? at : best->correction * at);
-  if (drawing->belief.probability_around(at, middle) >= options.health.localized) {
+  const bool clear = best->probability > options.health.believed;
+  // Where neither its own place nor another is believed, it goes to the middle of all that is around it.
+  const bool nowhere = !clear && here < options.health.believed;
+  const auto middle = drawing->belief.middle_around(at, nowhere);
+  if (placed && drawing->belief.probability_around(at, nowhere ? middle : at) >= options.health.localized) {
     const bool several_ways = best->probability < options.health.localized;
-    if (!placed || several_ways || here < options.health.believed) move(middle * at.inverse());
-    placed = true;
+    if (several_ways || here < options.health.believed) move(middle * at.inverse());
     return several_ways;
   }
-  const bool clear = best->probability > options.health.believed;
   const bool leaves = placed && clear && here < options.health.believed;
   if (leaves) {
     unconfirmed_size = memory.size();  // a place that was wrong once is believed when more agrees

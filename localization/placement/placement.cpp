@@ -265,10 +265,11 @@ double PlaceBelief::probability_around(const Transform2<Map, Base>& at,
   return probability_within(at, place, kAroundM, kAroundRad, &Placement::around);
 }
 
-Transform2<Map, Base> PlaceBelief::middle_around(const Transform2<Map, Base>& at,
-                                                 const Transform2<Map, Base>& place) const {
+Transform2<Map, Base> PlaceBelief::middle_around(const Transform2<Map, Base>& at, bool wide) const {
+  const Transform2<Map, Base> near = mean_around(at, at, 1.0);
+  if (!wide) return near;
   // Whatever lies within 1 m of one middle lies within 2 m of each of them.
-  const std::array middles{mean_around(at, place, 1.0), mean_around(at, place, 2.0), place};
+  const std::array middles{near, mean_around(at, at, 2.0), at};
   return *std::ranges::max_element(
       middles, {}, [&](const Transform2<Map, Base>& middle) { return probability_around(at, middle); });
 }

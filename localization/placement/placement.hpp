@@ -85,10 +85,9 @@ class PlaceBelief {
   /// ... within 1 m and 20 degrees of `place`, where the memory puts the vehicle `at`.
   [[nodiscard]] double probability_around(const Transform2<Map, Base>& at,
                                           const Transform2<Map, Base>& place) const;
-  /// Where the vehicle, which the memory puts `at`, is if it is near `place`: the middle of the belief around
-  /// it, so that as much as possible is within 1 m and 20 degrees; `place` where there is none.
-  [[nodiscard]] Transform2<Map, Base> middle_around(const Transform2<Map, Base>& at,
-                                                    const Transform2<Map, Base>& place) const;
+  /// The middle of the belief within 1 m and 20 degrees of where the memory puts the vehicle; if `wide`, of
+  /// twice as much around it, so that as much as possible is within 1 m and 20 degrees of the middle.
+  [[nodiscard]] Transform2<Map, Base> middle_around(const Transform2<Map, Base>& at, bool wide) const;
   /// The likeliest that does not need a mirror; nothing before the first weigh().
   [[nodiscard]] std::optional<Placement> best() const;
   /// Of the likeliest place but where the memory lies.
