@@ -19,7 +19,7 @@ class KeyframeMotion {
   /// `information` of (x, y, yaw) at the scan's pose, Map axes.
   void add_matched(const Transform2<Base, Base>& motion, const Eigen::Matrix3d& information,
                    double agreement);
-  /// A scan that they do not: what the wheels, or the whole memory, say of it stands in, and either may be off.
+  /// A scan that they do not: what the wheels, or the whole memory, say of it stands in; either may be off.
   void add_unmatched(const Transform2<Base, Base>& motion, double agreement);
 
   /// Driven, metres.

@@ -266,27 +266,26 @@ double PlaceBelief::probability_around(const Transform2<Map, Base>& at,
 }
 
 Transform2<Map, Base> PlaceBelief::middle_around(const Transform2<Map, Base>& at, bool wide) const {
-  const Transform2<Map, Base> near = mean_around(at, at, 1.0);
+  const Transform2<Map, Base> near = mean_around(at, 1.0);
   if (!wide) return near;
   // Whatever lies within 1 m of one middle lies within 2 m of each of them.
-  const std::array middles{near, mean_around(at, at, 2.0), at};
+  const std::array middles{near, mean_around(at, 2.0), at};
   return *std::ranges::max_element(
       middles, {}, [&](const Transform2<Map, Base>& middle) { return probability_around(at, middle); });
 }
 
-Transform2<Map, Base> PlaceBelief::mean_around(const Transform2<Map, Base>& at,
-                                               const Transform2<Map, Base>& middle, double scale) const {
+Transform2<Map, Base> PlaceBelief::mean_around(const Transform2<Map, Base>& at, double scale) const {
   double sum = 0.0, x_m = 0.0, y_m = 0.0, turn_rad = 0.0;
   for (const Placement& p : placements_) {
     const Transform2<Map, Base> there = p.correction * at;
-    if (p.mirrored || !same_place(there, middle, scale * kAroundM, scale * kAroundRad)) continue;
+    if (p.mirrored || !same_place(there, at, scale * kAroundM, scale * kAroundRad)) continue;
     sum += p.probability;
-    x_m += p.probability * (there.x_m() - middle.x_m());
-    y_m += p.probability * (there.y_m() - middle.y_m());
-    turn_rad += p.probability * wrap_angle(there.yaw_rad() - middle.yaw_rad());
+    x_m += p.probability * (there.x_m() - at.x_m());
+    y_m += p.probability * (there.y_m() - at.y_m());
+    turn_rad += p.probability * wrap_angle(there.yaw_rad() - at.yaw_rad());
   }
-  if (!(sum > 0.0)) return middle;
-  return {middle.x_m() + x_m / sum, middle.y_m() + y_m / sum, wrap_angle(middle.yaw_rad() + turn_rad / sum)};
+  if (!(sum > 0.0)) return at;
+  return {at.x_m() + x_m / sum, at.y_m() + y_m / sum, wrap_angle(at.yaw_rad() + turn_rad / sum)};
 }
 
 std::optional<Placement> PlaceBelief::best() const {

@@ -102,9 +102,8 @@ class PlaceBelief {
   /// Of the placements that put the vehicle within m and rad of `place`, each by its share that is so near.
   [[nodiscard]] double probability_within(const Transform2<Map, Base>& at, const Transform2<Map, Base>& place,
                                           double m, double rad, double Placement::*share) const;
-  /// Of where those within `scale` times 1 m and 20 degrees of `middle` put it.
-  [[nodiscard]] Transform2<Map, Base> mean_around(const Transform2<Map, Base>& at,
-                                                  const Transform2<Map, Base>& middle, double scale) const;
+  /// Of where those put it that are within `scale` times 1 m and 20 degrees; `at` where there are none.
+  [[nodiscard]] Transform2<Map, Base> mean_around(const Transform2<Map, Base>& at, double scale) const;
   void share_out(std::vector<Placement> found, const Seen& seen, const Seen& mirrored);
 
   std::shared_ptr<const mapping::DistanceField> walls_;

@@ -190,9 +190,10 @@ void set_back(std::vector<Point2<Map>>& obstacles, const Transform2<Map, Base>& 
   const auto base_from_map = map_from_base.inverse();
   for (Point2<Map>& obstacle : obstacles) {
     Point2<Base> p = base_from_map * obstacle;
-    if (!zone.outline.contains(p) && !zone.in_circle(p)) continue;
+    const bool in_outline = zone.outline.contains(p);
+    if (!in_outline && !zone.in_circle(p)) continue;
     if ((zone.field && zone.field->contains(p)) || clearance_m(options.vehicle, p) < -kDeepestM) continue;
-    if (zone.outline.contains(p)) {
+    if (in_outline) {
       const double aside_m = std::copysign(beyond.half_width_m, p.y_m);
       const double ahead_m =
           p.x_m - beyond.front_m > -beyond.rear_m - p.x_m ? beyond.front_m : -beyond.rear_m;
