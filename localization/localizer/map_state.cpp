@@ -112,7 +112,8 @@ bool MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   return false;
 }
 
-/// The memory as a whole goes to where the drawing explains it best.
+/// The memory as a whole goes to where the drawing explains it best, but from no likely place to one that is
+/// believed less: wall for wall the one may fit better, where the walls vote for the other.
 void MapState::settle(MemoryCloud& cloud, const LocalizerOptions& options) {
   const Alignment found =
       drawing->walls.drawn().align(cloud, {options.settle_half_m, options.settle_half_rad});
@@ -120,7 +121,10 @@ void MapState::settle(MemoryCloud& cloud, const LocalizerOptions& options) {
   const double area_m2 = drawing->belief.area_m2();
   const double told_so =
       told ? log_prior(*told, found.correction * first, area_m2) - log_prior(*told, first, area_m2) : 0.0;
-  if (found.gain + told_so <= options.move_gain) return;
+  const Transform2<Map, Base>& at = memory.poses().back();
+  const bool less_likely =
+      drawing->belief.probability_near(at, found.correction * at) < drawing->belief.probability_here(at);
+  if (found.gain + told_so <= options.move_gain || less_likely) return;
   move(found.correction);
   cloud = memory_cloud(memory);
 }

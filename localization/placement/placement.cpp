@@ -51,6 +51,11 @@ Transform2<Map, Base> mirror_image(const Transform2<Map, Base>& at) {
   return {-at.x_m(), at.y_m(), kPi - at.yaw_rad()};
 }
 
+Transform2<Map, Base> half_way(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b) {
+  return {0.5 * (a.x_m() + b.x_m()), 0.5 * (a.y_m() + b.y_m()),
+          wrap_angle(a.yaw_rad() + 0.5 * wrap_angle(b.yaw_rad() - a.yaw_rad()))};
+}
+
 /// Chance that a normal variable of this sigma lies within +-limit.
 double within(double limit, double sigma) {
   return std::erf(limit / (sigma * std::sqrt(2.0)));
@@ -256,8 +261,9 @@ double PlaceBelief::probability_within(const Transform2<Map, Base>& at, const Tr
   return sum;
 }
 
-double PlaceBelief::probability_here(const Transform2<Map, Base>& at) const {
-  return probability_within(at, at, kNearM, kNearRad, &Placement::near);
+double PlaceBelief::probability_near(const Transform2<Map, Base>& at,
+                                     const Transform2<Map, Base>& place) const {
+  return probability_within(at, place, kNearM, kNearRad, &Placement::near);
 }
 
 double PlaceBelief::probability_around(const Transform2<Map, Base>& at,
@@ -268,8 +274,15 @@ double PlaceBelief::probability_around(const Transform2<Map, Base>& at,
 Transform2<Map, Base> PlaceBelief::middle_around(const Transform2<Map, Base>& at, bool wide) const {
   const Transform2<Map, Base> near = mean_around(at, 1.0);
   if (!wide) return near;
-  // Whatever lies within 1 m of one middle lies within 2 m of each of them.
-  const std::array middles{near, mean_around(at, 2.0), at};
+  // Whatever lies within 1 m of one middle lies within 2 m of each of them. Where the mean is too near to one
+  // of several ways, half way between two of them another may hold all.
+  std::vector<Transform2<Map, Base>> ways;
+  for (const Placement& p : placements_)
+    if (!p.mirrored && same_place(p.correction * at, at, 2.0 * kAroundM, 2.0 * kAroundRad))
+      ways.push_back(p.correction * at);
+  std::vector middles{near, mean_around(at, 2.0), at};
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) middles.push_back(half_way(ways[i], ways[k]));
   return *std::ranges::max_element(
       middles, {}, [&](const Transform2<Map, Base>& middle) { return probability_around(at, middle); });
 }

@@ -81,7 +81,12 @@ class PlaceBelief {
   /// Likeliest first.
   [[nodiscard]] const std::vector<Placement>& placements() const { return placements_; }
   /// The share of the belief within 0.5 m and 10 degrees of the memory as it lies, at the vehicle.
-  [[nodiscard]] double probability_here(const Transform2<Map, Base>& at) const;
+  [[nodiscard]] double probability_here(const Transform2<Map, Base>& at) const {
+    return probability_near(at, at);
+  }
+  /// ... of `place`, where the memory puts the vehicle `at`.
+  [[nodiscard]] double probability_near(const Transform2<Map, Base>& at,
+                                        const Transform2<Map, Base>& place) const;
   /// ... within 1 m and 20 degrees of `place`, where the memory puts the vehicle `at`.
   [[nodiscard]] double probability_around(const Transform2<Map, Base>& at,
                                           const Transform2<Map, Base>& place) const;

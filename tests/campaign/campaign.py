@@ -2,7 +2,7 @@
 real sockets; each fault is done to it while it drives. It must stand within the limit or go on as the table says, tell
 the operator why, stay on its route, collide with nothing, and deliver again by itself.
 
-    campaign.py MADORI DATA [--seeds 5] [--only PATTERN] [--short] [--table FILE.md] [--keep FOLDER]
+    campaign.py MADORI DATA [--seeds 5] [--first-seed 1] [--only PATTERN] [--short] [--table FILE.md] [--keep FOLDER]
 """
 
 import argparse
@@ -26,6 +26,7 @@ parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.R
 parser.add_argument("madori")
 parser.add_argument("data", type=pathlib.Path)
 parser.add_argument("--seeds", type=int, default=1)
+parser.add_argument("--first-seed", type=int, default=1, help="seeds are shared out to several processes by it")
 parser.add_argument("--only", default="", help="faults whose name has this pattern")
 parser.add_argument("--short", action="store_true", help="ten of them, for ./test")
 parser.add_argument("--table", type=pathlib.Path, help="writes what was measured as a table")
@@ -179,7 +180,7 @@ def table(rows):
 
 come_first()  # it shares its interpreter with the wires
 rows = []
-for seed in range(1, arguments.seeds + 1):
+for seed in range(arguments.first_seed, arguments.first_seed + arguments.seeds):
     campaign(seed, rows)
 wrong = [f"{row['fault']}: {'; '.join(row['wrong'])}" for row in rows if row["wrong"]]
 if wrong:
