@@ -36,10 +36,9 @@ LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits)
   const auto because = [](std::string reason) {
     return LocalizationHealth{LocalizationState::Degraded, std::move(reason)};
   };
-  const double here = e.here * e.held_here;
-  if (here < limits.believed) return because("the place is certain to a metre only: drive on slowly");
-  if (here < limits.localized)
-    return because("the place is certain to " + percent(here) + " only: drive on slowly");
+  if (e.here < limits.believed) return because("the place is certain to a metre only: drive on slowly");
+  if (e.here < limits.localized)
+    return because("the place is certain to " + percent(e.here) + " only: drive on slowly");
   if (e.has_drawing && e.inliers < limits.explained)
     return because("the drawing explains only " + percent(e.inliers) + " of what is seen: drive on slowly");
   if (e.mirrored > limits.maybe_mirrored) return because("the drawing may be mirrored: drive on slowly");
@@ -63,7 +62,7 @@ LocalizationHealth judge(const HealthEvidence& e, const HealthLimits& limits) {
   }
   LocalizationHealth health = lost(evidence, limits);
   if (health.state == LocalizationState::Localized) health = degraded(evidence, limits);
-  health.place = std::max(evidence.here * evidence.held_here, evidence.around * evidence.held_around);
+  health.place = std::max(evidence.here, evidence.around);
   return health;
 }
 

@@ -11,12 +11,10 @@ struct HealthEvidence {
   double walls_seen = 0.0;  ///< surfaces in the memory, in walls of two metres
   double here = 0.0;        ///< share of the belief within 0.5 m and 10 degrees of the answer
   double around = 0.0;      ///< share within 1 m and 20 degrees of it: right, but not exactly
-  double held_here = 1.0;   ///< chance that the bent drawing, where the vehicle is, is right to 0.5 m,
-  double held_around = 1.0;  ///< and to 1 m
-  double rival = 0.0;        ///< share of the belief at the likeliest other place
-  double mirrored = 0.0;     ///< share of the belief that the drawing is mirrored
-  double inliers = 0.5;      ///< share of what is seen that the drawing explains where it is laid
-  double sigma_m = 0.2;      ///< error of the drawing as learned
+  double rival = 0.0;       ///< share of the belief at the likeliest other place
+  double mirrored = 0.0;    ///< share of the belief that the drawing is mirrored
+  double inliers = 0.5;     ///< share of what is seen that the drawing explains where it is laid
+  double sigma_m = 0.2;     ///< error of the drawing as learned
   double nats_a_wall = 0.0;  ///< log likelihood of the memory on the drawing, over clutter
   double blind_m = 0.0;      ///< driven since a scan last agreed with the memory and the wheels
   double blind_s = 0.0;      ///< time since then

@@ -61,12 +61,9 @@ void MapState::place(const LocalizerOptions& options) {
   const Transform2<Map, Base>& at = memory.poses().back();
   evidence.here = placed ? drawing->belief.probability_here(at) : 0.0;
   evidence.around = placed ? drawing->belief.probability_around(at, at) : 0.0;
-  evidence.held_here = evidence.held_around = 1.0;
   if (const auto bent = drawing->walls.bent(); placed && bent) {
     evidence.here *= bent->share_within(at, kNearM);
     evidence.around *= bent->share_within(at, kAroundM);
-    evidence.held_here = bent->held_within(at, kNearM);
-    evidence.held_around = bent->held_within(at, kAroundM);
   }
   if (unconfirmed_size == memory.size())
     evidence.here = evidence.around = std::min(evidence.here, options.unconfirmed);

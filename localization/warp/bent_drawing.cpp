@@ -1,8 +1,5 @@
 #include "localization/warp/bent_drawing.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "localization/warp/other_ways.hpp"
 #include "localization/warp/place_by_walls.hpp"
 
@@ -35,12 +32,6 @@ double BentDrawing::share_within(const Transform2<Map, Base>& in_building, doubl
     if (distance_m(other.warp.map(place), here) <= m) near += other.odds;
   }
   return near / all;
-}
-
-double BentDrawing::held_within(const Transform2<Map, Base>& in_building, double m) const {
-  constexpr double kExactM = 1e-6;
-  const Point2<Map> here = fit.warp.map(Point2<Building>{in_building.x_m(), in_building.y_m()});
-  return std::erf(m / (std::sqrt(2.0) * std::max(kExactM, fit.warp.sigma_m(here))));
 }
 
 Point2<Map> BentDrawing::by_walls(const Point2<Map>& on_drawing) const {

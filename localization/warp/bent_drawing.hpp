@@ -21,8 +21,6 @@ struct BentDrawing {
   /// How likely it is that a vehicle there is within so much, on the drawing, of where on_drawing() has it:
   /// its surroundings were not taken for what is drawn beside them. By the ends of all fits that were tried.
   [[nodiscard]] double share_within(const Transform2<Map, Base>& in_building, double m) const;
-  /// ... by how the walls seen hold the one that was taken: its own uncertainty there.
-  [[nodiscard]] double held_within(const Transform2<Map, Base>& in_building, double m) const;
 };
 
 /// Learns by and by how the drawing lies in the building, and holds both: the walls as drawn, which say where

@@ -51,18 +51,6 @@ TEST(Health, StatesAreThresholdsOnTheShareOfTheBelief) {
   EXPECT_EQ(judge(e).state, LocalizationState::Lost);
 }
 
-TEST(Health, WhereTheBentDrawingIsUncertainThePlaceIsNoSurerButNotLost) {
-  HealthEvidence e = sound();
-  e.held_here = 0.9;
-  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
-  EXPECT_THAT(judge(e).reason, HasSubstr("certain to 89 %"));
-  EXPECT_NEAR(judge(e).place, 0.891, 1e-12);
-  e.held_here = 0.3;
-  e.held_around = 0.6;
-  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
-  EXPECT_THAT(judge(e).reason, HasSubstr("to a metre only"));
-}
-
 TEST(Health, AMirroredDrawingIsNamed) {
   HealthEvidence e = sound();
   e.here = 0.2;

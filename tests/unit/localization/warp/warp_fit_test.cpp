@@ -147,17 +147,5 @@ TEST(BentDrawing, IsAsSureOfAPlaceAsTheOtherWaysAllow) {
   EXPECT_GT(bent.share_within({}, 0.5), 0.999);
 }
 
-TEST(BentDrawing, HoldsAPlaceByTheWarpsOwnUncertaintyThere) {
-  constexpr std::size_t kNodes = 121;
-  BentDrawing bent;
-  EXPECT_EQ(bent.held_within({}, 0.5), 1.0);
-  bent.fit.warp = DrawingWarp(
-      {},
-      {{-10.0, -10.0}, 2.0, 11, 11, std::vector<double>(2 * kNodes, 0.0), std::vector<double>(kNodes, 0.25)},
-      {});
-  EXPECT_NEAR(bent.held_within({}, 0.5), std::erf(2.0 / std::sqrt(2.0)), 1e-3);
-  EXPECT_NEAR(bent.held_within({}, 0.25), std::erf(1.0 / std::sqrt(2.0)), 1e-3);
-}
-
 }  // namespace
 }  // namespace madori::localization
