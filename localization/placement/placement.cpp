@@ -276,26 +276,30 @@ Transform2<Map, Base> PlaceBelief::middle_around(const Transform2<Map, Base>& at
   if (!wide) return near;
   // Whatever lies within 1 m of one middle lies within 2 m of each of them. Where the mean is too near to one
   // of several ways, half way between two of them another may hold all.
-  std::vector<Transform2<Map, Base>> ways;
-  for (const Placement& p : placements_)
-    if (!p.mirrored && same_place(p.correction * at, at, 2.0 * kAroundM, 2.0 * kAroundRad))
-      ways.push_back(p.correction * at);
+  const std::vector<Way> ways = ways_around(at, 2.0);
   std::vector middles{near, mean_around(at, 2.0), at};
   for (std::size_t i = 0; i < ways.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) middles.push_back(half_way(ways[i], ways[k]));
+    for (std::size_t k = 0; k < i; ++k) middles.push_back(half_way(ways[i].there, ways[k].there));
   return *std::ranges::max_element(
       middles, {}, [&](const Transform2<Map, Base>& middle) { return probability_around(at, middle); });
 }
 
+std::vector<PlaceBelief::Way> PlaceBelief::ways_around(const Transform2<Map, Base>& at, double scale) const {
+  std::vector<Way> ways;
+  for (const Placement& p : placements_)
+    if (const Way way{p.correction * at, p.probability};
+        !p.mirrored && same_place(way.there, at, scale * kAroundM, scale * kAroundRad))
+      ways.push_back(way);
+  return ways;
+}
+
 Transform2<Map, Base> PlaceBelief::mean_around(const Transform2<Map, Base>& at, double scale) const {
   double sum = 0.0, x_m = 0.0, y_m = 0.0, turn_rad = 0.0;
-  for (const Placement& p : placements_) {
-    const Transform2<Map, Base> there = p.correction * at;
-    if (p.mirrored || !same_place(there, at, scale * kAroundM, scale * kAroundRad)) continue;
-    sum += p.probability;
-    x_m += p.probability * (there.x_m() - at.x_m());
-    y_m += p.probability * (there.y_m() - at.y_m());
-    turn_rad += p.probability * wrap_angle(there.yaw_rad() - at.yaw_rad());
+  for (const auto& [there, probability] : ways_around(at, scale)) {
+    sum += probability;
+    x_m += probability * (there.x_m() - at.x_m());
+    y_m += probability * (there.y_m() - at.y_m());
+    turn_rad += probability * wrap_angle(there.yaw_rad() - at.yaw_rad());
   }
   if (!(sum > 0.0)) return at;
   return {at.x_m() + x_m / sum, at.y_m() + y_m / sum, wrap_angle(at.yaw_rad() + turn_rad / sum)};

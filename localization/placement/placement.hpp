@@ -107,7 +107,14 @@ class PlaceBelief {
   /// Of the placements that put the vehicle within m and rad of `place`, each by its share that is so near.
   [[nodiscard]] double probability_within(const Transform2<Map, Base>& at, const Transform2<Map, Base>& place,
                                           double m, double rad, double Placement::*share) const;
-  /// Of where those put it that are within `scale` times 1 m and 20 degrees; `at` where there are none.
+  /// Where the vehicle would be, and how likely that is.
+  struct Way {
+    Transform2<Map, Base> there;
+    double probability;
+  };
+  /// Those within `scale` times 1 m and 20 degrees of `at`, where the memory puts it.
+  [[nodiscard]] std::vector<Way> ways_around(const Transform2<Map, Base>& at, double scale) const;
+  /// Of these; `at` where there are none.
   [[nodiscard]] Transform2<Map, Base> mean_around(const Transform2<Map, Base>& at, double scale) const;
   void share_out(std::vector<Placement> found, const Seen& seen, const Seen& mirrored);
 
