@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -22,6 +23,12 @@ struct AlignmentWindow {
   double half_m = 1.2;
   double half_rad = 0.35;
   std::size_t sample = 500;  ///< surfaces that are looked at on the grid
+
+  [[nodiscard]] bool contains(const Transform2<Map, Map>& correction, const Point2<Map>& centre) const {
+    const Point2<Map> moved = correction * centre;
+    return std::abs(moved.x_m - centre.x_m) <= half_m && std::abs(moved.y_m - centre.y_m) <= half_m &&
+           std::abs(correction.yaw_rad()) <= half_rad;
+  }
 };
 
 /// Of the surfaces by weight, Map frame.

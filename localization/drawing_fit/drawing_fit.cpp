@@ -44,11 +44,16 @@ Alignment DrawingFit::settle(const MemoryCloud& cloud, const Transform2<Map, Map
 Alignment DrawingFit::align(const MemoryCloud& cloud, const AlignmentWindow& window) const {
   const Point2<Map> centre = centre_of(cloud);
   const double sigma = std::max(0.1, model_.sigma_m);
+  const auto refined = [&](const Transform2<Map, Map>& start) {
+    return refine_alignment(*index_, cloud, centre, start, model_);
+  };
   Alignment best;
-  best.correction = refine_alignment(*index_, cloud, centre, {}, model_);
+  // Walls draw farther than the window: what is drawn out of it lies at another place.
+  if (const auto settled = refined({}); window.contains(settled, centre)) best.correction = settled;
   best.likelihood = likelihood(cloud, best.correction, sigma);
   for (const Transform2<Map, Map>& start : coarse_alignments(*index_, cloud, centre, window)) {
-    const Transform2<Map, Map> correction = refine_alignment(*index_, cloud, centre, start, model_);
+    const Transform2<Map, Map> correction = refined(start);
+    if (!window.contains(correction, centre)) continue;
     const double value = likelihood(cloud, correction, sigma);
     if (value > best.likelihood + 0.5) {
       best.correction = correction;
