@@ -89,20 +89,26 @@ void LocalMap::build_index() {
 
 const LocalMap::Entry* LocalMap::nearest(double x_m, double y_m, double normal_x, double normal_y,
                                          double reach_m) const {
-  const int cx = static_cast<int>(std::floor((x_m - origin_.x_m) / kCellM));
-  const int cy = static_cast<int>(std::floor((y_m - origin_.y_m) / kCellM));
-  const int r = static_cast<int>(std::ceil(reach_m / kCellM));
+  constexpr double kRoundingM = 1e-9;  // a point at a cell's border may be counted to either
+  const double u = (x_m - origin_.x_m) / kCellM;
+  const double v = (y_m - origin_.y_m) / kCellM;
+  const int row = static_cast<int>(std::floor(v));
   const bool directed = normal_x != 0.0 || normal_y != 0.0;
   const Entry* best = nullptr;
   double best_sq = reach_m * reach_m;
-  for (int y = std::max(0, cy - r); y <= std::min(height_ - 1, cy + r); ++y) {
-    const int x_low = std::max(0, cx - r);
-    const int x_high = std::min(width_ - 1, cx + r);
-    if (x_low > x_high) {
-      break;
-    }
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-    for (std::uint32_t i = cell_begin_[row + x_low]; i < cell_begin_[row + x_high + 1]; ++i) {
+  /// False where the row, and those behind it, are too far.
+  const auto look = [&](int y) {
+    const double beside_m =
+        std::max({0.0, kCellM * (y - v) - kRoundingM, kCellM * (v - (y + 1)) - kRoundingM});
+    const double left_sq = best_sq - beside_m * beside_m;
+    if (left_sq <= 0.0) return false;
+    if (y < 0 || y >= height_) return true;
+    const double half = (std::sqrt(left_sq) + kRoundingM) / kCellM;
+    const int x_low = std::max(0, static_cast<int>(std::floor(u - half)));
+    const int x_high = std::min(width_ - 1, static_cast<int>(std::floor(u + half)));
+    if (x_low > x_high) return true;
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+    for (std::uint32_t i = cell_begin_[first + x_low]; i < cell_begin_[first + x_high + 1]; ++i) {
       const SurfacePoint& q = points_[i].point;
       const double sq = (q.x_m - x_m) * (q.x_m - x_m) + (q.y_m - y_m) * (q.y_m - y_m);
       if (sq < best_sq && q.has_normal() &&
@@ -111,6 +117,12 @@ const LocalMap::Entry* LocalMap::nearest(double x_m, double y_m, double normal_x
         best = &points_[i];
       }
     }
+    return true;
+  };
+  bool below = look(row), above = true;
+  for (int k = 1; below || above; ++k) {
+    above = above && look(row + k);
+    below = below && look(row - k);
   }
   return best;
 }

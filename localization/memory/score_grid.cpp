@@ -14,16 +14,31 @@ constexpr int kMargin = kReach + 16;  // so that windows may look over the borde
 constexpr double kPenaltyWeight = 0.03;
 
 constexpr std::size_t kKernelSide = 2 * kReach + 1;
-std::array<std::uint8_t, kKernelSide * kKernelSide> smear_kernel() {
-  std::array<std::uint8_t, kKernelSide * kKernelSide> kernel{};
+constexpr std::size_t kStride = 16;  // of the kernel's rows, the rest zero: one vector each
+static_assert(kKernelSide <= kStride && kMargin >= static_cast<int>(kStride));
+using Kernel = std::array<std::uint8_t, kKernelSide * kStride>;
+
+/// Of a point of this weight, in 256ths.
+Kernel smear_kernel(unsigned weight) {
+  Kernel kernel{};
   for (int y = -kReach; y <= kReach; ++y) {
     for (int x = -kReach; x <= kReach; ++x) {
       const double d = std::hypot(x, y) * ScoreGrid::kResolutionM / kSigmaM;
-      kernel[static_cast<std::size_t>(y + kReach) * kKernelSide + static_cast<std::size_t>(x + kReach)] =
-          static_cast<std::uint8_t>(std::lround(255.0 * std::exp(-0.5 * d * d)));
+      const auto full = static_cast<unsigned>(std::lround(255.0 * std::exp(-0.5 * d * d)));
+      kernel[static_cast<std::size_t>(y + kReach) * kStride + static_cast<std::size_t>(x + kReach)] =
+          static_cast<std::uint8_t>(full * weight >> 8U);
     }
   }
   return kernel;
+}
+
+const std::vector<Kernel>& smear_kernels() {
+  static const std::vector<Kernel> kernels = [] {
+    std::vector<Kernel> all;
+    for (unsigned weight = 0; weight <= 256; ++weight) all.push_back(smear_kernel(weight));
+    return all;
+  }();
+  return kernels;
 }
 
 }  // namespace
@@ -49,19 +64,17 @@ void ScoreGrid::build(const std::vector<Mark>& marks) {
 }
 
 void ScoreGrid::smear(const std::vector<Mark>& marks) {
-  static const auto kernel = smear_kernel();
+  const std::vector<Kernel>& kernels = smear_kernels();
   Level& grid = levels_[0];
   grid.assign(static_cast<std::size_t>(width_) * height_, 0);
   for (const auto& [p, weight] : marks) {
-    const auto scale = static_cast<unsigned>(std::lround(256.0 * weight));
     const int cx = static_cast<int>((p.x_m - origin_.x_m) / kResolutionM);
     const int cy = static_cast<int>((p.y_m - origin_.y_m) / kResolutionM);
-    const std::uint8_t* k = kernel.data();
-    for (int y = cy - kReach; y <= cy + kReach; ++y) {
-      std::uint8_t* row = grid.data() + static_cast<std::size_t>(y) * width_ + cx - kReach;
-      for (int x = 0; x < 2 * kReach + 1; ++x, ++k) {
-        row[x] = std::max(row[x], static_cast<std::uint8_t>(*k * scale >> 8U));
-      }
+    const std::uint8_t* from = kernels[static_cast<std::size_t>(std::lround(256.0 * weight))].data();
+    for (int y = cy - kReach; y <= cy + kReach; ++y, from += kStride) {
+      std::uint8_t* to = grid.data() + static_cast<std::size_t>(y) * width_ + cx - kReach;
+#pragma omp simd
+      for (std::size_t x = 0; x < kStride; ++x) to[x] = std::max(to[x], from[x]);
     }
   }
 }

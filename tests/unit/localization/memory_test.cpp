@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "localization/memory/local_map.hpp"
@@ -33,6 +35,35 @@ TEST(SurfaceScan, NormalsStandOnTheWallsAndLookAtTheSensor) {
     EXPECT_NEAR(std::hypot(p.normal_x, p.normal_y), 1.0, 1e-9);
   }
   EXPECT_GT(directed, static_cast<int>(scan.points.size()) * 8 / 10);
+}
+
+TEST(ScoreGrid, APointScoresByTheMarksAroundIt) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> place(-3.0, 3.0), weight(0.0, 1.0);
+  std::vector<ScoreGrid::Mark> marks;
+  for (int k = 0; k < 300; ++k) marks.push_back({{place(engine), place(engine)}, weight(engine)});
+  const ScoreGrid grid(marks);
+  const auto cell_of = [](double m, double least) {
+    return static_cast<int>((m - least) / ScoreGrid::kResolutionM);
+  };
+  double low_x = 1e9, low_y = 1e9;
+  for (const auto& [p, w] : marks) low_x = std::min(low_x, p.x_m), low_y = std::min(low_y, p.y_m);
+  for (int trial = 0; trial < 500; ++trial) {
+    const Point2<Map> at{low_x + std::abs(place(engine)), low_y + std::abs(place(engine))};
+    unsigned expected = 0;  // smeared by 7 cm over four cells to each side
+    for (const auto& [p, w] : marks) {
+      const int dx = cell_of(p.x_m, low_x) - cell_of(at.x_m, low_x);
+      const int dy = cell_of(p.y_m, low_y) - cell_of(at.y_m, low_y);
+      if (std::abs(dx) > 4 || std::abs(dy) > 4) continue;
+      const double d = std::hypot(dx, dy) * ScoreGrid::kResolutionM / 0.07;
+      const auto full = static_cast<unsigned>(std::lround(255.0 * std::exp(-0.5 * d * d)));
+      expected = std::max(expected, full * static_cast<unsigned>(std::lround(256.0 * w)) >> 8U);
+    }
+    SurfaceScan scan;
+    scan.points.push_back({0.0, 0.0, 0.0, 0.0});
+    const SearchResult found = grid.search(scan, {at.x_m, at.y_m, 0.0}, {0.0, 0.0, 0.1, 0.1});
+    ASSERT_NEAR(255.0 * found.score, expected, 1e-9) << trial;
+  }
 }
 
 TEST(LocalMap, FindsALargeMotionAndRefinesItToCentimetres) {
