@@ -42,6 +42,9 @@ struct PoseEstimate {
   /// Of (x, y, yaw) in the Map frame: m^2, m*rad, rad^2.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
   LocalizationHealth health;
+  /// What has moved everything that was seen around the vehicle, and the vehicle with it, since its source
+  /// began: it lay elsewhere than was thought. A step of this is no motion.
+  Transform2<Map, Map> moved{};
 };
 
 }  // namespace madori

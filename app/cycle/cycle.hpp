@@ -201,6 +201,7 @@ struct CycleState {
   std::unique_ptr<PoseSource> localization;
   std::shared_ptr<const SiteInBuilding> site;  ///< routes and walls where they stand
   PoseEstimate pose;
+  Transform2<Map, Map> moved;  ///< as the newest pose has it
   control::SentCommands sent;
   Transform2<Map, Base> command_pose;  ///< where the vehicle will be when it obeys what is sent in this step
   planning::ObstacleField obstacles;

@@ -109,7 +109,7 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
   const auto odom_from_base =
       state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);
   state.localization->on_cloud(base, odom_from_base);
-  state.pose = state.localization->on_odometry(state.odometry.reading());
+  take_pose(state, state.localization->on_odometry(state.odometry.reading()));
   note_anchor(state, base.stamp);
   state.obstacles.update(base, planning::SensorView::of(config.lidars[cloud.lidar]), odom_from_base);
   MoverWatch& watch = state.movers[cloud.lidar];
@@ -137,7 +137,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     if (!state.track.empty() && reading.stamp <= state.track.back().stamp) continue;
     state.track.push_back(reading);
     while (to_seconds(reading.stamp - state.track.front().stamp) > kTrackS) state.track.pop_front();
-    state.pose = state.localization->on_odometry(reading);
+    take_pose(state, state.localization->on_odometry(reading));
   }
   state.drive_restarted = restarted;
   for (const auto& command : input.commands) {

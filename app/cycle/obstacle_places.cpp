@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/cycle/stages.hpp"
 
@@ -40,6 +41,17 @@ void each_hidden_place(const planning::Column& c, const Transform2<Map, Odom>& m
 
 Transform2<Map, Odom> map_from_odom_now(const CycleState& state) {
   return state.pose.map_from_base * state.odometry.reading().odom_from_base.inverse();
+}
+
+void take_pose(CycleState& state, PoseEstimate pose) {
+  state.pose = std::move(pose);
+  const auto before = std::exchange(state.moved, state.pose.moved);
+  if (distance_m(before.translation(), state.moved.translation()) == 0.0 &&
+      before.yaw_rad() == state.moved.yaw_rad())
+    return;
+  const Transform2<Map, Map> by = state.moved * before.inverse();
+  for (Anchor& anchor : state.anchors) anchor.map_from_odom = by * anchor.map_from_odom;
+  for (Transform2<Map, Base>& place : state.trail) place = by * place;
 }
 
 void note_anchor(CycleState& state, Stamp stamp) {

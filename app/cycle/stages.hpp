@@ -92,6 +92,9 @@ void arrive(CycleState& state, Stamp now);
                                        const CycleConfig& config);
 
 [[nodiscard]] Transform2<Map, Odom> map_from_odom_now(const CycleState& state);
+/// Where the source thinks better of where everything around the vehicle lies, what the vehicle remembers of
+/// it moves along: it stands where it stood, seen from the vehicle.
+void take_pose(CycleState& state, PoseEstimate pose);
 /// Keeps how the odometry lies on the map, every half second for half an hour, while the vehicle knows it.
 void note_anchor(CycleState& state, Stamp stamp);
 /// Confirmed columns around the vehicle, Map frame: their corners, and where they may go on unseen. On the

@@ -123,12 +123,15 @@ json pose_json(const PoseEstimate& pose) {
   std::memcpy(numbers.data(), &pose.map_from_base, sizeof numbers);
   std::array<std::uint64_t, 9> covariance{};
   std::memcpy(covariance.data(), pose.covariance.data(), sizeof covariance);
+  std::array<std::uint64_t, 5> moved{};
+  std::memcpy(moved.data(), &pose.moved, sizeof moved);
   return {pose.stamp.time_since_epoch().count(),
           numbers,
           covariance,
           static_cast<int>(pose.health.state),
           pose.health.reason,
-          std::bit_cast<std::uint64_t>(pose.health.place)};
+          std::bit_cast<std::uint64_t>(pose.health.place),
+          moved};
 }
 
 json parsed(const std::string& text) {
@@ -222,6 +225,8 @@ PoseEstimate pose_from_text(const std::string& text) {
     std::memcpy(pose.covariance.data(), covariance.data(), sizeof covariance);
     pose.health = {static_cast<LocalizationState>(from.at(3).get<int>()), from.at(4),
                    std::bit_cast<double>(from.at(5).get<std::uint64_t>())};
+    const auto moved = from.at(6).get<std::array<std::uint64_t, 5>>();
+    std::memcpy(static_cast<void*>(&pose.moved), moved.data(), sizeof moved);
     return pose;
   } catch (const json::exception& e) {
     throw Error("recording", e.what(), "was it written by another Madori?");

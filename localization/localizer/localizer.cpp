@@ -68,6 +68,7 @@ PoseEstimate Localizer::estimate(Stamp stamp, const Transform2<Map, Base>& map_f
   PoseEstimate estimate;
   estimate.stamp = stamp;
   estimate.map_from_base = map_from_base;
+  estimate.moved = moved_;
   estimate.covariance = covariance_ + in_map_axes(since_scan_.covariance, anchor_.yaw_rad());
   HealthEvidence evidence = agreement_.evidence_at(stamp, map_.evidence);
   evidence.position_sigma_m = std::sqrt(std::max(estimate.covariance(0, 0), estimate.covariance(1, 1)));
@@ -174,6 +175,7 @@ void Localizer::take_in_thoughts(Stamp stamp) {
   if (MapState* thought = worker_.take(stamp, thinking_, options_)) {
     const Transform2<Map, Map> by = map_.take_in(*thought, worker_.known());
     anchor_ = by * anchor_;
+    moved_ = by * moved_;
     if (late_anchor_) late_anchor_ = by * *late_anchor_;
   }
 }

@@ -103,6 +103,7 @@ class Localizer {
   Stamp anchor_stamp_{};                              ///< of the last scan
   Transform2<Map, Base> anchor_;                      ///< the pose at the last scan
   std::optional<Transform2<Map, Base>> late_anchor_;  ///< of a scan whose stamp ran backwards
+  Transform2<Map, Map> moved_;                        ///< the memory around the vehicle, by thinking
   OdometryStep since_scan_;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
   KeyframeMotion since_keyframe_;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/cycle/stages.hpp"
 #include "tests/support/toy_vehicle.hpp"
 
@@ -27,6 +29,13 @@ class RememberedPlaces : public testing::Test {
     state_.pose.map_from_base = map_from_odom * Transform2<Odom, Base>();
     note_anchor(state_, at(seconds));
   }
+  /// The map around the vehicle has been moved so since the start, and the odometry so on it.
+  void think(const Transform2<Map, Map>& moved, const Transform2<Map, Odom>& map_from_odom) {
+    PoseEstimate pose = state_.pose;
+    pose.moved = moved;
+    pose.map_from_base = moved * map_from_odom * Transform2<Odom, Base>();
+    take_pose(state_, pose);
+  }
   Point2<Map> place() { return obstacle_points(state_, config_).front(); }
 
  private:
@@ -40,6 +49,19 @@ TEST_F(RememberedPlaces, WhatIsOutOfSightStaysInItsPlaceWhenTheOdometryDrifts) {
   localized(60.0, {0.0, 0.0, 0.03});
   EXPECT_NEAR(place().x_m, 5.0, 1e-9);
   EXPECT_NEAR(place().y_m, 0.0, 1e-9) << "0.15 m beside it, were it where the odometry has it now";
+}
+
+TEST_F(RememberedPlaces, WhatIsThoughtBetterOfTheMapMovesItAlong) {
+  sweep(9.9, {0.0, 0.0, 0.0});
+  sweep(10.4, {0.0, 0.0, 0.0});
+  think({0.1, 0.2, 0.05}, {0.0, 0.0, 0.0});
+  EXPECT_NEAR(place().x_m, 0.1 + 5.0 * std::cos(0.05), 1e-9);
+  EXPECT_NEAR(place().y_m, 0.2 + 5.0 * std::sin(0.05), 1e-9);
+  think({0.1, 0.2, 0.05}, {0.0, 0.1, 0.0});  // the odometry drifts: nothing new is thought
+  EXPECT_NEAR(place().y_m, 0.2 + 5.0 * std::sin(0.05), 1e-9);
+  think({0.3, 0.2, 0.0}, {0.0, 0.1, 0.0});
+  EXPECT_NEAR(place().x_m, 5.3, 1e-9);
+  EXPECT_NEAR(place().y_m, 0.2, 1e-9);
 }
 
 TEST_F(RememberedPlaces, WhoWasElsewhereThanHeBelievedRemembersWhereHeDroveSince) {
