@@ -92,6 +92,8 @@ const LocalMap::Entry* LocalMap::nearest(double x_m, double y_m, double normal_x
   constexpr double kRoundingM = 1e-9;  // a point at a cell's border may be counted to either
   const double u = (x_m - origin_.x_m) / kCellM;
   const double v = (y_m - origin_.y_m) / kCellM;
+  const double reach = reach_m / kCellM;
+  if (!(u >= -reach && u <= width_ + reach && v >= -reach && v <= height_ + reach)) return nullptr;
   const int row = static_cast<int>(std::floor(v));
   const bool directed = normal_x != 0.0 || normal_y != 0.0;
   const Entry* best = nullptr;

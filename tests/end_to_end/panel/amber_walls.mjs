@@ -38,7 +38,11 @@ const keepWay = (panel) => panel.page.evaluate(() => {
 async function deliver(panel) {
   const { nodes } = (await api(panel, "GET", "/api/site/routes")).json;
   const stations = ["Press 1", "Lift"].map((name) => nodes.find((node) => node.name === name).id);
-  const order = await api(panel, "POST", "/api/orders", { stations, repeat: 1 });
+  let order;
+  await until("the site is loaded", async () => {  // a busy machine may still read it
+    order = await api(panel, "POST", "/api/orders", { stations, repeat: 1 });
+    return order.json.error?.code !== "not-drivable";
+  });
   expect(order.status === 200, `the order was refused: ${JSON.stringify(order)}`);
   await until("the order is delivered", async () => {
     const button = { fault: "confirm", paused: "resume" }[await panel.page.locator("[data-state]").getAttribute("data-state")];
