@@ -117,21 +117,33 @@ json scans_json(const CycleInput& input) {
 }
 
 /// Sine and cosine are kept too: made again from the yaw they could differ in the last bit.
+using TransformBits = std::array<std::uint64_t, 5>;
+
+template <class To, class From>
+TransformBits bits(const Transform2<To, From>& transform) {
+  static_assert(std::is_trivially_copyable_v<Transform2<To, From>> &&
+                sizeof transform == sizeof(TransformBits));
+  TransformBits numbers{};
+  std::memcpy(numbers.data(), &transform, sizeof numbers);
+  return numbers;
+}
+
+template <class To, class From>
+void take_bits(const json& from, Transform2<To, From>& transform) {
+  const auto numbers = from.get<TransformBits>();
+  std::memcpy(static_cast<void*>(&transform), numbers.data(), sizeof numbers);
+}
+
 json pose_json(const PoseEstimate& pose) {
-  static_assert(std::is_trivially_copyable_v<Transform2<Map, Base>> && sizeof pose.map_from_base == 40);
-  std::array<std::uint64_t, 5> numbers{};
-  std::memcpy(numbers.data(), &pose.map_from_base, sizeof numbers);
   std::array<std::uint64_t, 9> covariance{};
   std::memcpy(covariance.data(), pose.covariance.data(), sizeof covariance);
-  std::array<std::uint64_t, 5> moved{};
-  std::memcpy(moved.data(), &pose.moved, sizeof moved);
   return {pose.stamp.time_since_epoch().count(),
-          numbers,
+          bits(pose.map_from_base),
           covariance,
           static_cast<int>(pose.health.state),
           pose.health.reason,
           std::bit_cast<std::uint64_t>(pose.health.place),
-          moved};
+          bits(pose.moved)};
 }
 
 json parsed(const std::string& text) {
@@ -219,14 +231,12 @@ PoseEstimate pose_from_text(const std::string& text) {
     const json& from = value.at("pose");
     PoseEstimate pose;
     pose.stamp = Stamp(Duration(from.at(0).get<std::int64_t>()));
-    const auto numbers = from.at(1).get<std::array<std::uint64_t, 5>>();
-    std::memcpy(static_cast<void*>(&pose.map_from_base), numbers.data(), sizeof numbers);
+    take_bits(from.at(1), pose.map_from_base);
     const auto covariance = from.at(2).get<std::array<std::uint64_t, 9>>();
     std::memcpy(pose.covariance.data(), covariance.data(), sizeof covariance);
     pose.health = {static_cast<LocalizationState>(from.at(3).get<int>()), from.at(4),
                    std::bit_cast<double>(from.at(5).get<std::uint64_t>())};
-    const auto moved = from.at(6).get<std::array<std::uint64_t, 5>>();
-    std::memcpy(static_cast<void*>(&pose.moved), moved.data(), sizeof moved);
+    take_bits(from.at(6), pose.moved);
     return pose;
   } catch (const json::exception& e) {
     throw Error("recording", e.what(), "was it written by another Madori?");

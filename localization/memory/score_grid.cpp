@@ -18,24 +18,24 @@ constexpr std::size_t kStride = 16;  // of the kernel's rows, the rest zero: one
 static_assert(kKernelSide <= kStride && kMargin >= static_cast<int>(kStride));
 using Kernel = std::array<std::uint8_t, kKernelSide * kStride>;
 
-/// Of a point of this weight, in 256ths.
-Kernel smear_kernel(unsigned weight) {
+Kernel smear_kernel() {
   Kernel kernel{};
   for (int y = -kReach; y <= kReach; ++y) {
     for (int x = -kReach; x <= kReach; ++x) {
       const double d = std::hypot(x, y) * ScoreGrid::kResolutionM / kSigmaM;
-      const auto full = static_cast<unsigned>(std::lround(255.0 * std::exp(-0.5 * d * d)));
       kernel[static_cast<std::size_t>(y + kReach) * kStride + static_cast<std::size_t>(x + kReach)] =
-          static_cast<std::uint8_t>(full * weight >> 8U);
+          static_cast<std::uint8_t>(std::lround(255.0 * std::exp(-0.5 * d * d)));
     }
   }
   return kernel;
 }
 
+/// Of points by their weight, in 256ths.
 const std::vector<Kernel>& smear_kernels() {
   static const std::vector<Kernel> kernels = [] {
-    std::vector<Kernel> all;
-    for (unsigned weight = 0; weight <= 256; ++weight) all.push_back(smear_kernel(weight));
+    std::vector<Kernel> all(257, smear_kernel());
+    for (unsigned weight = 0; weight <= 256; ++weight)
+      for (std::uint8_t& value : all[weight]) value = static_cast<std::uint8_t>(value * weight >> 8U);
     return all;
   }();
   return kernels;
