@@ -183,6 +183,7 @@ struct Anchor {
 struct Workbench {
   PointCloud<Lidar> scan;              ///< a planar lidar's, as points
   PointCloud<Base> sweep;              ///< the one at hand
+  std::vector<Point2<Base>> within;    ///< ... its returns within the vehicle's outline
   std::vector<Point2<Map>> obstacles;  ///< corners of the confirmed columns
   std::vector<Point2<Map>> set_back;   ///< the same, to leave those that are within the margins
   std::vector<planning::Mover<Map>> movers;

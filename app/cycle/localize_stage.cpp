@@ -52,12 +52,19 @@ bool is_own(const Point2<Base>& at, double height_m, const CycleConfig& config) 
 }
 
 void lay_in_base(const PointCloud<Lidar>& cloud, const Ring<OdometryReading>& track,
-                 const CycleConfig& config, PointCloud<Base>& sweep) {
+                 const CycleConfig& config, PointCloud<Base>& sweep, std::vector<Point2<Base>>& within) {
   const LidarModel& lidar = config.lidars[cloud.lidar];
+  within.clear();
+  within.reserve(cloud.points.size());
   sweep_in_base(
       cloud, lidar.mounting,
       [&](Stamp moment) { return track.empty() ? std::nullopt : std::optional(odometry_at(track, moment)); },
-      [&](const Point2<Base>& at, double height_m) { return !is_own(at, height_m, config); }, sweep);
+      [&](const Point2<Base>& at, double height_m) {
+        const bool own = is_own(at, height_m, config);
+        if (own && height_m > config.field.ground_clearance_m) within.push_back(at);
+        return !own;
+      },
+      sweep);
 }
 
 /// Whether nobody knows any more where the vehicle was when a revolution was taken: its bodies would stand
@@ -101,7 +108,7 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
                 const CycleConfig& config, CycleOutput& output) {
   constexpr double kLookAgainS = 0.08;
   if (cloud.lidar >= config.lidars.size() || is_too_old(cloud, state.track)) return;
-  lay_in_base(cloud, state.track, config, state.bench.sweep);
+  lay_in_base(cloud, state.track, config, state.bench.sweep, state.bench.within);
   const PointCloud<Base>& base = state.bench.sweep;
   state.lidars_heard.resize(config.lidars.size());
   note_heard(state.lidars_heard[cloud.lidar], base, config.lidars[cloud.lidar], input.now);
@@ -111,7 +118,8 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
   state.localization->on_cloud(base, odom_from_base);
   take_pose(state, state.localization->on_odometry(state.odometry.reading()));
   note_anchor(state, base.stamp);
-  state.obstacles.update(base, planning::SensorView::of(config.lidars[cloud.lidar]), odom_from_base);
+  state.obstacles.update(base, planning::SensorView::of(config.lidars[cloud.lidar]), odom_from_base,
+                         state.bench.within);
   MoverWatch& watch = state.movers[cloud.lidar];
   const double since_s = to_seconds(base.stamp - watch.looked);
   if (since_s >= 0.0 && since_s < kLookAgainS) return;

@@ -9,7 +9,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 19;
+constexpr std::uint32_t kFormat = 20;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;

@@ -11,6 +11,7 @@ void widen(Column& c, float x, float y, float height) {
   c.min_y_m = std::min(c.min_y_m, y);
   c.max_y_m = std::max(c.max_y_m, y);
   c.low_m = std::min(c.low_m, height);
+  c.top_m = c.hits == 1 ? std::min(c.high_m, height) : std::max(c.top_m, std::min(c.high_m, height));
   c.high_m = std::max(c.high_m, height);
   if (c.hits < 1000) ++c.hits;
 }
@@ -38,7 +39,7 @@ void ColumnLayer::add(const Point2<Odom>& place, double height_m) {
   std::int32_t& slot = slots_[index(cx, cy)];
   if (slot >= 0) return widen(columns_[static_cast<std::size_t>(slot)], x, y, height);
   slot = static_cast<std::int32_t>(columns_.size());
-  Column column{cx, cy, x, x, y, y, height, height, 1};
+  Column column{cx, cy, x, x, y, y, height, height, height, 1};
   column.seen = column.since = stamp_;
   columns_.push_back(column);
 }

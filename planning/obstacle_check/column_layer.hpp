@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,7 @@ struct Column {
   std::int32_t cell_y = 0;
   float min_x_m = 0.0F, max_x_m = 0.0F, min_y_m = 0.0F, max_y_m = 0.0F;
   float low_m = 0.0F, high_m = 0.0F;  ///< above the floor
+  float top_m = 0.0F;                 ///< no stray point: as high as two points of one scan reached
   std::int16_t hits = 0;              ///< points of the last scan that saw it
   std::int16_t misses = 0;            ///< scans in a row that should have seen it and did not
   bool confirmed = false;             ///< no stray point
@@ -31,6 +33,11 @@ struct Column {
   [[nodiscard]] Point2<Odom> centre() const {
     return {0.5 * (static_cast<double>(min_x_m) + static_cast<double>(max_x_m)),
             0.5 * (static_cast<double>(min_y_m) + static_cast<double>(max_y_m))};
+  }
+  void widen(const Point2<Odom>& place) {
+    const auto x = static_cast<float>(place.x_m), y = static_cast<float>(place.y_m);
+    min_x_m = std::min(min_x_m, x), max_x_m = std::max(max_x_m, x);
+    min_y_m = std::min(min_y_m, y), max_y_m = std::max(max_y_m, y);
   }
   [[nodiscard]] bool has_hidden_part() const { return hidden_x_m != 0.0F || hidden_y_m != 0.0F; }
   /// A place of its hidden part, `away_m` from the middle.

@@ -55,6 +55,12 @@ void ObstacleField::take_scan(const PointCloud<Base>& scan, const SensorView& vi
   high_.confirm(o.fewest_points, o.tall_m);
 }
 
+void ObstacleField::take_within(const std::vector<Point2<Base>>& within,
+                                const Transform2<Odom, Base>& odom_from_base, Stamp now) {
+  within_.begin(odom_from_base.translation(), options_.reach_m, options_.cell_m, now);
+  for (const auto& p : within) within_.add(odom_from_base * p, 0.0);
+}
+
 /// Columns are cut at the vehicle's height: what is part of something tall would have shown higher up, too.
 bool ObstacleField::has_entered(const Column& column, Stamp now) const {
   if (to_seconds(now - column.since) > options_.sight.memory_s) return false;
@@ -72,7 +78,7 @@ void ObstacleField::assume_feet(const SensorView& view, const Transform2<Odom, B
     if (view.sees(base_from_odom * column.centre(), options_.ground_clearance_m, options_.top_m)) continue;
     if (!has_entered(column, now)) continue;
     column.low_m = static_cast<float>(options_.ground_clearance_m);
-    column.high_m = static_cast<float>(options_.top_m);
+    column.high_m = column.top_m = static_cast<float>(options_.top_m);
     column.part_of_tall = true;
     seen_.push_back(column);
   }
@@ -91,7 +97,8 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<O
   const Point2<Base> place = odom_from_base.inverse() * old.centre();
   if (std::hypot(place.x_m, place.y_m) > options_.reach_m) return false;
   old.entered = false;
-  if (view.sees(place, static_cast<double>(old.low_m), static_cast<double>(old.high_m))) {
+  if (old.confirmed && holds_returns_within(old)) return true;
+  if (view.sees(place, static_cast<double>(old.low_m), static_cast<double>(old.top_m))) {
     ++old.misses;
     return old.confirmed && old.misses < options_.misses_to_forget;
   }
@@ -103,6 +110,20 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<O
   // What was never seen to come is none: it stands beside something tall.
   const bool may_have_left = glimpsed || (old.came && old.under != Stamp{});
   return !may_have_left || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
+}
+
+/// What this scan could not show of something is where it was: the near side of what the lowest beam begins
+/// to pass over, what lies beside the field of view or falls within the outline.
+void ObstacleField::keep_unseen_part(Column& fresh, const Column& old, const SensorView& view,
+                                     const Transform2<Base, Odom>& base_from_odom) const {
+  const bool all = holds_returns_within(old);
+  for (const float x : {old.min_x_m, old.max_x_m})
+    for (const float y : {old.min_y_m, old.max_y_m}) {
+      const Point2<Odom> corner{static_cast<double>(x), static_cast<double>(y)};
+      if (all || !view.sees(base_from_odom * corner, static_cast<double>(fresh.low_m),
+                            static_cast<double>(fresh.top_m)))
+        fresh.widen(corner);
+    }
 }
 
 std::int32_t ObstacleField::cell_of(double at_m) const {
@@ -142,13 +163,16 @@ void ObstacleField::note_hidden_parts(const SensorView& view, const Transform2<O
 }
 
 void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
-                           const Transform2<Odom, Base>& odom_from_base) {
+                           const Transform2<Odom, Base>& odom_from_base,
+                           const std::vector<Point2<Base>>& within) {
   const bool sees_floor = view.min_elevation_rad < 0.0;
   if (sees_floor) ground_ = fit_ground(scan.points, options_.ground);
   take_scan(scan, view, odom_from_base);
+  take_within(within, odom_from_base, scan.stamp);
   seen_ = low_.columns();
   assume_feet(view, odom_from_base, scan.stamp);
   std::sort(seen_.begin(), seen_.end(), by_cell);
+  const auto base_from_odom = odom_from_base.inverse();
   merged_.clear();
   merged_.reserve(seen_.size() + columns_.size());
   auto fresh = seen_.begin();
@@ -162,6 +186,9 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
       both.came = old.came;
       both.high_m = std::max(both.high_m, old.high_m);
       both.low_m = std::min(both.low_m, old.low_m);
+      if (both.hits < 2) both.top_m = old.top_m;
+      both.top_m = std::max(both.top_m, old.top_m);
+      if (old.confirmed) keep_unseen_part(both, old, view, base_from_odom);
       merged_.push_back(both);
     } else if (keep(old, view, odom_from_base, scan.stamp)) {
       merged_.push_back(old);
@@ -191,7 +218,7 @@ void ObstacleField::add_felt(const std::vector<Point2<Odom>>& places, Stamp now)
     felt.min_x_m = felt.max_x_m = static_cast<float>(place.x_m);
     felt.min_y_m = felt.max_y_m = static_cast<float>(place.y_m);
     felt.low_m = static_cast<float>(options_.ground_clearance_m);
-    felt.high_m = static_cast<float>(kHighM);
+    felt.high_m = felt.top_m = static_cast<float>(kHighM);
     felt.confirmed = true;
     felt.since = now;
     auto at = std::lower_bound(columns_.begin(), columns_.end(), felt, by_cell);

@@ -38,8 +38,11 @@ class ObstacleField {
   explicit ObstacleField(const FieldOptions& options = {}) : options_(options), sights_(options.sight) {}
 
   /// Takes one scan. Points and view in the Base frame at the scan, `odom_from_base` the pose at the scan.
+  /// `within`: returns that the vehicle's outline holds. They make no obstacle, for the vehicle may see
+  /// itself; but a known one that they fall on is there: what stands against the side is noisy, and partly
+  /// within.
   void update(const PointCloud<Base>& scan, const SensorView& view,
-              const Transform2<Odom, Base>& odom_from_base);
+              const Transform2<Odom, Base>& odom_from_base, const std::vector<Point2<Base>>& within = {});
   /// What stands so near to a place; what is seen comes back with the next scan.
   void forget_near(const Point2<Odom>& place, double radius_m);
   /// What the vehicle has run against without having seen it: low bodies that are remembered like those that
@@ -60,6 +63,11 @@ class ObstacleField {
  private:
   void take_scan(const PointCloud<Base>& scan, const SensorView& view,
                  const Transform2<Odom, Base>& odom_from_base);
+  void take_within(const std::vector<Point2<Base>>& within, const Transform2<Odom, Base>& odom_from_base,
+                   Stamp now);
+  [[nodiscard]] bool holds_returns_within(const Column& column) const {
+    return within_.find(column.cell_x, column.cell_y) != nullptr;
+  }
   /// Adds them to seen_.
   void assume_feet(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp now);
   [[nodiscard]] bool is_under_something(const Column& column, const SensorView& view) const;
@@ -67,6 +75,8 @@ class ObstacleField {
   void note_hidden_parts(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp now);
   [[nodiscard]] std::int32_t cell_of(double at_m) const;
   [[nodiscard]] bool is_known(const Point2<Odom>& place) const;
+  void keep_unseen_part(Column& fresh, const Column& old, const SensorView& view,
+                        const Transform2<Base, Odom>& base_from_odom) const;
   [[nodiscard]] bool has_entered(const Column& column, Stamp now) const;
   [[nodiscard]] bool keep(Column& old, const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
                           Stamp now) const;
@@ -78,6 +88,7 @@ class ObstacleField {
   ColumnLayer low_;                    ///< of the scan at hand: up to the vehicle's height
   ColumnLayer high_;                   ///< ... from there to a person's, near the lidar
   ColumnLayer level_;                  ///< ... as high as the lidar and higher, near it
+  ColumnLayer within_;                 ///< ... within the vehicle's outline
   std::vector<Column> seen_, merged_;  ///< room for one update
 };
 

@@ -257,6 +257,66 @@ TEST(ObstacleField, OneGlimpseOfAPersonWhoStaysCounts) {
   EXPECT_EQ(confirmed(field), 1);
 }
 
+TEST(ObstacleField, WhatStandsAgainstTheSideIsThereThoughItsReturnsFallWithinTheOutline) {
+  const SensorView lidar{0.3, 0.0, 1.2, to_rad(-15.0), to_rad(15.0)};
+  const std::vector<Point2<Base>> post{{0.45, 0.295}, {0.46, 0.3}, {0.47, 0.305}};
+  PointCloud<Base> scan{at(0.0), {}};
+  for (const auto& p : post)
+    scan.points.push_back({static_cast<float>(p.x_m), static_cast<float>(p.y_m) + 0.015F, 1.15F, 0.0F, 1, 0});
+  FieldOptions options;
+  options.top_m = 1.4;
+  ObstacleField field(options);
+  PointCloud<Base> nothing{at(0.1), {}};
+  field.update(nothing, lidar, {}, post);
+  EXPECT_TRUE(field.columns().empty()) << "the vehicle sees itself";
+  scan.stamp = at(0.2);
+  field.update(scan, lidar, {});
+  ASSERT_EQ(confirmed(field), 1);
+  const Column whole = field.columns().front();
+  PointCloud<Base> part{at(0.3), {scan.points.back()}};
+  field.update(part, lidar, {}, post);
+  ASSERT_EQ(confirmed(field), 1);
+  EXPECT_EQ(field.columns().front().min_y_m, whole.min_y_m);
+  for (int i = 0; i < 20; ++i) {
+    nothing.stamp = at(0.4 + 0.1 * i);
+    field.update(nothing, lidar, {}, post);
+  }
+  EXPECT_EQ(confirmed(field), 1);
+  EXPECT_EQ(field.columns().front().min_y_m, whole.min_y_m);
+  for (int i = 0; i < 3; ++i) {  // neither beside it nor within it
+    nothing.stamp = at(3.0 + 0.1 * i);
+    field.update(nothing, lidar, {});
+  }
+  EXPECT_EQ(confirmed(field), 0);
+}
+
+TEST(ObstacleField, TheNearSideOfWhatTheLowestBeamBeginsToPassOverStaysWhereItWasSeen) {
+  const SensorView lidar{0.3, 0.0, 1.3, to_rad(-15.0),
+                         to_rad(15.0)};  // sees 1.2 m from 0.37 m on, with slack 0.49
+  FieldOptions options;
+  options.top_m = 1.4;
+  const auto box = [](double from_x_m, double to_x_m, double seconds) {
+    PointCloud<Base> scan{at(seconds), {}};
+    for (double x = from_x_m; x <= to_x_m; x += 0.01)
+      for (const float z : {1.1F, 1.15F, 1.2F})
+        scan.points.push_back({static_cast<float>(x), 0.55F, z, 0.0F, 1, 0});
+    return scan;
+  };
+  ObstacleField field(options);
+  field.update(box(0.31, 0.38, 0.0), lidar, {});
+  field.update(box(0.31, 0.38, 0.1), lidar, {});
+  ASSERT_EQ(confirmed(field), 1);
+  for (int i = 2; i < 12; ++i) {  // aside, so that a stray point above it and its far end are all it shows
+    PointCloud<Base> end = box(0.36, 0.38, 0.1 * i);
+    end.points.push_back({0.37F, 0.55F, 1.35F, 0.0F, 1, 0});
+    for (auto& p : end.points) p.y_m -= 0.12F;
+    field.update(end, lidar, {0.0, 0.12, 0.0});
+  }
+  ASSERT_EQ(confirmed(field), 1);
+  EXPECT_NEAR(field.columns().front().min_x_m, 0.31, 1e-6);
+  EXPECT_NEAR(field.columns().front().top_m, 1.2, 1e-6);
+}
+
 TEST(ObstacleField, NonFinitePointsAreLeftOut) {
   ObstacleField field;
   const float nan = std::numeric_limits<float>::quiet_NaN();
