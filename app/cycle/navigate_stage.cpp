@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -259,6 +261,23 @@ bool waits_for_door(const CycleState& state, const CycleConfig& config) {
          is_at_door(state, state.ahead.check.where, config);
 }
 
+std::optional<double> before_taken_stop_m(const CycleState& state, const CycleConfig& config) {
+  constexpr double kBeforeFrontM =
+      0.5;  ///< with the room that it keeps: what stands there stands at the stop
+  const auto& routes = state.site->routes();
+  const auto stop = routes.index_of(state.errand.stop.node);
+  const bool blocked = state.ahead.check.blocked() && !state.block.by_mover && !state.detour.failed.empty();
+  if (state.mode != Mode::Waiting || !blocked || state.errand.arrived || state.way.backing || !stop)
+    return {};
+  if (!is_placed(state) || waits_for_door(state, config)) return {};
+  const double away_m = distance_m(state.pose.map_from_base.translation(), routes.nodes()[*stop].position);
+  return away_m < config.check.vehicle.front_m + kBeforeFrontM ? std::optional(away_m) : std::nullopt;
+}
+
+std::map<std::string, std::string> taken_stop(const CycleState& state, double away_m) {
+  return {{"node", std::to_string(state.errand.stop.node)}, {"metres", fmt::format("{:.1f}", away_m)}};
+}
+
 /// Whether the pose has come to lie elsewhere: it was corrected, or the vehicle was carried off.
 bool has_left_stop(const CycleState& state, const CycleConfig& config) {
   return state.errand.arrived && !state.errand.reported && !state.way.path.empty() &&
@@ -276,6 +295,12 @@ void navigate(CycleState& state, const CycleInput& input, const CycleConfig& con
   if (input.detour) take_answer(state, *input.detour, config);
   const bool told = std::any_of(input.commands.begin(), input.commands.end(),
                                 [](const auto& c) { return c.word == OperatorWord::GoOn; });
+  const auto away_m = before_taken_stop_m(state, config);
+  if (told && away_m && stands(state)) {
+    arrive(state, input.now);
+    output.events.push_back(notice(Cause::StopTaken, taken_stop(state, *away_m)).text +
+                            "; told to end the stop");
+  }
   const bool is_over = input.now >= state.errand.dwell_until && is_place_certain(state.pose.health);
   if (state.errand.arrived && !state.errand.reported && stands(state) && (is_over || told)) {
     state.errand.reported = true;

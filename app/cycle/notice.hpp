@@ -65,6 +65,7 @@ enum class Cause : std::uint8_t {
   LidarLeans,
   LidarYaw,
   StopUnsure,
+  StopTaken,
 };
 
 /// What a person can do about it.
@@ -98,6 +99,7 @@ enum class Remedy : std::uint8_t {
   LookAndDrive,
   CorrectMounting,
   LookAtPlace,
+  ClearOrGoOn,
 };
 
 inline constexpr std::array kCauses{
@@ -149,6 +151,7 @@ inline constexpr std::array kCauses{
         "lidar-yaw",
         "the vehicle gets where lidar {name} would look at {found} degrees, and {typed} was typed"},
     CatalogueEntry{"stop-unsure", "the vehicle is only to {percent} % sure that this is node {node}"},
+    CatalogueEntry{"stop-taken", "something stands at node {node}: the vehicle is {metres} m away from it"},
 };
 
 inline constexpr std::array kRemedies{
@@ -182,6 +185,8 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"correct-mounting",
                    "correct its mounting in the vehicle step, or press Measure the mounting there"},
     CatalogueEntry{"look-at-place", "look whether it is, then press Go on; else show its place: Where am I?"},
+    CatalogueEntry{"clear-or-go-on",
+                   "clear it, then it goes on by itself; or press Go on to end the stop here"},
 };
 
 /// An event of the cycle, not the cause of a standstill.

@@ -8,9 +8,10 @@
 
 namespace madori::localization {
 
-/// Warps in which the surroundings of `at` (Building) lie elsewhere on the drawing than `warp` has them,
-/// where drawn walls run as those that are seen do: walls taken for their neighbours. Where a fit may begin,
-/// too; the likeliest few, by the surroundings alone. None of a warp without a field.
+/// Warps in which a part of what is remembered lies elsewhere on the drawing than `warp` has it, where drawn
+/// walls run as those that are seen do: walls taken for their neighbours. Where a fit may begin, too. The
+/// likeliest few for the surroundings of `at` (Building), by these alone; and of all rooms of the memory the
+/// few that fit best elsewhere, where one fits better than where it is. None of a warp without a field.
 [[nodiscard]] std::vector<DrawingWarp> other_ways(const WallIndex& drawn, const MemoryCloud& cloud,
                                                   const DrawingWarp& warp, const Point2<Building>& at);
 

@@ -571,7 +571,13 @@ WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const Drawing
                             : whole.nats() > field.nats() ? whole
                                                           : field;
   std::vector<Explanation> elsewhere;
-  for (const DrawingWarp& start : further) elsewhere.push_back(explain(start, Shape::Field, options.rounds));
+  for (const DrawingWarp& start : further) {
+    Explanation end = explain(start, Shape::Field, options.rounds);
+    // The present one was fitted again and again while the memory grew: a better one goes on before they
+    // compare.
+    const bool better = end.nats() > here.nats();
+    elsewhere.push_back(better ? explain(end.warp(), Shape::Field, options.rounds) : std::move(end));
+  }
   const std::vector<double> odds = log_odds(elsewhere, here.nats());
   const auto likeliest = std::max_element(odds.begin(), odds.end());
   const bool stays = likeliest == odds.end() || *likeliest < 0.0;

@@ -18,10 +18,10 @@ struct Column {
   std::int32_t cell_y = 0;
   float min_x_m = 0.0F, max_x_m = 0.0F, min_y_m = 0.0F, max_y_m = 0.0F;
   float low_m = 0.0F, high_m = 0.0F;  ///< above the floor
-  float top_m = 0.0F;                 ///< no stray point: as high as two points of one scan reached
-  std::int16_t hits = 0;              ///< points of the last scan that saw it
-  std::int16_t misses = 0;            ///< scans in a row that should have seen it and did not
-  bool confirmed = false;             ///< no stray point
+  float top_m = 0.0F;         ///< as high as two points of one scan reached, there or beside it: no stray one
+  std::int16_t hits = 0;      ///< points of the last scan that saw it
+  std::int16_t misses = 0;    ///< scans in a row that should have seen it and did not
+  bool confirmed = false;     ///< no stray point
   bool part_of_tall = false;  ///< stood beside something high: the foot of a person, not a body on the floor
   bool came = false;          ///< was seen to come there, some time
   bool entered = false;       ///< stands where the floor was seen empty a moment ago
@@ -62,7 +62,8 @@ class ColumnLayer {
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
   /// The column of a cell, or nothing.
   [[nodiscard]] const Column* find(std::int32_t cell_x, std::int32_t cell_y) const;
-  /// Counts the points of neighbouring cells, and looks for something higher than `tall_m` beside each.
+  /// Counts the points of neighbouring cells, tells how high they reach, and looks for something higher than
+  /// `tall_m` beside each.
   void confirm(int fewest_points, double tall_m);
 
  private:
@@ -79,6 +80,7 @@ class ColumnLayer {
   Stamp stamp_{};
   std::vector<Column> columns_;
   std::vector<std::int32_t> slots_;  ///< cell of the window to column, -1 where empty
+  std::vector<float> second_m_;      ///< of each column: its second highest point
 };
 
 }  // namespace madori::planning

@@ -186,7 +186,6 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
       both.came = old.came;
       both.high_m = std::max(both.high_m, old.high_m);
       both.low_m = std::min(both.low_m, old.low_m);
-      if (both.hits < 2) both.top_m = old.top_m;
       both.top_m = std::max(both.top_m, old.top_m);
       if (old.confirmed) keep_unseen_part(both, old, view, base_from_odom);
       merged_.push_back(both);

@@ -18,9 +18,9 @@ constexpr double kTapOffRad = to_rad(6.0);
 void BuildingOperator::look() {
   keep_trail();
   const auto& state = run_.state();
-  // While it localizes the reasons change from scan to scan; it is one standstill nevertheless.
+  // While it localizes the reasons change from scan to scan, and a distance by the way; it is one standstill.
   const bool searches = state.mode == Mode::Localizing;
-  const std::string because = to_string(state.mode) + (searches ? "" : ": " + state.standstill.cause.text);
+  const std::string because = to_string(state.mode) + (searches ? "" : ": " + state.standstill.cause.code);
   if (because != stands_because_ || app::drives(state.mode)) {
     stands_because_ = because;
     since_ = run_.factory->now();
@@ -37,7 +37,8 @@ void BuildingOperator::look() {
   } else if (unseen && stood_s() > kLooksAfterS && is_free_there(state.ahead.check.where)) {
     say(OperatorWord::Resume);
     help();
-  } else if (state.standstill.cause.code == app::entry(app::Cause::StopUnsure).code &&
+  } else if ((state.standstill.cause.code == app::entry(app::Cause::StopUnsure).code ||
+              state.standstill.cause.code == app::entry(app::Cause::StopTaken).code) &&
              stood_s() > kLooksAfterS) {
     say(OperatorWord::GoOn);  // counted as delivered only where it is near its station
     help();

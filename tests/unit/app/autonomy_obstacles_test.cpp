@@ -204,5 +204,26 @@ TEST(AutonomyCycle, WhatStirsInOnePlaceBesideTheWayDoesNotHoldTheVehicleForEver)
   }
 }
 
+TEST(AutonomyObstacles, WhereSomethingStandsAtTheStopAPersonMayEndItBeforeIt) {
+  for (const bool cleared : {false, true}) {
+    auto v = corridor_vehicle();
+    v->lidar.bodies.push_back({{{10.35, -0.4}, {10.35, 0.4}}, 0.05, 1.2});
+    v->drive_to({{1}});
+    v->say(OperatorWord::Resume);
+    const auto asks = [&] { return v->state().standstill.cause.code == entry(Cause::StopTaken).code; };
+    ASSERT_TRUE(v->run_until(asks, 60.0)) << v->state().standstill.cause.text;
+    EXPECT_EQ(v->state().standstill.remedy, notice(Remedy::ClearOrGoOn));
+    EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 20.0)) << "nobody has said so";
+    ASSERT_TRUE(v->run_until(asks, 10.0));
+    if (cleared)
+      v->lidar.bodies.clear();
+    else
+      v->say(OperatorWord::GoOn);
+    EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, cleared ? 20.0 : 1.0));
+    EXPECT_NEAR(v->rolling.pose().x_m(), cleared ? 10.0 : 9.0, cleared ? 0.05 : 0.25);
+    EXPECT_GT(v->clearance_m(), 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace madori::app

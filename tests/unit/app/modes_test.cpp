@@ -107,6 +107,7 @@ TEST(EventWords, EveryStandstillOfTheLogComesBackWithItsRemedy) {
                                                       {"node", "7"},
                                                       {"faults", "4"},
                                                       {"percent", "64"},
+                                                      {"metres", "0.9"},
                                                       {"name", "top"},
                                                       {"found", "1.2"},
                                                       {"typed", "0.9"},

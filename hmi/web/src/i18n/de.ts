@@ -310,6 +310,8 @@ export const de: Record<TextKey, string> = {
   "remedy.correct-mounting": "Anbau im Schritt Fahrzeug berichtigen, oder dort Anbau messen drücken",
   "cause.stop-unsure": "Das Fahrzeug ist nur zu {percent} % sicher, dass dies Punkt {node} ist",
   "remedy.look-at-place": "Nachsehen, ob es stimmt, dann Weiterfahren drücken; sonst den Ort zeigen: Wo bin ich?",
+  "cause.stop-taken": "Etwas steht auf Punkt {node}: das Fahrzeug ist {metres} m davor",
+  "remedy.clear-or-go-on": "Räumen, dann fährt es von selbst weiter; oder Weiterfahren drücken, um den Halt hier zu beenden",
   "event.lidar-lost": "Lidar {name} schweigt: Das Fahrzeug fährt mit den anderen weiter, so schnell sie erlauben",
   "event.not-kept":
     "Was das Fahrzeug gelernt hat, lässt sich nicht behalten: {why}; auf dem Datenträger Platz schaffen oder das Schreiben erlauben",

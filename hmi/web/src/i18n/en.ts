@@ -325,6 +325,8 @@ export const en = {
   "remedy.correct-mounting": "Correct its mounting in the vehicle step, or press Measure the mounting there",
   "cause.stop-unsure": "The vehicle is only to {percent} % sure that this is node {node}",
   "remedy.look-at-place": "Look whether it is, then press Go on; else show its place: Where am I?",
+  "cause.stop-taken": "Something stands at node {node}: the vehicle is {metres} m away from it",
+  "remedy.clear-or-go-on": "Clear it, then it goes on by itself; or press Go on to end the stop here",
   "event.lidar-lost": "Lidar {name} is silent: the vehicle goes on with the others, as fast as they allow",
   "event.not-kept":
     "What the vehicle learned cannot be kept: {why}; make room on the disk, or let it be written",

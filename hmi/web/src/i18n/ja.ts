@@ -326,6 +326,8 @@ export const ja: Record<TextKey, string> = {
   "remedy.correct-mounting": "車両の手順で取付けを直すか、「取付けを測定」を押してください",
   "cause.stop-unsure": "ここが点{node}である確かさは {percent} % です",
   "remedy.look-at-place": "正しければ「先へ進む」を押し、違えば「現在地は?」で場所を示してください",
+  "cause.stop-taken": "点{node}に障害物があります：{metres} m 手前です",
+  "remedy.clear-or-go-on": "取り除くと自動で進みます。ここで停止を終えるには「先へ進む」を押してください",
   "event.lidar-lost": "ライダー {name} が応答しません。他のライダーで可能な速度で走行を続けます",
   "event.not-kept":
     "車両が学習した内容を保存できません: {why}。ディスクの空きを増やすか、書き込みを許可してください",

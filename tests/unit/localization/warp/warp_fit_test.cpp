@@ -125,6 +125,27 @@ TEST(WarpFit, SurroundingsTakenForTheirNeighboursAreFoundOut) {
   EXPECT_LE(compared_off, 1);
 }
 
+/// A fit that followed the memory alone has taken rooms for their neighbours: they are set right though the
+/// vehicle stands elsewhere.
+TEST(WarpFit, RoomsTakenForTheirNeighboursAreFoundOutFromAfar) {
+  const BentBuilding building = test::bent_building(test::hard_building(12, 1.0));
+  const WallIndex index(building.drawn);
+  const MemoryCloud cloud = seen_on_lap(building, 0.05);
+  const auto way = test::along_lap(building, 0.5, 50.0);
+  const auto off = [&](const DrawingWarp& warp) {
+    return std::count_if(way.begin(), way.end(), [&](const Point2<Map>& p) {
+      return distance_m(warp.map(building.warp->building(p)), p) > 0.8;
+    });
+  };
+  WarpFit fit = fit_warp_from_start(index, cloud);
+  const auto off_alone = off(fit.warp);
+  for (int k = 0; k < 6; ++k)
+    fit = fit_warp(index, cloud, fit.warp,
+                   other_ways(index, cloud, fit.warp, building.warp->building(way.front())));
+  EXPECT_GE(off_alone, 40);
+  EXPECT_LE(off(fit.warp), 5);
+}
+
 TEST(WarpFit, AStartFromWhichNothingBelongsToAWallIsOneOfTheOthers) {
   const BentBuilding building = test::bent_building({});
   const WallIndex index(building.drawn);
