@@ -17,9 +17,11 @@ constexpr double kRoomM = 4.0;       ///< what may have been taken for its neigh
 constexpr std::size_t kFewest = 20;  ///< surfaces: 4 m of wall
 constexpr double kWindowM = 2.4;     ///< twice as far as a fit reaches by itself (WallSides::kReachM)
 constexpr double kStepM = 0.2;
-constexpr double kBlurM = 0.15;         ///< no peak lies between two steps
-constexpr double kOwnM = 0.5;           ///< nearer, the fit finds it by itself
-constexpr std::size_t kTried = 3;       ///< a fit each
+constexpr double kBlurM = 0.15;          ///< no peak lies between two steps
+constexpr double kOwnM = 0.5;            ///< nearer, the fit finds it by itself
+constexpr std::size_t kTriedNear = 3;    ///< a fit each
+constexpr std::size_t kTriedRooms = 2;   ///< ... more often than not the first is the one
+constexpr double kHopelessNats = -20.0;  ///< of 29 such fits in Intel's building two were likelier in the end
 constexpr double kAlmostFolded = 0.48;  ///< of a step between control points, by their spacing: nothing folds
 
 /// The surfaces, where the warp has them on the drawing.
@@ -134,13 +136,14 @@ std::vector<Shift> better_rooms(const WallIndex& drawn, const MemoryCloud& cloud
 }
 
 /// The first few that do not fold the drawing.
-void add_starts(const DrawingWarp& warp, const std::vector<Shift>& shifts, std::vector<DrawingWarp>& starts) {
+void add_starts(const DrawingWarp& warp, const std::vector<Shift>& shifts, std::size_t most,
+                std::vector<DrawingWarp>& starts) {
   std::size_t added = 0;
   for (const Shift& shift : shifts) {
     WarpField field = expected(warp.field(), warp.statistics().range_m, shift);
-    if (folds(field)) continue;
+    if (shift.nats < kHopelessNats || folds(field)) continue;
     starts.emplace_back(warp.similarity(), std::move(field), warp.statistics());
-    if (++added == kTried) break;
+    if (++added == most) break;
   }
 }
 
@@ -152,8 +155,8 @@ std::vector<DrawingWarp> other_ways(const WallIndex& drawn, const MemoryCloud& c
   if (warp.field().control_m.empty() || cloud.empty()) return ways;
   const MemoryCloud carried = on_drawing(cloud, warp);
   const Point2<Map> here = warp.map(at);
-  add_starts(warp, peaks(drawn, around(carried, here, kAroundM), here), ways);
-  add_starts(warp, better_rooms(drawn, carried), ways);
+  add_starts(warp, peaks(drawn, around(carried, here, kAroundM), here), kTriedNear, ways);
+  add_starts(warp, better_rooms(drawn, carried), kTriedRooms, ways);
   return ways;
 }
 
