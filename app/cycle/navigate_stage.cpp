@@ -262,11 +262,11 @@ bool waits_for_door(const CycleState& state, const CycleConfig& config) {
 }
 
 std::optional<double> before_taken_stop_m(const CycleState& state, const CycleConfig& config) {
-  constexpr double kBeforeFrontM =
-      0.5;  ///< with the room that it keeps: what stands there stands at the stop
+  constexpr double kBeforeFrontM = 0.5;  ///< with the room that it keeps, it stands at the stop
   const auto& routes = state.site->routes();
   const auto stop = routes.index_of(state.errand.stop.node);
-  const bool blocked = state.ahead.check.blocked() && !state.block.by_mover && !state.detour.failed.empty();
+  const bool seen = state.ahead.check.blocked() && !state.block.unseen && !state.block.by_mover;
+  const bool blocked = seen && !state.detour.failed.empty();
   if (state.mode != Mode::Waiting || !blocked || state.errand.arrived || state.way.backing || !stop)
     return {};
   if (!is_placed(state) || waits_for_door(state, config)) return {};

@@ -98,7 +98,7 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<O
   if (std::hypot(place.x_m, place.y_m) > options_.reach_m) return false;
   old.entered = false;
   if (old.confirmed && holds_returns_within(old)) return true;
-  if (view.sees(place, static_cast<double>(old.low_m), static_cast<double>(old.top_m))) {
+  if (view.sees(place, static_cast<double>(old.low_m), static_cast<double>(old.high_m))) {
     ++old.misses;
     return old.confirmed && old.misses < options_.misses_to_forget;
   }
