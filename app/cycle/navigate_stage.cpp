@@ -261,7 +261,7 @@ bool waits_for_door(const CycleState& state, const CycleConfig& config) {
          is_at_door(state, state.ahead.check.where, config);
 }
 
-std::optional<double> before_taken_stop_m(const CycleState& state, const CycleConfig& config) {
+std::optional<Notice> taken_stop(const CycleState& state, const CycleConfig& config) {
   constexpr double kBeforeFrontM = 0.5;  ///< with the room that it keeps, it stands at the stop
   const auto& routes = state.site->routes();
   const auto stop = routes.index_of(state.errand.stop.node);
@@ -271,11 +271,9 @@ std::optional<double> before_taken_stop_m(const CycleState& state, const CycleCo
     return {};
   if (!is_placed(state) || waits_for_door(state, config)) return {};
   const double away_m = distance_m(state.pose.map_from_base.translation(), routes.nodes()[*stop].position);
-  return away_m < config.check.vehicle.front_m + kBeforeFrontM ? std::optional(away_m) : std::nullopt;
-}
-
-std::map<std::string, std::string> taken_stop(const CycleState& state, double away_m) {
-  return {{"node", std::to_string(state.errand.stop.node)}, {"metres", fmt::format("{:.1f}", away_m)}};
+  if (!(away_m < config.check.vehicle.front_m + kBeforeFrontM)) return {};
+  const auto node = std::to_string(state.errand.stop.node);
+  return notice(Cause::StopTaken, {{"node", node}, {"metres", fmt::format("{:.1f}", away_m)}});
 }
 
 /// Whether the pose has come to lie elsewhere: it was corrected, or the vehicle was carried off.
@@ -295,11 +293,9 @@ void navigate(CycleState& state, const CycleInput& input, const CycleConfig& con
   if (input.detour) take_answer(state, *input.detour, config);
   const bool told = std::any_of(input.commands.begin(), input.commands.end(),
                                 [](const auto& c) { return c.word == OperatorWord::GoOn; });
-  const auto away_m = before_taken_stop_m(state, config);
-  if (told && away_m && stands(state)) {
+  if (const auto taken = told && stands(state) ? taken_stop(state, config) : std::nullopt) {
     arrive(state, input.now);
-    output.events.push_back(notice(Cause::StopTaken, taken_stop(state, *away_m)).text +
-                            "; told to end the stop");
+    output.events.push_back(taken->text + "; told to end the stop");
   }
   const bool is_over = input.now >= state.errand.dwell_until && is_place_certain(state.pose.health);
   if (state.errand.arrived && !state.errand.reported && stands(state) && (is_over || told)) {

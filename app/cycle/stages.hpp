@@ -121,12 +121,10 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
 [[nodiscard]] bool is_at_door(const CycleState& state, const Point2<Map>& place, const CycleConfig& config);
 /// Whether a door or lift may be what blocks the way. What is remembered only, low and too near to be seen,
 /// is none.
-/// How far the vehicle stands from its stop where something that it sees stands there and no way leads around
-/// it: a person may end the stop here.
-[[nodiscard]] std::optional<double> before_taken_stop_m(const CycleState& state, const CycleConfig& config);
-/// What Cause::StopTaken says of it.
-[[nodiscard]] std::map<std::string, std::string> taken_stop(const CycleState& state, double away_m);
 [[nodiscard]] bool waits_for_door(const CycleState& state, const CycleConfig& config);
+/// Cause::StopTaken where something that it sees stands at its stop and no way leads around it: a person may
+/// end the stop here.
+[[nodiscard]] std::optional<Notice> taken_stop(const CycleState& state, const CycleConfig& config);
 /// The legs that count as blocked now, in the direction in which the vehicle met what blocks them.
 [[nodiscard]] planning::BlockedLegs blocked_now(const Errand& errand, Stamp now, double forget_s);
 

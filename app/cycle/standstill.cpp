@@ -107,8 +107,7 @@ Standstill why_waiting(const CycleState& state, const CycleInput& input, const C
     return {rule->said ? rule->said(state, input, config) : notice(rule->cause), notice(rule->remedy), now};
   if (state.errand.arrived) return why_at_stop(state, now);
   if (!state.errand.no_way.empty()) return {state.errand.no_way, notice(Remedy::ClearOrDraw), now};
-  if (const auto away_m = before_taken_stop_m(state, config))
-    return {notice(Cause::StopTaken, taken_stop(state, *away_m)), notice(Remedy::ClearOrGoOn), now};
+  if (const auto taken = taken_stop(state, config)) return {*taken, notice(Remedy::ClearOrGoOn), now};
   const auto ask = std::ranges::find_if(asks(), [&](const Ask& a) { return a.holds(state, config); });
   const bool has_reason = std::string_view(ask->remedy.english).find("{reason}") != std::string_view::npos;
   const Notice remedy =

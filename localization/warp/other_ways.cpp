@@ -108,8 +108,8 @@ WarpField expected(WarpField field, double range_m, const Shift& shift) {
   return field;
 }
 
-/// The best shift of every room of the memory that fits better beside where it is, best first, none within
-/// a room of a better one.
+/// The best shift of every room of the memory that fits better beside where it is, best first, none that
+/// overlaps a better one.
 std::vector<Shift> better_rooms(const WallIndex& drawn, const MemoryCloud& cloud) {
   Point2<Map> low{cloud.front().x_m, cloud.front().y_m}, high = low;
   for (const CloudSurface& s : cloud) {
@@ -135,15 +135,16 @@ std::vector<Shift> better_rooms(const WallIndex& drawn, const MemoryCloud& cloud
   return apart;
 }
 
-/// The first few that do not fold the drawing.
+/// The first few of shifts, best first, that do not fold the drawing.
 void add_starts(const DrawingWarp& warp, const std::vector<Shift>& shifts, std::size_t most,
                 std::vector<DrawingWarp>& starts) {
   std::size_t added = 0;
   for (const Shift& shift : shifts) {
+    if (added == most || shift.nats < kHopelessNats) return;
     WarpField field = expected(warp.field(), warp.statistics().range_m, shift);
-    if (shift.nats < kHopelessNats || folds(field)) continue;
+    if (folds(field)) continue;
     starts.emplace_back(warp.similarity(), std::move(field), warp.statistics());
-    if (++added == most) break;
+    ++added;
   }
 }
 

@@ -92,9 +92,9 @@ bool ObstacleField::is_under_something(const Column& column, const SensorView& v
   });
 }
 
-bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
+bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<Base, Odom>& base_from_odom,
                          Stamp now) const {
-  const Point2<Base> place = odom_from_base.inverse() * old.centre();
+  const Point2<Base> place = base_from_odom * old.centre();
   if (std::hypot(place.x_m, place.y_m) > options_.reach_m) return false;
   old.entered = false;
   if (old.confirmed && holds_returns_within(old)) return true;
@@ -189,7 +189,7 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
       both.top_m = std::max(both.top_m, old.top_m);
       if (old.confirmed) keep_unseen_part(both, old, view, base_from_odom);
       merged_.push_back(both);
-    } else if (keep(old, view, odom_from_base, scan.stamp)) {
+    } else if (keep(old, view, base_from_odom, scan.stamp)) {
       merged_.push_back(old);
     }
   }

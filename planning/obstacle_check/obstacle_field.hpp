@@ -78,7 +78,7 @@ class ObstacleField {
   void keep_unseen_part(Column& fresh, const Column& old, const SensorView& view,
                         const Transform2<Base, Odom>& base_from_odom) const;
   [[nodiscard]] bool has_entered(const Column& column, Stamp now) const;
-  [[nodiscard]] bool keep(Column& old, const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
+  [[nodiscard]] bool keep(Column& old, const SensorView& view, const Transform2<Base, Odom>& base_from_odom,
                           Stamp now) const;
 
   FieldOptions options_;

@@ -204,7 +204,7 @@ TEST(AutonomyCycle, WhatStirsInOnePlaceBesideTheWayDoesNotHoldTheVehicleForEver)
   }
 }
 
-TEST(AutonomyObstacles, WhereSomethingStandsAtTheStopAPersonMayEndItBeforeIt) {
+TEST(AutonomyCycle, WhereSomethingStandsAtTheStopAPersonMayEndItBeforeIt) {
   for (const bool cleared : {false, true}) {
     auto v = corridor_vehicle();
     v->lidar.bodies.push_back({{{10.35, -0.4}, {10.35, 0.4}}, 0.05, 1.2});

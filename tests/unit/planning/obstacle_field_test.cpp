@@ -291,8 +291,8 @@ TEST(ObstacleField, WhatStandsAgainstTheSideIsThereThoughItsReturnsFallWithinThe
 }
 
 TEST(ObstacleField, TheNearSideOfWhatTheLowestBeamBeginsToPassOverStaysWhereItWasSeen) {
-  const SensorView lidar{0.3, 0.0, 1.3, to_rad(-15.0),
-                         to_rad(15.0)};  // sees 1.2 m from 0.37 m on, with slack 0.49
+  // Sees what is 1.2 m high from 0.37 m on, with its slack from 0.49 m.
+  const SensorView lidar{0.3, 0.0, 1.3, to_rad(-15.0), to_rad(15.0)};
   FieldOptions options;
   options.top_m = 1.4;
   const auto box = [](double from_x_m, double to_x_m, double seconds) {
