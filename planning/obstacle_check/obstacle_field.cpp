@@ -108,7 +108,7 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<B
   const bool glimpsed = old.part_of_tall && old.since == old.seen && old.low_m > kGlimpseAboveM;
   // A pallet that has come too near to be seen is still there; of a person the head would be seen.
   // What was never seen to come is none: it stands beside something tall.
-  const bool may_have_left = glimpsed || (old.came && old.under != Stamp{});
+  const bool may_have_left = glimpsed || (old.came && (old.part_of_tall || old.under != Stamp{}));
   return !may_have_left || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
 }
 

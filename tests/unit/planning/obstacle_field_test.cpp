@@ -188,6 +188,29 @@ TEST(ObstacleField, OneGlimpseOfSomethingTallDoesNotHauntTheBlindZone) {
   }
 }
 
+/// The edge of a foot, seen once 4 m away; then he walks off, and the vehicle drives up to where he was.
+TEST(ObstacleField, TheFootOfWhoCameAndLeftDoesNotHauntTheBlindZone) {
+  std::mt19937 random(8);
+  test::ToyLidar lidar;
+  lidar.height_m = 1.2;
+  const SensorView view{0.0, 0.0, 1.2, to_rad(-15.0), to_rad(15.0)};
+  ObstacleField field;
+  double at_s = 0.0;
+  const auto look = [&](double x_m, bool foot) {
+    auto scan = lidar.scan({x_m, 0.0, 0.0}, at(at_s += 0.1), random);
+    if (foot) scan.points.push_back({static_cast<float>(3.9 - x_m), 0.22F, 0.09F, 0.0F, 1, 0});
+    field.update(scan, view, {x_m, 0.0, 0.0});
+  };
+  for (int i = 0; i < 20; ++i) look(0.0, false);
+  lidar.posts.push_back({{4.0, 0.0}, 0.2, 1.75});
+  look(0.0, true);
+  EXPECT_TRUE(
+      std::ranges::any_of(field.columns(), [](const Column& c) { return c.confirmed && c.min_y_m > 0.2F; }));
+  lidar.posts.clear();
+  for (double x_m = 0.1; x_m < 3.0; x_m += 0.1) look(x_m, false);
+  EXPECT_EQ(confirmed(field), 0);
+}
+
 /// A mast of 2.2 m: the lowest beam passes over whatever stands near it.
 class SeenFromAbove : public testing::Test {
  protected:
