@@ -4,6 +4,7 @@
 #include <boost/math/special_functions/bessel.hpp>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "localization/drawing_fit/alignment.hpp"
@@ -35,13 +36,6 @@ MemoryCloud on_drawing(const MemoryCloud& cloud, const DrawingWarp& warp) {
   return carried;
 }
 
-MemoryCloud around(const MemoryCloud& cloud, const Point2<Map>& at, double radius_m) {
-  MemoryCloud near;
-  for (const CloudSurface& s : cloud)
-    if (std::hypot(s.x_m - at.x_m, s.y_m - at.y_m) <= radius_m) near.push_back(s);
-  return near;
-}
-
 /// `at` and its surroundings, and by how much these fit better somewhere beside where they are.
 struct Shift {
   Point2<Map> at;
@@ -49,25 +43,54 @@ struct Shift {
   double nats;  ///< more than where they are
 };
 
-/// The peaks of the likelihood over shifts, highest first.
-std::vector<Shift> peaks(const WallIndex& drawn, const MemoryCloud& around, const Point2<Map>& place) {
-  constexpr int kSteps = static_cast<int>(kWindowM / kStepM);
-  constexpr int kWide = 2 * kSteps + 1;
-  const WallMixture mixture(DrawingModel{}, kBlurM);
-  std::vector<double> nats(kWide * kWide);
-  const auto at = [&](int x, int y) -> double& {
+constexpr int kSteps = static_cast<int>(kWindowM / kStepM);
+constexpr int kWide = 2 * kSteps + 1;
+
+/// What lies around a place, and how well the drawing explains it after each shift.
+struct Room {
+  Room(const Point2<Map>& place, double reach_m) : middle(place), radius_m(reach_m), nats(kWide * kWide) {}
+  [[nodiscard]] bool holds(const CloudSurface& s) const {
+    const double x = s.x_m - middle.x_m, y = s.y_m - middle.y_m;
+    return x * x + y * y <= radius_m * radius_m;
+  }
+  [[nodiscard]] double at(int x, int y) const {
     return nats[static_cast<std::size_t>((y + kSteps) * kWide + x + kSteps)];
-  };
-  for (int y = -kSteps; y <= kSteps; ++y)
-    for (int x = -kSteps; x <= kSteps; ++x)
-      at(x, y) = log_likelihood(drawn, around, {x * kStepM, y * kStepM, 0.0}, mixture);
+  }
+
+  Point2<Map> middle;
+  double radius_m;
+  std::vector<double> nats;  ///< over clutter, row by row of shifts
+  std::size_t surfaces = 0;
+};
+
+/// Each surface is asked once at each shift, for all rooms that hold it.
+void weigh(const WallIndex& drawn, const MemoryCloud& cloud, std::vector<Room>& rooms) {
+  const WallMixture mixture(DrawingModel{}, kBlurM);
+  std::vector<Room*> holders;
+  for (const CloudSurface& surface : cloud) {
+    holders.clear();
+    for (Room& room : rooms)
+      if (room.holds(surface)) holders.push_back(&room);
+    for (Room* room : holders) ++room->surfaces;
+    if (holders.empty()) continue;
+    const MemoryCloud alone{surface};
+    for (int y = -kSteps, k = 0; y <= kSteps; ++y)
+      for (int x = -kSteps; x <= kSteps; ++x, ++k) {
+        const double nats = log_likelihood(drawn, alone, {x * kStepM, y * kStepM, 0.0}, mixture);
+        for (Room* room : holders) room->nats[static_cast<std::size_t>(k)] += nats;
+      }
+  }
+}
+
+/// The peaks of the likelihood over shifts, highest first.
+std::vector<Shift> peaks(const Room& room) {
   std::vector<Shift> found;
   for (int y = -kSteps + 1; y < kSteps; ++y)
     for (int x = -kSteps + 1; x < kSteps; ++x) {
       bool highest = std::hypot(x, y) * kStepM > kOwnM;
       for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i) highest = highest && at(x, y) >= at(x + i, y + j);
-      if (highest) found.push_back({place, x * kStepM, y * kStepM, at(x, y) - at(0, 0)});
+        for (int i = -1; i <= 1; ++i) highest = highest && room.at(x, y) >= room.at(x + i, y + j);
+      if (highest) found.push_back({room.middle, x * kStepM, y * kStepM, room.at(x, y) - room.at(0, 0)});
     }
   std::stable_sort(found.begin(), found.end(),
                    [](const Shift& a, const Shift& b) { return a.nats > b.nats; });
@@ -108,23 +131,27 @@ WarpField expected(WarpField field, double range_m, const Shift& shift) {
   return field;
 }
 
-/// The best shift of every room of the memory that fits better beside where it is, best first, none that
-/// overlaps a better one.
-std::vector<Shift> better_rooms(const WallIndex& drawn, const MemoryCloud& cloud) {
+/// All rooms of the memory: discs that cover it.
+void add_rooms(const MemoryCloud& cloud, std::vector<Room>& rooms) {
   Point2<Map> low{cloud.front().x_m, cloud.front().y_m}, high = low;
   for (const CloudSurface& s : cloud) {
     low = {std::min(low.x_m, s.x_m), std::min(low.y_m, s.y_m)};
     high = {std::max(high.x_m, s.x_m), std::max(high.y_m, s.y_m)};
   }
-  std::vector<Shift> found;
   for (double y = low.y_m; y < high.y_m; y += kRoomM)
-    for (double x = low.x_m; x < high.x_m; x += kRoomM) {
-      const Point2<Map> middle{x + 0.5 * kRoomM, y + 0.5 * kRoomM};
-      const MemoryCloud room = around(cloud, middle, kRoomM);
-      if (room.size() < kFewest) continue;
-      const auto shifts = peaks(drawn, room, middle);
-      if (!shifts.empty() && shifts.front().nats > 0.0) found.push_back(shifts.front());
-    }
+    for (double x = low.x_m; x < high.x_m; x += kRoomM)
+      rooms.emplace_back(Point2<Map>{x + 0.5 * kRoomM, y + 0.5 * kRoomM}, kRoomM);
+}
+
+/// The best shift of every room that fits better beside where it is, best first, none that overlaps a better
+/// one.
+std::vector<Shift> better_rooms(std::span<const Room> rooms) {
+  std::vector<Shift> found;
+  for (const Room& room : rooms) {
+    if (room.surfaces < kFewest) continue;
+    const auto shifts = peaks(room);
+    if (!shifts.empty() && shifts.front().nats > 0.0) found.push_back(shifts.front());
+  }
   std::stable_sort(found.begin(), found.end(),
                    [](const Shift& a, const Shift& b) { return a.nats > b.nats; });
   std::vector<Shift> apart;
@@ -156,8 +183,11 @@ std::vector<DrawingWarp> other_ways(const WallIndex& drawn, const MemoryCloud& c
   if (warp.field().control_m.empty() || cloud.empty()) return ways;
   const MemoryCloud carried = on_drawing(cloud, warp);
   const Point2<Map> here = warp.map(at);
-  add_starts(warp, peaks(drawn, around(carried, here, kAroundM), here), kTriedNear, ways);
-  add_starts(warp, better_rooms(drawn, carried), kTriedRooms, ways);
+  std::vector<Room> rooms{{here, kAroundM}};
+  add_rooms(carried, rooms);
+  weigh(drawn, carried, rooms);
+  add_starts(warp, peaks(rooms.front()), kTriedNear, ways);
+  add_starts(warp, better_rooms(std::span(rooms).subspan(1)), kTriedRooms, ways);
   return ways;
 }
 

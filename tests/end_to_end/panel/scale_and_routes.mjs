@@ -102,6 +102,14 @@ async function drawAndExport(panel, site) {
   expect(JSON.stringify(route.nodes ?? route.ids ?? route.route) === JSON.stringify(rows.slice(-3).map((row) => row[0])), `madori route reads another way: ${JSON.stringify(route).slice(0, 200)}`);
 }
 
+/** The checks' findings come some time after the points, and what stands below them moves down. */
+async function standsStill(panel, target) {
+  for (let before = null, now = ""; now !== before; await panel.page.waitForTimeout(700)) {
+    before = now;
+    now = JSON.stringify(await target.boundingBox());
+  }
+}
+
 /** Two files in, and out again byte for byte. */
 async function importAndExport(panel, folder, tree, path, points) {
   writeFileSync(join(folder, "tree.csv"), tree);
@@ -111,6 +119,7 @@ async function importAndExport(panel, folder, tree, path, points) {
   await touch(panel, "Import CSV");
   await (await chooser).setFiles([join(folder, "tree.csv"), join(folder, "path.csv")]);
   await panel.page.getByText(`${points} points`).waitFor();
+  await standsStill(panel, panel.page.getByRole("link", { name: "tree.csv" }));
   for (const [name, text] of [["tree.csv", tree], ["path.csv", path]]) {
     const download = panel.page.waitForEvent("download");
     await touch(panel, name, { role: "link" });
