@@ -70,8 +70,7 @@ void weigh(const WallIndex& drawn, const MemoryCloud& cloud, std::vector<Room>& 
   for (const CloudSurface& surface : cloud) {
     holders.clear();
     for (Room& room : rooms)
-      if (room.holds(surface)) holders.push_back(&room);
-    for (Room* room : holders) ++room->surfaces;
+      if (room.holds(surface)) holders.push_back(&room), ++room.surfaces;
     if (holders.empty()) continue;
     const MemoryCloud alone{surface};
     for (int y = -kSteps, k = 0; y <= kSteps; ++y)

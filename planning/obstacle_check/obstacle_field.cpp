@@ -59,7 +59,7 @@ void ObstacleField::take_within(const std::vector<Point2<Base>>& within,
                                 const Transform2<Odom, Base>& odom_from_base, Stamp now) {
   double reach_m = 0.0;
   for (const auto& p : within) reach_m = std::max(reach_m, std::hypot(p.x_m, p.y_m));
-  within_.begin(odom_from_base.translation(), reach_m, options_.cell_m, now);
+  within_.begin(odom_from_base.translation(), std::min(reach_m, options_.reach_m), options_.cell_m, now);
   for (const auto& p : within) within_.add(odom_from_base * p, 0.0);
 }
 
