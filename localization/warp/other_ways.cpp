@@ -66,6 +66,9 @@ struct Room {
 /// Each surface is asked once at each shift, for all rooms that hold it.
 void weigh(const WallIndex& drawn, const MemoryCloud& cloud, std::vector<Room>& rooms) {
   const WallMixture mixture(DrawingModel{}, kBlurM);
+  std::vector<Transform2<Map, Map>> shifts;
+  for (int y = -kSteps; y <= kSteps; ++y)
+    for (int x = -kSteps; x <= kSteps; ++x) shifts.emplace_back(x * kStepM, y * kStepM, 0.0);
   std::vector<Room*> holders;
   for (const CloudSurface& surface : cloud) {
     holders.clear();
@@ -73,11 +76,10 @@ void weigh(const WallIndex& drawn, const MemoryCloud& cloud, std::vector<Room>& 
       if (room.holds(surface)) holders.push_back(&room), ++room.surfaces;
     if (holders.empty()) continue;
     const MemoryCloud alone{surface};
-    for (int y = -kSteps, k = 0; y <= kSteps; ++y)
-      for (int x = -kSteps; x <= kSteps; ++x, ++k) {
-        const double nats = log_likelihood(drawn, alone, {x * kStepM, y * kStepM, 0.0}, mixture);
-        for (Room* room : holders) room->nats[static_cast<std::size_t>(k)] += nats;
-      }
+    for (std::size_t k = 0; k < shifts.size(); ++k) {
+      const double nats = log_likelihood(drawn, alone, shifts[k], mixture);
+      for (Room* room : holders) room->nats[k] += nats;
+    }
   }
 }
 

@@ -108,8 +108,8 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<B
   if (is_under_something(old, view)) old.under = now;
   // One glimpse of something tall is the edge of what went by: what stands there is seen again and again.
   const bool glimpsed = old.part_of_tall && old.since == old.seen && old.low_m > kGlimpseAboveM;
-  // A pallet that has come too near to be seen is still there; of a person the head would be seen.
-  // What was never seen to come is none: it stands beside something tall.
+  // A pallet that has come too near to be seen is still there; of a person the head would be seen. What came
+  // as part of something tall, or below it, goes with it; what never was seen to come stood there before.
   const bool may_have_left = glimpsed || (old.came && (old.part_of_tall || old.under != Stamp{}));
   return !may_have_left || to_seconds(now - std::max(old.seen, old.under)) <= options_.foot_memory_s;
 }
