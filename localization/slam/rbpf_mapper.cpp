@@ -102,12 +102,12 @@ PoseEstimate RbpfMapper::on_odometry(const OdometryReading& reading) {
 void RbpfMapper::follow(const SurfaceScan& scan, const OdometryStep& step) {
   const LocalizerOptions& front = options_.front;
   const double enough = std::min(front.sure_inliers, front.known_share * usual_inliers_);
-  const MatchResult recent = match_scan(scan, anchor_, step, enough, front_, front).recent;
-  usual_inliers_ += 0.05 * (recent.inlier_share - usual_inliers_);
-  Transform2<Base, Base> motion = step.motion;
-  is_lost_ = recent.inlier_share <= front.lost_inliers;
-  if (is_lost_) {
-    since_keyframe_.add_unmatched(step.motion, recent.inlier_share);
+  const auto [place, recent] = match_scan(scan, anchor_, step, enough, front_, front);
+  usual_inliers_ += 0.05 * (place.inlier_share - usual_inliers_);
+  is_lost_ = place.inlier_share <= front.lost_inliers;
+  Transform2<Base, Base> motion = is_lost_ ? step.motion : anchor_.inverse() * place.map_from_base;
+  if (recent.inlier_share <= front.lost_inliers) {
+    since_keyframe_.add_unmatched(motion, recent.inlier_share);
   } else {
     motion = anchor_.inverse() * recent.map_from_base;
     since_keyframe_.add_matched(motion, recent.information, recent.inlier_share);
