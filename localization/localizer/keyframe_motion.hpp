@@ -24,6 +24,8 @@ class KeyframeMotion {
 
   /// Driven, metres.
   [[nodiscard]] double path_m() const { return wheels_.path_m; }
+  /// By the wheels alone.
+  [[nodiscard]] const OdometryStep& wheels() const { return wheels_; }
   /// In the axes of the keyframe that it started from.
   [[nodiscard]] MeasuredMotion measured(const Transform2<Map, Base>& map_from_keyframe) const;
 

@@ -24,21 +24,38 @@ double off_surface(const SurfacePoint& p, const SurfaceGrid::Surface& s) {
   return s.normal_x * (p.x_m - s.x_m) + s.normal_y * (p.y_m - s.y_m);
 }
 
+constexpr double kFreedom = 4.0;
+constexpr std::size_t kAsked = 100;
+
 }  // namespace
 
-GridMatch match_to_grid(const SurfaceScan& scan, const SurfaceGrid& map, const PosePrior& prior) {
+Eigen::Vector3d PosePrior::off(const Transform2<Map, Base>& pose) const {
+  return {pose.x_m() - map_from_base.x_m(), pose.y_m() - map_from_base.y_m(),
+          wrap_angle(pose.yaw_rad() - map_from_base.yaw_rad())};
+}
+
+double PosePrior::log_density(const Transform2<Map, Base>& pose) const {
+  const Eigen::Vector3d e = off(pose);
+  return -0.5 * (kFreedom + 3.0) * std::log1p(e.dot(information * e) / kFreedom);
+}
+
+double PosePrior::weight(const Transform2<Map, Base>& pose) const {
+  const Eigen::Vector3d e = off(pose);
+  return (kFreedom + 3.0) / (kFreedom + e.dot(information * e));
+}
+
+GridMatch match_to_grid(const SurfaceScan& scan, const SurfaceGrid& map, const Transform2<Map, Base>& start,
+                        const PosePrior& prior) {
   GridMatch match;
-  match.map_from_base = prior.map_from_base;
+  match.map_from_base = start;
   constexpr int kIterations = 8;
   for (int i = 0; i < kIterations; ++i) {
     const double shrink = std::max(0.0, 1.0 - i / 4.0);
     const int reach = i < 3 ? 3 : 2;
     const double kernel_m = 0.08 + 0.2 * shrink;
-    Eigen::Matrix3d hessian = prior.information;
     const Transform2<Map, Base> pose = match.map_from_base;
-    const Eigen::Vector3d off(pose.x_m() - prior.map_from_base.x_m(), pose.y_m() - prior.map_from_base.y_m(),
-                              wrap_angle(pose.yaw_rad() - prior.map_from_base.yaw_rad()));
-    Eigen::Vector3d gradient = prior.information * off;
+    Eigen::Matrix3d hessian = prior.weight(pose) * prior.information;
+    Eigen::Vector3d gradient = hessian * prior.off(pose);
     int known = 0, inliers = 0;
     for (const SurfacePoint& p : scan.points) {
       const SurfacePoint q = moved(pose, p);
@@ -69,8 +86,10 @@ double log_likelihood(const SurfaceScan& scan, const SurfaceGrid& map, const Tra
                       double beams) {
   if (scan.points.empty()) return 0.0;
   double sum = 0.0;
-  for (const SurfacePoint& p : scan.points) {
-    const SurfacePoint q = moved(pose, p);
+  const std::size_t every = (scan.points.size() + kAsked - 1) / kAsked;
+  std::size_t asked = 0;
+  for (std::size_t i = 0; i < scan.points.size(); i += every, ++asked) {
+    const SurfacePoint q = moved(pose, scan.points[i]);
     SurfaceGrid::Surface s;
     double likely = 0.0;
     if (map.nearest(q, 1, s)) {
@@ -81,7 +100,7 @@ double log_likelihood(const SurfaceScan& scan, const SurfaceGrid& map, const Tra
     }
     sum += std::log(likely);
   }
-  return sum * std::min(1.0, beams / static_cast<double>(scan.points.size()));
+  return sum * std::min(1.0, beams / static_cast<double>(asked));
 }
 
 }  // namespace madori::localization

@@ -6,10 +6,17 @@
 
 namespace madori::localization {
 
-/// A motion's word on a pose: mean, and information of (x, y, yaw) in Map axes.
+/// The wheels' word on a pose: mean, and information of (x, y, yaw) in Map axes. Student's t with four degrees
+/// of freedom: wheels that slip, and logs whose clocks leap, are far off more often than a Gaussian has it.
 struct PosePrior {
   Transform2<Map, Base> map_from_base;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+
+  [[nodiscard]] Eigen::Vector3d off(const Transform2<Map, Base>& pose) const;
+  /// Logarithm of its density, without the constant.
+  [[nodiscard]] double log_density(const Transform2<Map, Base>& pose) const;
+  /// By how much it pulls less than the Gaussian does.
+  [[nodiscard]] double weight(const Transform2<Map, Base>& pose) const;
 };
 
 struct GridMatch {
@@ -19,12 +26,13 @@ struct GridMatch {
   double inlier_share = 0.0;  ///< of the points, those on a surface, within 0.1 m
 };
 
-/// Gauss-Newton on the distances to the surfaces, robust (Geman-McClure), leaning on the prior.
+/// Gauss-Newton on the distances to the surfaces from `start` on, robust (Geman-McClure), leaning on the
+/// prior.
 [[nodiscard]] GridMatch match_to_grid(const SurfaceScan& scan, const SurfaceGrid& map,
-                                      const PosePrior& prior);
+                                      const Transform2<Map, Base>& start, const PosePrior& prior);
 
 /// Logarithm of the likelihood of a scan at a pose: p(z | m, x). Neighbouring beams share their errors: all
-/// points together count as `beams` that are independent.
+/// points together count as `beams` that are independent, and at most a hundred of them are asked.
 [[nodiscard]] double log_likelihood(const SurfaceScan& scan, const SurfaceGrid& map,
                                     const Transform2<Map, Base>& pose, double beams);
 

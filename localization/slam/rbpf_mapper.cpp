@@ -21,16 +21,6 @@ Eigen::Vector3d difference(const Pose& a, const Pose& b) {
   return {a.x_m() - b.x_m(), a.y_m() - b.y_m(), wrap_angle(a.yaw_rad() - b.yaw_rad())};
 }
 
-/// Of the motion between keyframes, axes of the one it starts from.
-Eigen::Matrix3d covariance_of(const MeasuredMotion& motion, double path_m, const RbpfOptions& options) {
-  const double metres = std::min(std::max(path_m, 0.1), 10.0);
-  const Eigen::Vector3d grown(options.motion_m * options.motion_m * metres,
-                              options.motion_m * options.motion_m * metres,
-                              options.motion_rad * options.motion_rad * metres);
-  return (motion.information + 1e-3 * Eigen::Matrix3d::Identity()).inverse() +
-         Eigen::Matrix3d(grown.asDiagonal());
-}
-
 MotionStep step_of(const Transform2<Base, Base>& motion, const Eigen::Matrix3d& covariance,
                    std::mt19937& engine) {
   const Eigen::Matrix3d l = covariance.llt().matrixL();
@@ -125,46 +115,64 @@ Pose RbpfMapper::sampled(const Eigen::Vector3d& mean, const Eigen::Matrix3d& cov
   return {x[0], x[1], x[2]};
 }
 
-/// One particle: laid on its own map, else drawn from the motion; the K poses around the best one give where
-/// it goes and what it weighs.
-void RbpfMapper::extend(Particle& particle, const SurfaceScan& scan, const PosePrior& prior,
-                        const Pose& drawn) {
-  const GridMatch match = match_to_grid(scan, particle.map, prior);
-  Pose pose = drawn;
-  double log_eta = 0.0;
-  if (match.inlier_share < options_.least_inliers) {
-    log_eta = log_likelihood(scan, particle.map, drawn, options_.beams);
-  } else {
-    std::array<double, 27> log_tau{};
-    std::array<Eigen::Vector3d, 27> offs;
-    std::size_t n = 0;
-    for (const int dx : {0, -1, 1}) {
-      for (const int dy : {0, -1, 1}) {
-        for (const int da : {0, -1, 1}) {
-          const Pose at(match.map_from_base.x_m() + dx * options_.sample_m,
-                        match.map_from_base.y_m() + dy * options_.sample_m,
-                        match.map_from_base.yaw_rad() + da * options_.sample_rad);
-          const Eigen::Vector3d e = difference(at, prior.map_from_base);
-          offs[n] = difference(at, match.map_from_base);
-          log_tau[n++] =
-              log_likelihood(scan, particle.map, at, options_.beams) - 0.5 * e.dot(prior.information * e);
-        }
+/// Where K poses around a match lie in the mean, weighed by scan and wheels, how far they spread, and what
+/// they are worth together.
+RbpfMapper::Proposal RbpfMapper::around(const GridMatch& match, const SurfaceScan& scan,
+                                        const SurfaceGrid& map, const PosePrior& prior) const {
+  const Pose& m = match.map_from_base;
+  std::array<double, 27> log_tau{};
+  std::array<Eigen::Vector3d, 27> offs;
+  std::size_t n = 0;
+  for (const int dx : {-1, 0, 1}) {
+    for (const int dy : {-1, 0, 1}) {
+      for (const int da : {-1, 0, 1}) {
+        offs[n] = {dx * options_.sample_m, dy * options_.sample_m, da * options_.sample_rad};
+        const Pose at(m.x_m() + offs[n][0], m.y_m() + offs[n][1], m.yaw_rad() + offs[n][2]);
+        log_tau[n++] = log_likelihood(scan, map, at, options_.beams) + prior.log_density(at);
       }
     }
-    const double most = *std::max_element(log_tau.begin(), log_tau.end());
-    double eta = 0.0;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < n; ++i) eta += std::exp(log_tau[i] - most);
-    for (std::size_t i = 0; i < n; ++i) mean += std::exp(log_tau[i] - most) / eta * offs[i];
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (std::size_t i = 0; i < n; ++i)
-      covariance += std::exp(log_tau[i] - most) / eta * (offs[i] - mean) * (offs[i] - mean).transpose();
-    // No wider than what scan and motion know together: the steps between the K poses are coarser than that.
-    const Eigen::Matrix3d known = match.information.inverse();
-    if (known.trace() < covariance.trace()) covariance = known;
-    const Pose& m = match.map_from_base;
-    pose = sampled(Eigen::Vector3d(m.x_m(), m.y_m(), m.yaw_rad()) + mean, covariance);
-    log_eta = most + std::log(eta / 27.0);
+  }
+  const double most = *std::max_element(log_tau.begin(), log_tau.end());
+  double eta = 0.0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < n; ++i) eta += std::exp(log_tau[i] - most);
+  for (std::size_t i = 0; i < n; ++i) mean += std::exp(log_tau[i] - most) / eta * offs[i];
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < n; ++i)
+    covariance += std::exp(log_tau[i] - most) / eta * (offs[i] - mean) * (offs[i] - mean).transpose();
+  // No wider than what scan and motion know together: the steps between the K poses are coarser than that.
+  const Eigen::Matrix3d known = match.information.inverse();
+  if (known.trace() < covariance.trace()) covariance = known;
+  return {Eigen::Vector3d(m.x_m(), m.y_m(), m.yaw_rad()) + mean, covariance,
+          most + std::log(eta / static_cast<double>(n))};
+}
+
+/// One particle: laid on its own map, from where the scans and from where the wheels put it; where these end
+/// apart, one is drawn by what it is worth. Where neither lies on the map, the motion is drawn.
+void RbpfMapper::extend(Particle& particle, const SurfaceScan& scan, const Pose& by_scans,
+                        const PosePrior& prior, const Pose& drawn) {
+  constexpr double kSame = 0.05;  // metres and radians
+  std::vector<Proposal> proposals;
+  GridMatch first;
+  for (const Pose& start : {by_scans, prior.map_from_base}) {
+    const GridMatch match = match_to_grid(scan, particle.map, start, prior);
+    if (match.inlier_share < options_.least_inliers) continue;
+    if (!proposals.empty() && difference(match.map_from_base, first.map_from_base).norm() < kSame) continue;
+    first = match;
+    proposals.push_back(around(match, scan, particle.map, prior));
+  }
+  Pose pose = drawn;
+  double log_eta = 0.0;
+  if (proposals.empty()) {
+    log_eta = log_likelihood(scan, particle.map, drawn, options_.beams);
+  } else {
+    std::vector<double> worth;
+    for (const Proposal& p : proposals) worth.push_back(std::exp(p.log_eta - proposals.front().log_eta));
+    const Proposal& chosen =
+        proposals[std::discrete_distribution<std::size_t>(worth.begin(), worth.end())(engine_)];
+    pose = sampled(chosen.mean, chosen.covariance);
+    for (const double w : worth) log_eta += w;
+    log_eta = std::log(log_eta) + proposals.front().log_eta;
   }
   particle.log_weight += log_eta;
   particle.log_sum += log_eta;
@@ -172,8 +180,9 @@ void RbpfMapper::extend(Particle& particle, const SurfaceScan& scan, const PoseP
   particle.map.add(scan, pose);
 }
 
-void RbpfMapper::propose(const SurfaceScan& scan, const MeasuredMotion& motion, double path_m) {
-  const Eigen::Matrix3d covariance = covariance_of(motion, path_m, options_);
+void RbpfMapper::propose(const SurfaceScan& scan, const MeasuredMotion& motion) {
+  const OdometryStep& wheels = since_keyframe_.wheels();
+  const Eigen::Matrix3d covariance = with_floor(wheels.covariance);
   Particles drawn;
   drawn.origin = particles_.front().way->map_from_base.translation();
   for (const Particle& p : particles_) drawn.add(p.way->map_from_base);
@@ -181,8 +190,8 @@ void RbpfMapper::propose(const SurfaceScan& scan, const MeasuredMotion& motion, 
                  drawn.yaw_rad.data(), drawn.size());
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Pose& before = particles_[i].way->map_from_base;
-    const PosePrior prior{before * motion.motion, in_map_axes(covariance, before.yaw_rad()).inverse()};
-    extend(particles_[i], scan, prior, drawn.pose(i));
+    const PosePrior prior{before * wheels.motion, in_map_axes(covariance, before.yaw_rad()).inverse()};
+    extend(particles_[i], scan, before * motion.motion, prior, drawn.pose(i));
   }
 }
 
@@ -211,7 +220,7 @@ void RbpfMapper::remember(const SurfaceScan& scan) {
       p.map.add(scan, anchor_);
     }
   } else {
-    propose(scan, motion, path_m);
+    propose(scan, motion);
     resample_where_needed();
   }
   memory.add(scan, path_m, anchor_, motion);

@@ -22,18 +22,17 @@ struct RbpfOptions {
   double beams = 12.0;          ///< independent ones, that a scan is worth
   double sample_m = 0.03;       ///< K = 27 poses around the best one, so far apart,
   double sample_rad = 0.01;     ///< are weighed
-  double least_inliers = 0.3;  ///< of a scan, that must lie on a particle's own map: else the motion is drawn
-  double motion_m = 0.02;      ///< error of a keyframe's motion beside its own word, a root-metre
-  double motion_rad = 0.006;
+  double least_inliers = 0.3;    ///< of a scan, that must lie on a particle's own map: else the motion is drawn
   std::uint32_t seed = 1;
 };
 
 /// Rao-Blackwellized mapping (Grisetti, Stachniss, Burgard, Improved Techniques for Grid Mapping with
 /// Rao-Blackwellized Particle Filters, 2007; Eq. 3.6 and on of the lifelong localization thesis, with the
-/// weight that is missing there): every particle is a way with a map of its own. At each keyframe the motion
-/// is laid on the particle's own map; K poses around the best one give the proposal's mean, covariance and
-/// weight: w <- w sum_j p(z | m, x_j) p(x_j | x', u). Resampled when the weights are worth half of the
-/// particles. Maps share what was the same when a particle was copied.
+/// weight that is missing there): every particle is a way with a map of its own. At each keyframe the scan is
+/// laid on the particle's own map, from where the keyframes driven last put it and from where the wheels do; K
+/// poses around the better one give the proposal's mean, covariance and weight: w <- w sum_j p(z | m, x_j)
+/// p(x_j | x', u), u being the wheels. Resampled when the weights are worth half of the particles. Maps share
+/// what was the same when a particle was copied.
 class RbpfMapper final : public Mapper {
  public:
   explicit RbpfMapper(const RbpfOptions& options = {});
@@ -59,12 +58,21 @@ class RbpfMapper final : public Mapper {
     double log_sum = 0.0;     ///< of all the way
   };
 
+  /// Where a particle may go, and the logarithm of what that explains.
+  struct Proposal {
+    Eigen::Vector3d mean;
+    Eigen::Matrix3d covariance;
+    double log_eta;
+  };
+
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
+  [[nodiscard]] Proposal around(const GridMatch& match, const SurfaceScan& scan, const SurfaceGrid& map,
+                                const PosePrior& prior) const;
   void follow(const SurfaceScan& scan, const OdometryStep& step);
   void remember(const SurfaceScan& scan);
-  void propose(const SurfaceScan& scan, const MeasuredMotion& motion, double path_m);
-  void extend(Particle& particle, const SurfaceScan& scan, const PosePrior& prior,
-              const Transform2<Map, Base>& drawn);
+  void propose(const SurfaceScan& scan, const MeasuredMotion& motion);
+  void extend(Particle& particle, const SurfaceScan& scan, const Transform2<Map, Base>& by_scans,
+              const PosePrior& prior, const Transform2<Map, Base>& drawn);
   void resample_where_needed();
   [[nodiscard]] Transform2<Map, Base> sampled(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance);
   [[nodiscard]] std::vector<double> weights() const;

@@ -19,40 +19,51 @@ std::uint64_t tile_key(int tx, int ty) {
   return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(tx)) << 32U) | static_cast<std::uint32_t>(ty);
 }
 
+constexpr std::size_t cell_in_tile(int ix, int iy) {
+  constexpr int kMask = (1 << SurfaceGrid::kTileBits) - 1;
+  return static_cast<std::size_t>(((iy & kMask) << SurfaceGrid::kTileBits) + (ix & kMask));
+}
+
 void count(std::uint16_t& n) {
   if (n < std::numeric_limits<std::uint16_t>::max()) ++n;
 }
 
 }  // namespace
 
-const SurfaceGrid::Cell* SurfaceGrid::look(int ix, int iy) const {
-  const auto tile = tiles_.find(tile_key(ix >> kTileBits, iy >> kTileBits));
-  if (tile == tiles_.end()) return nullptr;
-  constexpr int kMask = kTileSide - 1;
-  return &(*tile->second)[static_cast<std::size_t>((iy & kMask) * kTileSide + (ix & kMask))];
+const SurfaceGrid::Cell* SurfaceGrid::look(int ix, int iy, Cursor& cursor) const {
+  const std::uint64_t key = tile_key(ix >> kTileBits, iy >> kTileBits);
+  if (key != cursor.key) {
+    const auto tile = tiles_.find(key);
+    cursor = {key, tile == tiles_.end() ? nullptr : tile->second.get()};
+  }
+  return cursor.tile == nullptr ? nullptr : &(*cursor.tile)[cell_in_tile(ix, iy)];
 }
 
 /// Copy on write: a tile that another map holds, too, is copied before it changes.
-SurfaceGrid::Cell& SurfaceGrid::touch(int ix, int iy) {
-  auto& tile = tiles_[tile_key(ix >> kTileBits, iy >> kTileBits)];
-  if (!tile) {
-    tile = std::make_shared<Tile>();
-  } else if (tile.use_count() > 1) {
-    tile = std::make_shared<Tile>(*tile);
+SurfaceGrid::Cell& SurfaceGrid::touch(int ix, int iy, Cursor& cursor) {
+  const std::uint64_t key = tile_key(ix >> kTileBits, iy >> kTileBits);
+  if (key != cursor.key) {
+    auto& tile = tiles_[key];
+    if (!tile) {
+      tile = std::make_shared<Tile>();
+    } else if (tile.use_count() > 1) {
+      tile = std::make_shared<Tile>(*tile);
+    }
+    cursor = {key, tile.get()};
   }
-  constexpr int kMask = kTileSide - 1;
-  return (*tile)[static_cast<std::size_t>((iy & kMask) * kTileSide + (ix & kMask))];
+  return (*cursor.tile)[cell_in_tile(ix, iy)];
 }
 
 void SurfaceGrid::add(const SurfaceScan& scan, const Transform2<Map, Base>& pose) {
   const Point2<Map> eye = pose * scan.sensor;
+  Cursor at_point, on_ray;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const SurfacePoint& p = scan.points[i];
     const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
     const double nx = pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y;
     const double ny = pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y;
     const int ix = cell_of(q.x_m), iy = cell_of(q.y_m);
-    Cell& cell = touch(ix, iy);
+    Cell& cell = touch(ix, iy, at_point);
     if (cell.normal_x * nx + cell.normal_y * ny >= 0.0) {  // a thin wall's other face is another surface
       cell.sum_x += static_cast<float>(q.x_m - ix * kCellM);
       cell.sum_y += static_cast<float>(q.y_m - iy * kCellM);
@@ -65,7 +76,8 @@ void SurfaceGrid::add(const SurfaceScan& scan, const Transform2<Map, Base>& pose
     const int steps = static_cast<int>(length / kCellM) - 1;
     for (int s = 1; s < steps; ++s) {
       const double t = s * kCellM / length;
-      count(touch(cell_of(eye.x_m + t * (q.x_m - eye.x_m)), cell_of(eye.y_m + t * (q.y_m - eye.y_m))).passes);
+      count(touch(cell_of(eye.x_m + t * (q.x_m - eye.x_m)), cell_of(eye.y_m + t * (q.y_m - eye.y_m)), on_ray)
+                .passes);
     }
   }
 }
@@ -74,9 +86,10 @@ bool SurfaceGrid::nearest(const SurfacePoint& p, int reach, Surface& found) cons
   const int cx = cell_of(p.x_m), cy = cell_of(p.y_m);
   const bool directed = p.has_normal();
   double best = std::numeric_limits<double>::max();
+  Cursor cursor;
   for (int iy = cy - reach; iy <= cy + reach; ++iy) {
     for (int ix = cx - reach; ix <= cx + reach; ++ix) {
-      const Cell* cell = look(ix, iy);
+      const Cell* cell = look(ix, iy, cursor);
       if (cell == nullptr || cell->hits == 0) continue;
       if (cell->hits < kLeastHits * (cell->hits + cell->passes)) continue;
       const double x = ix * kCellM + cell->sum_x / cell->hits, y = iy * kCellM + cell->sum_y / cell->hits;
@@ -94,7 +107,8 @@ bool SurfaceGrid::nearest(const SurfacePoint& p, int reach, Surface& found) cons
 }
 
 SurfaceGrid::Content SurfaceGrid::content(double x_m, double y_m) const {
-  const Cell* cell = look(cell_of(x_m), cell_of(y_m));
+  Cursor cursor;
+  const Cell* cell = look(cell_of(x_m), cell_of(y_m), cursor);
   if (cell == nullptr || cell->hits + cell->passes == 0) return Content::Unknown;
   return cell->hits >= kLeastHits * (cell->hits + cell->passes) ? Content::Occupied : Content::Free;
 }

@@ -18,6 +18,7 @@ namespace madori::localization {
 class SurfaceGrid {
  public:
   static constexpr double kCellM = 0.1;
+  static constexpr int kTileBits = 5;
 
   /// A cell's surface. Map frame, metres; the normal has unit length and looks at who saw it.
   struct Surface {
@@ -39,7 +40,6 @@ class SurfaceGrid {
   [[nodiscard]] std::size_t tiles() const { return tiles_.size(); }
 
  private:
-  static constexpr int kTileBits = 5;
   static constexpr int kTileSide = 1 << kTileBits;
   struct Cell {
     float sum_x = 0.0F;  ///< of the points, from the tile's corner
@@ -51,8 +51,13 @@ class SurfaceGrid {
   };
   using Tile = std::array<Cell, static_cast<std::size_t>(kTileSide) * kTileSide>;
 
-  [[nodiscard]] const Cell* look(int ix, int iy) const;
-  Cell& touch(int ix, int iy);
+  /// The tile looked at last: neighbours mostly lie in it.
+  struct Cursor {
+    std::uint64_t key = 0x8000'0000'8000'0000ULL;  // no tile's
+    Tile* tile = nullptr;
+  };
+  [[nodiscard]] const Cell* look(int ix, int iy, Cursor& cursor) const;
+  Cell& touch(int ix, int iy, Cursor& cursor);
 
   std::unordered_map<std::uint64_t, std::shared_ptr<Tile>> tiles_;
 };

@@ -63,10 +63,25 @@ void ObstacleField::take_within(const std::vector<Point2<Base>>& within,
   for (const auto& p : within) within_.add(odom_from_base * p, 0.0);
 }
 
-/// Columns are cut at the vehicle's height: what is part of something tall would have shown higher up, too.
-bool ObstacleField::has_entered(const Column& column, Stamp now) const {
+/// Whether something that is seen up to the vehicle's height may go on above it: it does, or that is not in
+/// view. A load that ends below is seen to end. A vehicle higher than a person cuts nobody, and a head near the
+/// rim of what its mast sees is hit by few lasers: there all count as persons.
+bool ObstacleField::may_reach_up(const Column& column, const SensorView& view,
+                                 const Transform2<Base, Odom>& base_from_odom) const {
+  if (options_.top_m >= options_.body_top_m) return true;
+  const Point2<Base> place = base_from_odom * column.centre();
+  if (std::hypot(place.x_m - view.x_m, place.y_m - view.y_m) >= options_.body_reach_m) return true;
+  if (!view.sees(place, options_.top_m, options_.body_top_m)) return true;
+  return holds_beside(high_, column, [](const Column&) { return true; });
+}
+
+/// Columns are cut at the vehicle's height: what is part of something that goes on above it would have shown
+/// there, too. What ends below it may just have come above the lowest beam.
+bool ObstacleField::has_entered(const Column& column, const SensorView& view,
+                                const Transform2<Base, Odom>& base_from_odom, Stamp now) const {
   if (to_seconds(now - column.since) > options_.sight.memory_s) return false;
-  const double top_m = column.part_of_tall ? options_.body_top_m : static_cast<double>(column.high_m);
+  const bool is_cut = column.part_of_tall && may_reach_up(column, view, base_from_odom);
+  const double top_m = is_cut ? options_.body_top_m : static_cast<double>(column.high_m);
   return sights_.was_empty(column.centre(), options_.cell_m, static_cast<double>(column.low_m), top_m, now);
 }
 
@@ -78,7 +93,7 @@ void ObstacleField::assume_feet(const SensorView& view, const Transform2<Odom, B
   for (Column column : high_.columns()) {
     if (!column.confirmed || low_.find(column.cell_x, column.cell_y) != nullptr) continue;
     if (view.sees(base_from_odom * column.centre(), options_.ground_clearance_m, options_.top_m)) continue;
-    if (!has_entered(column, now)) continue;
+    if (!has_entered(column, view, base_from_odom, now)) continue;
     column.low_m = static_cast<float>(options_.ground_clearance_m);
     column.high_m = column.top_m = static_cast<float>(options_.top_m);
     column.part_of_tall = true;
@@ -198,7 +213,7 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
   merged_.insert(merged_.end(), fresh, seen_.end());
   for (Column& column : merged_) {
     if (column.seen != scan.stamp) continue;
-    column.entered = has_entered(column, scan.stamp);
+    column.entered = has_entered(column, view, base_from_odom, scan.stamp);
     column.came = column.came || column.entered;
     if (is_under_something(column, view)) column.under = scan.stamp;
   }

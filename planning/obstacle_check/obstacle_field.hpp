@@ -77,7 +77,10 @@ class ObstacleField {
   [[nodiscard]] bool is_known(const Point2<Odom>& place) const;
   void keep_unseen_part(Column& fresh, const Column& old, const SensorView& view,
                         const Transform2<Base, Odom>& base_from_odom) const;
-  [[nodiscard]] bool has_entered(const Column& column, Stamp now) const;
+  [[nodiscard]] bool may_reach_up(const Column& column, const SensorView& view,
+                                  const Transform2<Base, Odom>& base_from_odom) const;
+  [[nodiscard]] bool has_entered(const Column& column, const SensorView& view,
+                                 const Transform2<Base, Odom>& base_from_odom, Stamp now) const;
   [[nodiscard]] bool keep(Column& old, const SensorView& view, const Transform2<Base, Odom>& base_from_odom,
                           Stamp now) const;
 

@@ -167,8 +167,9 @@ void Witness::trace(const app::CycleOutput& output, const app::CycleState& state
   for (const auto& c : state.obstacles.columns()) {
     const auto p = base_from_odom * c.centre();
     if (std::hypot(p.x_m - 0.3, p.y_m) < kNearM)
-      std::printf(" (%.2f, %.2f: %.1f-%.1f%s)", p.x_m, p.y_m, static_cast<double>(c.low_m),
-                  static_cast<double>(c.high_m),
+      std::printf(" (%.2f, %.2f: %.2f-%.2f, %.1f s%s%s%s%s)", p.x_m, p.y_m, static_cast<double>(c.low_m),
+                  static_cast<double>(c.high_m), to_seconds(factory_.now() - c.seen), c.came ? " came" : "",
+                  c.part_of_tall ? " tall" : "", c.under != Stamp{} ? " under" : "",
                   !c.confirmed          ? " unsure"
                   : c.has_hidden_part() ? " and on"
                                         : "");

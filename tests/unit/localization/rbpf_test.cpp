@@ -63,7 +63,7 @@ TEST(GridMatch, FindsThePoseAndLikesItBest) {
   const Pose truth(6.5, 1.25, 0.1);
   const SurfaceScan scan = scan_at(walls, truth, engine);
   const Eigen::Matrix3d loose = Eigen::Vector3d(25.0, 25.0, 100.0).asDiagonal();
-  const GridMatch match = match_to_grid(scan, map, {Pose(6.6, 1.17, 0.06), loose});
+  const GridMatch match = match_to_grid(scan, map, {6.6, 1.17, 0.06}, {Pose(6.6, 1.17, 0.06), loose});
   EXPECT_LT(distance_m(match.map_from_base.translation(), truth.translation()), 0.02);
   EXPECT_NEAR(match.map_from_base.yaw_rad(), truth.yaw_rad(), 0.005);
   EXPECT_GT(match.inlier_share, 0.7);

@@ -211,6 +211,26 @@ TEST(ObstacleField, TheFootOfWhoCameAndLeftDoesNotHauntTheBlindZone) {
   EXPECT_EQ(confirmed(field), 0);
 }
 
+/// The top of a load comes above the lowest beam and goes below it again while the vehicle drives past.
+TEST(ObstacleField, ALoadThatTheVehicleDrivesPastDoesNotMove) {
+  std::mt19937 random(9);
+  test::ToyLidar lidar;
+  lidar.height_m = 1.2;
+  lidar.noise_m = 0.03;
+  lidar.bodies.push_back({{{3.0, -1.3}, {4.2, -1.3}}, 0.4, 0.92});
+  const SensorView view{0.0, 0.0, 1.2, to_rad(-15.0), to_rad(15.0)};
+  FieldOptions options;
+  options.top_m = 1.17;
+  ObstacleField field(options);
+  int entered = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double x = 0.04 * i;
+    field.update(lidar.scan({x, 0.0, 0.0}, at(0.1 * i), random), view, {x, 0.0, 0.0});
+    for (const Column& c : field.columns()) entered += c.confirmed && c.entered;
+  }
+  EXPECT_EQ(entered, 0);
+}
+
 /// A mast of 2.2 m: the lowest beam passes over whatever stands near it.
 class SeenFromAbove : public testing::Test {
  protected:
