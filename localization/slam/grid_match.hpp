@@ -6,8 +6,9 @@
 
 namespace madori::localization {
 
-/// The wheels' word on a pose: mean, and information of (x, y, yaw) in Map axes. Student's t with four degrees
-/// of freedom: wheels that slip, and logs whose clocks leap, are far off more often than a Gaussian has it.
+/// The wheels' word on a pose: mean, and information of (x, y, yaw) in Map axes. Student's t with four
+/// degrees of freedom: wheels that slip, and logs whose clocks leap, are far off more often than a Gaussian
+/// has it.
 struct PosePrior {
   Transform2<Map, Base> map_from_base;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();

@@ -22,15 +22,15 @@ struct RbpfOptions {
   double beams = 12.0;          ///< independent ones, that a scan is worth
   double sample_m = 0.03;       ///< K = 27 poses around the best one, so far apart,
   double sample_rad = 0.01;     ///< are weighed
-  double least_inliers = 0.3;    ///< of a scan, that must lie on a particle's own map: else the motion is drawn
+  double least_inliers = 0.3;  ///< of a scan, that must lie on a particle's own map: else the motion is drawn
   std::uint32_t seed = 1;
 };
 
 /// Rao-Blackwellized mapping (Grisetti, Stachniss, Burgard, Improved Techniques for Grid Mapping with
 /// Rao-Blackwellized Particle Filters, 2007; Eq. 3.6 and on of the lifelong localization thesis, with the
 /// weight that is missing there): every particle is a way with a map of its own. At each keyframe the scan is
-/// laid on the particle's own map, from where the keyframes driven last put it and from where the wheels do; K
-/// poses around the better one give the proposal's mean, covariance and weight: w <- w sum_j p(z | m, x_j)
+/// laid on the particle's own map, from where the keyframes driven last put it and from where the wheels do;
+/// K poses around the better one give the proposal's mean, covariance and weight: w <- w sum_j p(z | m, x_j)
 /// p(x_j | x', u), u being the wheels. Resampled when the weights are worth half of the particles. Maps share
 /// what was the same when a particle was copied.
 class RbpfMapper final : public Mapper {

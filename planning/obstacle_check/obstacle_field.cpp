@@ -64,8 +64,8 @@ void ObstacleField::take_within(const std::vector<Point2<Base>>& within,
 }
 
 /// Whether something that is seen up to the vehicle's height may go on above it: it does, or that is not in
-/// view. A load that ends below is seen to end. A vehicle higher than a person cuts nobody, and a head near the
-/// rim of what its mast sees is hit by few lasers: there all count as persons.
+/// view. A load that ends below is seen to end. A vehicle higher than a person cuts nobody, and a head near
+/// the rim of what its mast sees is hit by few lasers: there all count as persons.
 bool ObstacleField::may_reach_up(const Column& column, const SensorView& view,
                                  const Transform2<Base, Odom>& base_from_odom) const {
   if (options_.top_m >= options_.body_top_m) return true;

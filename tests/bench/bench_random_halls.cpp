@@ -1,8 +1,9 @@
 // Mapping in halls that nobody chose: 100 to 5,000 m², machines, columns, walls with doors, a scan of 270
-// degrees in steps of half a degree every 0.6 m (0.5 Hz, 0.3 m/s), wheels wrong by 3 %, Gaussian noise of 0.01
-// to 0.3 m on x and y of every point. Hall i has its size and noise from i alone. For each method a line: share of
-// the scans in the map, mean and largest distance of these from the truth after the way was laid rigidly on it,
-// of ten places sought in the map those within 0.3 m and 3 degrees of the truth, processor time a scan.
+// degrees in steps of half a degree every 0.6 m (0.5 Hz, 0.3 m/s), wheels wrong by 3 %, Gaussian noise of
+// 0.01 to 0.3 m on x and y of every point. Hall i has its size and noise from i alone. For each method a
+// line: share of the scans in the map, mean and largest distance of these from the truth after the way was
+// laid rigidly on it, of ten places sought in the map those within 0.3 m and 3 degrees of the truth,
+// processor time a scan.
 //   bench_random_halls [--first I] [--count N] [--methods graph,slow-lidar,rbpf[,icp-slam,rbpf-slam]]
 // icp-slam and rbpf-slam are MRPT's, where it is installed (libmrpt-slam-dev, mrpt-common).
 // plot_random_halls.py draws the lines.
@@ -74,8 +75,7 @@ Drive driven(unsigned index, std::mt19937& engine) {
   drive.moments = test::drive(drive.hall.walls, drive.hall.way, settings, engine);
   for (std::size_t i = 0; i < drive.moments.size(); ++i) {
     const test::DriveMoment& m = drive.moments[i];
-    if (i > 0)
-      drive.length_m += distance_m(drive.moments[i - 1].truth.translation(), m.truth.translation());
+    if (i > 0) drive.length_m += distance_m(drive.moments[i - 1].truth.translation(), m.truth.translation());
     if (!m.has_scan) continue;
     drive.points.push_back(noisy(m.scan, drive.noise_m, engine));
     drive.truth.push_back(m.truth);
@@ -163,8 +163,8 @@ int found_places(const Drive& drive, const Mapped& mapped, const Transform2<Map,
     std::normal_distribution<double> away(0.0, 0.1);
     std::uniform_real_distribution<double> any(-kPi, kPi);
     const Pose place(near.x_m() + away(engine), near.y_m() + away(engine), any(engine));
-    const ScanPoints scan = noisy(test::simulate_scan(drive.hall.walls, place, {}, engine), drive.noise_m,
-                                  engine);
+    const ScanPoints scan =
+        noisy(test::simulate_scan(drive.hall.walls, place, {}, engine), drive.noise_m, engine);
     const auto found = localize_absolutely(scan, map.points(), views, at);
     if (!found) continue;
     const Pose pose = truth_from_map * found->fit.map_from_base;
@@ -181,8 +181,7 @@ void report(unsigned index, const Drive& drive, const std::string& method, const
   const Transform2<Map, Map> truth_from_map = test::laid_on(mapped.poses, truth);
   double mean = 0.0, most = 0.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double off =
-        distance_m((truth_from_map * mapped.poses[i]).translation(), truth[i].translation());
+    const double off = distance_m((truth_from_map * mapped.poses[i]).translation(), truth[i].translation());
     mean += off / static_cast<double>(truth.size());
     most = std::max(most, off);
   }

@@ -38,12 +38,9 @@ mrpt::obs::CObservation2DRangeScan::Ptr observation(const LaserScan& scan) {
 /// What both need: the motion between scans, as an action.
 class Builder : public PeerMapper {
  public:
-  void on_odometry(const OdometryReading& reading) override {
-    odom_ = reading.odom_from_base;
-  }
+  void on_odometry(const OdometryReading& reading) override { odom_ = reading.odom_from_base; }
   void on_scan(const LaserScan& scan) override {
-    const Transform2<Base, Base> moved =
-        at_scan_ ? at_scan_->inverse() * odom_ : Transform2<Base, Base>();
+    const Transform2<Base, Base> moved = at_scan_ ? at_scan_->inverse() * odom_ : Transform2<Base, Base>();
     at_scan_ = odom_;
     mrpt::obs::CActionRobotMovement2D motion;
     motion.computeFromOdometry(mrpt::poses::CPose2D(moved.x_m(), moved.y_m(), moved.yaw_rad()), {});

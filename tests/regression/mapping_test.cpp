@@ -9,6 +9,7 @@
 #include "app/mapping_run.hpp"
 #include "app/trajectory_score.hpp"
 #include "localization/slam/graph_mapper.hpp"
+#include "localization/slam/rbpf_mapper.hpp"
 #include "tests/support/cut_log.hpp"
 #include "tests/support/lidar_models.hpp"
 
@@ -42,9 +43,8 @@ std::vector<StampedPose> way_of(sensors::LogReader& log, localization::Mapper& m
   return way;
 }
 
-std::vector<StampedPose> final_way(const std::string& log, int every) {
+std::vector<StampedPose> final_way(const std::string& log, int every, localization::Mapper& mapper) {
   Records reader(log_records(log, every));
-  localization::GraphMapper mapper;
   MappingRun run;
   return way_of(reader, mapper, run);
 }
@@ -65,7 +65,9 @@ TEST_P(MappedLog, KeepsTheRelations) {
   const auto& [log, every, most_m] = GetParam();
   const auto relations = kLogs / log / (std::string(log) + ".relations");
   if (!std::filesystem::exists(relations)) GTEST_SKIP() << "no relations at " << relations;
-  const nlohmann::json score = score_against_relations(final_way(log, every), load_relations(relations));
+  localization::GraphMapper mapper;
+  const auto way = final_way(log, every, mapper);
+  const nlohmann::json score = score_against_relations(way, load_relations(relations));
   RecordProperty("translation_m", std::to_string(score["translation_m"]["mean"].get<double>()));
   EXPECT_LT(score["translation_m"]["mean"].get<double>(), most_m);
 }
@@ -75,6 +77,17 @@ INSTANTIATE_TEST_SUITE_P(Freiburg, MappedLog,
                          testing::Values(Drive{"fr079", 1, 0.0405}, Drive{"fr079", 2, 0.044},
                                          Drive{"fr079", 5, 0.055}, Drive{"intel", 1, 0.067},
                                          Drive{"intel", 2, 0.08}));
+
+// Measured with three seeds: 0.076 m; published for a Rao-Blackwellized mapper on this log 0.070 m. The log's
+// clocks drop a turn once: where the wheels' word was taken for it, the relations were 1.51 m off.
+TEST(MappedByParticles, IntelKeepsTheRelations) {
+  const auto relations = kLogs / "intel" / "intel.relations";
+  if (!std::filesystem::exists(relations)) GTEST_SKIP() << "no relations at " << relations;
+  localization::RbpfMapper mapper;
+  const auto way = final_way("intel", 1, mapper);
+  const nlohmann::json score = score_against_relations(way, load_relations(relations));
+  EXPECT_LT(score["translation_m"]["mean"].get<double>(), 0.085);
+}
 
 /// Laid on the truth: least squares over the positions at the truth's stamps.
 void align(std::vector<StampedPose>& way, const std::vector<StampedPose>& truth) {

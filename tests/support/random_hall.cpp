@@ -187,7 +187,8 @@ RandomHall random_hall(double area_m2, std::mt19937& engine) {
   const int machines = std::max(3, static_cast<int>(area_m2 / uniform(25.0, 45.0, engine)));
   for (int i = 0; i < machines; ++i) {
     const double half_x = uniform(0.25, 2.5, engine), half_y = uniform(0.25, 1.0, engine);
-    const double askew = engine() % 6 == 0 ? uniform(-kPi, kPi, engine) : (engine() % 2 == 0 ? 0.0 : 0.5 * kPi);
+    const double askew =
+        engine() % 6 == 0 ? uniform(-kPi, kPi, engine) : (engine() % 2 == 0 ? 0.0 : 0.5 * kPi);
     add_turned_box(hall.walls, {uniform(0.0, width, engine), uniform(0.0, height, engine)}, half_x, half_y,
                    askew);
   }

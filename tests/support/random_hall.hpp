@@ -17,7 +17,8 @@ struct RandomHall {
   std::vector<Point2<Map>> way;
 };
 
-/// Machines of 0.5 to 5 m, one for 30 m² or so (one in six stands askew), columns, walls with a door; deterministic in `engine`.
+/// Machines of 0.5 to 5 m, one for 30 m² or so (one in six stands askew), columns, walls with a door;
+/// deterministic in `engine`.
 [[nodiscard]] RandomHall random_hall(double area_m2, std::mt19937& engine);
 
 }  // namespace madori::test

@@ -217,7 +217,7 @@ TEST(ObstacleField, ALoadThatTheVehicleDrivesPastDoesNotMove) {
   test::ToyLidar lidar;
   lidar.height_m = 1.2;
   lidar.noise_m = 0.03;
-  lidar.bodies.push_back({{{3.0, -1.3}, {4.2, -1.3}}, 0.4, 0.92});
+  lidar.bodies.push_back({{{3.0, -0.9}, {4.0, -1.4}}, 0.4, 0.92});
   const SensorView view{0.0, 0.0, 1.2, to_rad(-15.0), to_rad(15.0)};
   FieldOptions options;
   options.top_m = 1.17;
