@@ -120,7 +120,8 @@ TEST(MappedAces, StandsWithinDecimetresOfTheReference) {
   const auto reference = kLogs / "aces" / "reference.tum";
   if (!std::filesystem::exists(reference)) GTEST_SKIP() << "no log at " << reference;
   const std::vector<StampedPose> truth = load_tum(reference);
-  std::vector<StampedPose> way = final_way("aces", 1);
+  localization::GraphMapper mapper;
+  std::vector<StampedPose> way = final_way("aces", 1, mapper);
   align(way, truth);
   EXPECT_LT(score_against_truth(way, truth)["position_m"]["mean"].get<double>(), 0.13);
 }
