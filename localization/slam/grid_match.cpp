@@ -24,8 +24,8 @@ double off_surface(const SurfacePoint& p, const SurfaceGrid::Surface& s) {
   return s.normal_x * (p.x_m - s.x_m) + s.normal_y * (p.y_m - s.y_m);
 }
 
-constexpr double kFreedom = 4.0;
-constexpr std::size_t kAsked = 100;
+constexpr double kFreedom = 4.0;     // of the wheels' Student's t
+constexpr std::size_t kAsked = 100;  // points of a scan: it counts as a dozen beams anyway
 
 }  // namespace
 

@@ -30,9 +30,9 @@ struct RbpfOptions {
 /// Rao-Blackwellized Particle Filters, 2007; Eq. 3.6 and on of the lifelong localization thesis, with the
 /// weight that is missing there): every particle is a way with a map of its own. At each keyframe the scan is
 /// laid on the particle's own map, from where the keyframes driven last put it and from where the wheels do;
-/// K poses around the better one give the proposal's mean, covariance and weight: w <- w sum_j p(z | m, x_j)
-/// p(x_j | x', u), u being the wheels. Resampled when the weights are worth half of the particles. Maps share
-/// what was the same when a particle was copied.
+/// K poses around a match give the proposal's mean, covariance and weight: w <- w sum_j p(z | m, x_j)
+/// p(x_j | x', u), u being the wheels. Where the two matches differ, one is drawn by its weight. Resampled
+/// when the weights are worth half of the particles. Maps share what was the same when a particle was copied.
 class RbpfMapper final : public Mapper {
  public:
   explicit RbpfMapper(const RbpfOptions& options = {});
