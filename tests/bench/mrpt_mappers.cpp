@@ -18,8 +18,14 @@ namespace {
 
 const std::string kSettings = "/usr/share/mrpt/config_files/";
 
+/// Past 1970, or it counts as none.
+mrpt::Clock::time_point stamp_of(const LaserScan& scan) {
+  return mrpt::Clock::fromDouble(1e9 + to_seconds(scan.stamp.time_since_epoch()));
+}
+
 mrpt::obs::CObservation2DRangeScan::Ptr observation(const LaserScan& scan) {
   auto o = mrpt::obs::CObservation2DRangeScan::Create();
+  o->timestamp = stamp_of(scan);
   const std::size_t n = scan.ranges_m.size();
   o->aperture = static_cast<float>(scan.angle_step_rad * static_cast<double>(n - 1));
   o->rightToLeft = true;
@@ -44,6 +50,7 @@ class Builder : public PeerMapper {
     at_scan_ = odom_;
     mrpt::obs::CActionRobotMovement2D motion;
     motion.computeFromOdometry(mrpt::poses::CPose2D(moved.x_m(), moved.y_m(), moved.yaw_rad()), {});
+    motion.timestamp = stamp_of(scan);
     mrpt::obs::CActionCollection actions;
     actions.insert(motion);
     mrpt::obs::CSensoryFrame frame;
