@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "localization/localizer/pose_covariance.hpp"
-#include "localization/localizer/scan_matcher.hpp"
 #include "localization/memory/local_map.hpp"
 #include "localization/slam/final_fit.hpp"
 
@@ -22,43 +21,29 @@ double sigmas_squared(const OdometryStep& step, const Transform2<Base, Base>& mo
 
 }  // namespace
 
-GraphMapper::GraphMapper(const LocalizerOptions& options) : options_(options), model_(options.odometry) {
+GraphMapper::GraphMapper(const LocalizerOptions& options) : options_(options), follower_(options) {
   map_.memory = Memory(options.memory);
 }
 
 PoseEstimate GraphMapper::estimate(Stamp stamp) const {
   PoseEstimate estimate;
   estimate.stamp = stamp;
-  estimate.map_from_base = shown_from_memory_ * anchor_ * since_scan_.motion;
-  estimate.covariance = covariance_ + in_map_axes(since_scan_.covariance, anchor_.yaw_rad());
+  estimate.map_from_base = shown_from_memory_ * anchor_ * follower_.since_scan().motion;
+  estimate.covariance = covariance_ + in_map_axes(follower_.since_scan().covariance, anchor_.yaw_rad());
   estimate.health.state = is_apart_ ? LocalizationState::Lost : state_;
   return estimate;
 }
 
 PoseEstimate GraphMapper::on_odometry(const OdometryReading& reading) {
-  if (const auto raw = track_.follow(reading)) {
-    model_.extend(since_scan_, *raw);
-    since_keyframe_.extend(*raw, model_);
-  }
+  follower_.on_odometry(reading);
   return estimate(reading.stamp);
 }
 
-void GraphMapper::follow(const SurfaceScan& scan, const OdometryStep& step) {
-  const double enough = std::min(options_.sure_inliers, options_.known_share * usual_inliers_);
-  auto [place, recent] = match_scan(scan, anchor_, step, enough, map_, options_);
-  usual_inliers_ += 0.05 * (place.inlier_share - usual_inliers_);
-  const bool found = place.inlier_share > options_.lost_inliers;
-  Transform2<Base, Base> motion = found ? anchor_.inverse() * place.map_from_base : step.motion;
-  if (recent.inlier_share > options_.lost_inliers) {
-    motion = anchor_.inverse() * recent.map_from_base;
-    since_keyframe_.add_matched(motion, recent.information, recent.inlier_share);
-    off_wheels_ = std::max(off_wheels_, sigmas_squared(step, motion));
-    model_.learn(step, motion, 0.02, 0.005);
-  } else {
-    since_keyframe_.add_unmatched(motion, recent.inlier_share);
-  }
+void GraphMapper::follow(const SurfaceScan& scan) {
+  auto [place, found, motion, is_known, wheels] = follower_.follow(scan, anchor_, map_);
+  if (is_known) off_wheels_ = std::max(off_wheels_, sigmas_squared(wheels, motion));
   if (!found) {
-    place.map_from_base = anchor_ * step.motion;
+    place.map_from_base = anchor_ * wheels.motion;
     place.information.setZero();
     map_.memory.note_break();
   }
@@ -69,10 +54,10 @@ void GraphMapper::follow(const SurfaceScan& scan, const OdometryStep& step) {
 }
 
 void GraphMapper::remember(const SurfaceScan& scan) {
-  map_.memory.add(
-      scan, since_keyframe_.path_m(), anchor_,
-      map_.memory.empty() ? MeasuredMotion{} : since_keyframe_.measured(map_.memory.poses().back()));
-  since_keyframe_ = {};
+  map_.memory.add(scan, follower_.since_keyframe().path_m(), anchor_,
+                  map_.memory.empty() ? MeasuredMotion{}
+                                      : follower_.since_keyframe().measured(map_.memory.poses().back()));
+  follower_.begin_keyframe();
   off_wheels_at_.push_back(std::exchange(off_wheels_, 0.0));
   scan_of_.push_back(reckoned_.size() - 1);
 }
@@ -165,7 +150,7 @@ PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const P
     reckoned_.push_back({stamp, {}});
     remember(scan);
   } else {
-    follow(scan, track_.between(anchor_stamp_, stamp, model_));
+    follow(scan);
     const Transform2<Base, Base> moved = memory.poses().back().inverse() * anchor_;
     if (std::hypot(moved.x_m(), moved.y_m()) > options_.keyframe_m ||
         std::abs(moved.yaw_rad()) > options_.keyframe_rad || sees_through_newest(scan)) {
@@ -175,8 +160,7 @@ PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const P
     }
   }
   scans_.push_back(std::make_shared<const SurfaceScan>(std::move(scan)));
-  anchor_stamp_ = stamp;
-  since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
+  follower_.note_scan(stamp);
   return estimate(stamp);
 }
 

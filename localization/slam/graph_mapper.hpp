@@ -4,14 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "localization/localizer/keyframe_motion.hpp"
 #include "localization/localizer/map_state.hpp"
 #include "localization/localizer/options.hpp"
-#include "localization/motion_model/odometry_track.hpp"
 #include "localization/slam/joints.hpp"
 #include "localization/slam/laid_way.hpp"
 #include "localization/slam/loop_finder.hpp"
 #include "localization/slam/mapper.hpp"
+#include "localization/slam/scan_follower.hpp"
 
 namespace madori::localization {
 
@@ -38,7 +37,7 @@ class GraphMapper final : public Mapper {
 
  private:
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
-  void follow(const SurfaceScan& scan, const OdometryStep& step);
+  void follow(const SurfaceScan& scan);
   void remember(const SurfaceScan& scan);
   void judge_joints(std::size_t until);
   void cut(std::size_t first);
@@ -50,14 +49,9 @@ class GraphMapper final : public Mapper {
   [[nodiscard]] std::vector<MomentPose> laid_pieces(const Memory& memory) const;
 
   LocalizerOptions options_;
-  OdometryModel model_;
-  OdometryTrack track_;
-  MapState map_;  ///< without a drawing
-  Stamp anchor_stamp_{};
+  ScanFollower follower_;
+  MapState map_;                  ///< without a drawing
   Transform2<Map, Base> anchor_;  ///< the pose at the last scan
-  OdometryStep since_scan_;
-  KeyframeMotion since_keyframe_;
-  double usual_inliers_ = 0.6;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   LocalizationState state_ = LocalizationState::Localized;
   std::vector<ReckonedPose> reckoned_;  ///< one a scan, by the scans' own motions: no loop moves it

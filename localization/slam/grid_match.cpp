@@ -29,18 +29,17 @@ constexpr std::size_t kAsked = 100;  // points of a scan: it counts as a dozen b
 
 }  // namespace
 
-Eigen::Vector3d PosePrior::off(const Transform2<Map, Base>& pose) const {
-  return {pose.x_m() - map_from_base.x_m(), pose.y_m() - map_from_base.y_m(),
-          wrap_angle(pose.yaw_rad() - map_from_base.yaw_rad())};
+Eigen::Vector3d pose_difference(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b) {
+  return {a.x_m() - b.x_m(), a.y_m() - b.y_m(), wrap_angle(a.yaw_rad() - b.yaw_rad())};
 }
 
 double PosePrior::log_density(const Transform2<Map, Base>& pose) const {
-  const Eigen::Vector3d e = off(pose);
+  const Eigen::Vector3d e = pose_difference(pose, map_from_base);
   return -0.5 * (kFreedom + 3.0) * std::log1p(e.dot(information * e) / kFreedom);
 }
 
 double PosePrior::weight(const Transform2<Map, Base>& pose) const {
-  const Eigen::Vector3d e = off(pose);
+  const Eigen::Vector3d e = pose_difference(pose, map_from_base);
   return (kFreedom + 3.0) / (kFreedom + e.dot(information * e));
 }
 
@@ -55,7 +54,7 @@ GridMatch match_to_grid(const SurfaceScan& scan, const SurfaceGrid& map, const T
     const double kernel_m = 0.08 + 0.2 * shrink;
     const Transform2<Map, Base> pose = match.map_from_base;
     Eigen::Matrix3d hessian = prior.weight(pose) * prior.information;
-    Eigen::Vector3d gradient = hessian * prior.off(pose);
+    Eigen::Vector3d gradient = hessian * pose_difference(pose, prior.map_from_base);
     int known = 0, inliers = 0;
     for (const SurfacePoint& p : scan.points) {
       const SurfacePoint q = moved(pose, p);

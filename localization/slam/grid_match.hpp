@@ -6,6 +6,9 @@
 
 namespace madori::localization {
 
+/// x, y and the wrapped yaw, Map axes.
+[[nodiscard]] Eigen::Vector3d pose_difference(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b);
+
 /// The wheels' word on a pose: mean, and information of (x, y, yaw) in Map axes. Student's t with four
 /// degrees of freedom: wheels that slip, and logs whose clocks leap, are far off more often than a Gaussian
 /// has it.
@@ -13,10 +16,9 @@ struct PosePrior {
   Transform2<Map, Base> map_from_base;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
 
-  [[nodiscard]] Eigen::Vector3d off(const Transform2<Map, Base>& pose) const;
   /// Logarithm of its density, without the constant.
   [[nodiscard]] double log_density(const Transform2<Map, Base>& pose) const;
-  /// By how much it pulls less than the Gaussian does.
+  /// How much it pulls, of what a Gaussian would: less, the farther off.
   [[nodiscard]] double weight(const Transform2<Map, Base>& pose) const;
 };
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "localization/localizer/pose_covariance.hpp"
-#include "localization/localizer/scan_matcher.hpp"
 #include "localization/particle_filter/motion_kernel.hpp"
 #include "localization/particle_filter/resampling.hpp"
 
@@ -16,10 +16,6 @@ namespace madori::localization {
 namespace {
 
 using Pose = Transform2<Map, Base>;
-
-Eigen::Vector3d difference(const Pose& a, const Pose& b) {
-  return {a.x_m() - b.x_m(), a.y_m() - b.y_m(), wrap_angle(a.yaw_rad() - b.yaw_rad())};
-}
 
 MotionStep step_of(const Transform2<Base, Base>& motion, const Eigen::Matrix3d& covariance,
                    std::mt19937& engine) {
@@ -37,7 +33,7 @@ MotionStep step_of(const Transform2<Base, Base>& motion, const Eigen::Matrix3d& 
 }  // namespace
 
 RbpfMapper::RbpfMapper(const RbpfOptions& options)
-    : options_(options), model_(options.front.odometry), engine_(options.seed) {
+    : options_(options), follower_(options.front), engine_(options.seed) {
   front_.memory = Memory(options.front.memory);
 }
 
@@ -71,40 +67,25 @@ PoseEstimate RbpfMapper::estimate(Stamp stamp) const {
   const std::vector<double> w = weights();
   const Pose here = particles_[best()].way->map_from_base;
   for (std::size_t i = 0; i < w.size(); ++i) {
-    const Eigen::Vector3d off = difference(particles_[i].way->map_from_base, here);
+    const Eigen::Vector3d off = pose_difference(particles_[i].way->map_from_base, here);
     estimate.covariance += w[i] * off * off.transpose();
   }
   const auto since_keyframe = front_.memory.poses().back().inverse() * anchor_;
-  estimate.map_from_base = here * since_keyframe * since_scan_.motion;
-  estimate.covariance += in_map_axes(since_scan_.covariance, here.yaw_rad());
+  estimate.map_from_base = here * since_keyframe * follower_.since_scan().motion;
+  estimate.covariance += in_map_axes(follower_.since_scan().covariance, here.yaw_rad());
   return estimate;
 }
 
 PoseEstimate RbpfMapper::on_odometry(const OdometryReading& reading) {
-  if (const auto raw = track_.follow(reading)) {
-    model_.extend(since_scan_, *raw);
-    since_keyframe_.extend(*raw, model_);
-  }
+  follower_.on_odometry(reading);
   return estimate(reading.stamp);
 }
 
-/// The motion since the last scan by the keyframes driven last: the same for every particle.
-void RbpfMapper::follow(const SurfaceScan& scan, const OdometryStep& step) {
-  const LocalizerOptions& front = options_.front;
-  const double enough = std::min(front.sure_inliers, front.known_share * usual_inliers_);
-  const auto [place, recent] = match_scan(scan, anchor_, step, enough, front_, front);
-  usual_inliers_ += 0.05 * (place.inlier_share - usual_inliers_);
-  is_lost_ = place.inlier_share <= front.lost_inliers;
-  Transform2<Base, Base> motion = is_lost_ ? step.motion : anchor_.inverse() * place.map_from_base;
-  if (recent.inlier_share <= front.lost_inliers) {
-    since_keyframe_.add_unmatched(motion, recent.inlier_share);
-  } else {
-    motion = anchor_.inverse() * recent.map_from_base;
-    since_keyframe_.add_matched(motion, recent.information, recent.inlier_share);
-    model_.learn(step, motion, 0.02, 0.005);
-  }
-  anchor_ = anchor_ * motion;
-  reckoned_.push_back({scan.stamp, reckoned_.back().odom_from_base * motion});
+void RbpfMapper::follow(const SurfaceScan& scan) {
+  const auto followed = follower_.follow(scan, anchor_, front_);
+  is_lost_ = !followed.found;
+  anchor_ = anchor_ * followed.motion;
+  reckoned_.push_back({scan.stamp, reckoned_.back().odom_from_base * followed.motion});
 }
 
 Pose RbpfMapper::sampled(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance) {
@@ -157,7 +138,8 @@ void RbpfMapper::extend(Particle& particle, const SurfaceScan& scan, const Pose&
   for (const Pose& start : {by_scans, prior.map_from_base}) {
     const GridMatch match = match_to_grid(scan, particle.map, start, prior);
     if (match.inlier_share < options_.least_inliers) continue;
-    if (!proposals.empty() && difference(match.map_from_base, first.map_from_base).norm() < kSame) continue;
+    if (!proposals.empty() && pose_difference(match.map_from_base, first.map_from_base).norm() < kSame)
+      continue;
     first = match;
     proposals.push_back(around(match, scan, particle.map, prior));
   }
@@ -168,11 +150,10 @@ void RbpfMapper::extend(Particle& particle, const SurfaceScan& scan, const Pose&
   } else {
     std::vector<double> worth;
     for (const Proposal& p : proposals) worth.push_back(std::exp(p.log_eta - proposals.front().log_eta));
-    const Proposal& chosen =
-        proposals[std::discrete_distribution<std::size_t>(worth.begin(), worth.end())(engine_)];
+    std::discrete_distribution<std::size_t> draw(worth.begin(), worth.end());
+    const Proposal& chosen = proposals[draw(engine_)];
     pose = sampled(chosen.mean, chosen.covariance);
-    for (const double w : worth) log_eta += w;
-    log_eta = std::log(log_eta) + proposals.front().log_eta;
+    log_eta = std::log(std::accumulate(worth.begin(), worth.end(), 0.0)) + proposals.front().log_eta;
   }
   particle.log_weight += log_eta;
   particle.log_sum += log_eta;
@@ -181,7 +162,7 @@ void RbpfMapper::extend(Particle& particle, const SurfaceScan& scan, const Pose&
 }
 
 void RbpfMapper::propose(const SurfaceScan& scan, const MeasuredMotion& motion) {
-  const OdometryStep& wheels = since_keyframe_.wheels();
+  const OdometryStep& wheels = follower_.since_keyframe().wheels();
   const Eigen::Matrix3d covariance = with_floor(wheels.covariance);
   Particles drawn;
   drawn.origin = particles_.front().way->map_from_base.translation();
@@ -210,9 +191,8 @@ void RbpfMapper::resample_where_needed() {
 
 void RbpfMapper::remember(const SurfaceScan& scan) {
   Memory& memory = front_.memory;
-  const double path_m = since_keyframe_.path_m();
-  const MeasuredMotion motion =
-      memory.empty() ? MeasuredMotion{} : since_keyframe_.measured(memory.poses().back());
+  const KeyframeMotion& driven = follower_.since_keyframe();
+  const MeasuredMotion motion = memory.empty() ? MeasuredMotion{} : driven.measured(memory.poses().back());
   if (memory.empty()) {
     particles_.resize(std::max<std::size_t>(options_.particles, 1));
     for (Particle& p : particles_) {
@@ -223,8 +203,8 @@ void RbpfMapper::remember(const SurfaceScan& scan) {
     propose(scan, motion);
     resample_where_needed();
   }
-  memory.add(scan, path_m, anchor_, motion);
-  since_keyframe_ = {};
+  memory.add(scan, driven.path_m(), anchor_, motion);
+  follower_.begin_keyframe();
   scan_of_.push_back(reckoned_.size() - 1);
 }
 
@@ -237,14 +217,13 @@ PoseEstimate RbpfMapper::on_scan(Stamp stamp, const ScanPoints& points, const Po
     reckoned_.push_back({stamp, {}});
     remember(scan);
   } else {
-    follow(scan, track_.between(anchor_stamp_, stamp, model_));
+    follow(scan);
     const Transform2<Base, Base> moved = memory.poses().back().inverse() * anchor_;
     if (std::hypot(moved.x_m(), moved.y_m()) > front.keyframe_m ||
         std::abs(moved.yaw_rad()) > front.keyframe_rad)
       remember(scan);
   }
-  anchor_stamp_ = stamp;
-  since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
+  follower_.note_scan(stamp);
   return estimate(stamp);
 }
 

@@ -4,14 +4,13 @@
 #include <random>
 #include <vector>
 
-#include "localization/localizer/keyframe_motion.hpp"
 #include "localization/localizer/map_state.hpp"
 #include "localization/localizer/options.hpp"
-#include "localization/motion_model/odometry_track.hpp"
 #include "localization/particle_filter/particles.hpp"
 #include "localization/slam/grid_match.hpp"
 #include "localization/slam/laid_way.hpp"
 #include "localization/slam/mapper.hpp"
+#include "localization/slam/scan_follower.hpp"
 
 namespace madori::localization {
 
@@ -68,7 +67,7 @@ class RbpfMapper final : public Mapper {
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
   [[nodiscard]] Proposal around(const GridMatch& match, const SurfaceScan& scan, const SurfaceGrid& map,
                                 const PosePrior& prior) const;
-  void follow(const SurfaceScan& scan, const OdometryStep& step);
+  void follow(const SurfaceScan& scan);
   void remember(const SurfaceScan& scan);
   void propose(const SurfaceScan& scan, const MeasuredMotion& motion);
   void extend(Particle& particle, const SurfaceScan& scan, const Transform2<Map, Base>& by_scans,
@@ -79,14 +78,9 @@ class RbpfMapper final : public Mapper {
   [[nodiscard]] std::size_t best() const;
 
   RbpfOptions options_;
-  OdometryModel model_;
-  OdometryTrack track_;
-  MapState front_;  ///< recent keyframes as they were driven; drifts, no loop is closed in it
-  Stamp anchor_stamp_{};
+  ScanFollower follower_;
+  MapState front_;                ///< recent keyframes as they were driven; drifts, no loop is closed in it
   Transform2<Map, Base> anchor_;  ///< the pose at the last scan, in the front's map
-  OdometryStep since_scan_;
-  KeyframeMotion since_keyframe_;
-  double usual_inliers_ = 0.6;
   bool is_lost_ = false;
   std::vector<Particle> particles_;
   std::mt19937 engine_;

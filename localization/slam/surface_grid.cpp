@@ -19,11 +19,6 @@ std::uint64_t tile_key(int tx, int ty) {
   return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(tx)) << 32U) | static_cast<std::uint32_t>(ty);
 }
 
-constexpr std::size_t cell_in_tile(int ix, int iy) {
-  constexpr int kMask = (1 << SurfaceGrid::kTileBits) - 1;
-  return static_cast<std::size_t>(((iy & kMask) << SurfaceGrid::kTileBits) + (ix & kMask));
-}
-
 void count(std::uint16_t& n) {
   if (n < std::numeric_limits<std::uint16_t>::max()) ++n;
 }

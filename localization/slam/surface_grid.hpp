@@ -18,7 +18,6 @@ namespace madori::localization {
 class SurfaceGrid {
  public:
   static constexpr double kCellM = 0.1;
-  static constexpr int kTileBits = 5;
 
   /// A cell's surface. Map frame, metres; the normal has unit length and looks at who saw it.
   struct Surface {
@@ -40,6 +39,7 @@ class SurfaceGrid {
   [[nodiscard]] std::size_t tiles() const { return tiles_.size(); }
 
  private:
+  static constexpr int kTileBits = 5;
   static constexpr int kTileSide = 1 << kTileBits;
   struct Cell {
     float sum_x = 0.0F;  ///< of the points, from the tile's corner
@@ -56,6 +56,10 @@ class SurfaceGrid {
     std::uint64_t key = 0x8000'0000'8000'0000ULL;  // no tile's
     Tile* tile = nullptr;
   };
+  [[nodiscard]] static std::size_t cell_in_tile(int ix, int iy) {
+    constexpr int kMask = kTileSide - 1;
+    return static_cast<std::size_t>((iy & kMask) * kTileSide + (ix & kMask));
+  }
   [[nodiscard]] const Cell* look(int ix, int iy, Cursor& cursor) const;
   Cell& touch(int ix, int iy, Cursor& cursor);
 

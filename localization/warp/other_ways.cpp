@@ -72,8 +72,11 @@ void weigh(const WallIndex& drawn, const MemoryCloud& cloud, std::vector<Room>& 
   std::vector<Room*> holders;
   for (const CloudSurface& surface : cloud) {
     holders.clear();
-    for (Room& room : rooms)
-      if (room.holds(surface)) holders.push_back(&room), ++room.surfaces;
+    for (Room& room : rooms) {
+      if (!room.holds(surface)) continue;
+      holders.push_back(&room);
+      ++room.surfaces;
+    }
     if (holders.empty()) continue;
     const MemoryCloud alone{surface};
     for (std::size_t k = 0; k < shifts.size(); ++k) {

@@ -5,6 +5,7 @@
 // laid rigidly on it, of ten places sought in the map those within 0.3 m and 3 degrees of the truth,
 // processor time a scan.
 //   bench_random_halls [--first I] [--count N] [--methods graph,slow-lidar,rbpf[,icp-slam,rbpf-slam]]
+//   [--places]
 // icp-slam and rbpf-slam are MRPT's, where it is installed (libmrpt-slam-dev, mrpt-common).
 // plot_random_halls.py draws the lines.
 #include <CLI/CLI.hpp>
@@ -52,14 +53,6 @@ struct Mapped {
   double processor_s = 0.0;
 };
 
-ScanPoints noisy(const LaserScan& scan, double sigma_m, std::mt19937& engine) {
-  std::normal_distribution<float> noise(0.0F, static_cast<float>(sigma_m));
-  ScanPoints points = scan_points(scan, {});
-  for (auto* array : {&points.x_m, &points.y_m})
-    for (float& v : *array) v += noise(engine);
-  return points;
-}
-
 /// The golden ratio's multiples spread sizes evenly however many halls are asked for.
 Drive driven(unsigned index, std::mt19937& engine) {
   constexpr double kNoise[] = {0.01, 0.05, 0.1, 0.2, 0.3};
@@ -67,17 +60,12 @@ Drive driven(unsigned index, std::mt19937& engine) {
   drive.noise_m = kNoise[index % 5];
   const double share = std::fmod(0.6180339887 * index, 1.0);
   drive.hall = test::random_hall(100.0 * std::pow(50.0, share), engine);
-  test::DriveSettings settings;
-  settings.steps_per_scan = 6;
-  settings.sigma_rad_per_m = 0.03;
-  settings.sigma_distance = 0.03;
-  settings.lidar = test::ScanSettings{};
-  drive.moments = test::drive(drive.hall.walls, drive.hall.way, settings, engine);
+  drive.moments = test::drive(drive.hall.walls, drive.hall.way, test::half_hertz(), engine);
   for (std::size_t i = 0; i < drive.moments.size(); ++i) {
     const test::DriveMoment& m = drive.moments[i];
     if (i > 0) drive.length_m += distance_m(drive.moments[i - 1].truth.translation(), m.truth.translation());
     if (!m.has_scan) continue;
-    drive.points.push_back(noisy(m.scan, drive.noise_m, engine));
+    drive.points.push_back(test::noisy_points(m.scan, drive.noise_m, engine));
     drive.truth.push_back(m.truth);
   }
   return drive;
@@ -164,7 +152,7 @@ int found_places(const Drive& drive, const Mapped& mapped, const Transform2<Map,
     std::uniform_real_distribution<double> any(-kPi, kPi);
     const Pose place(near.x_m() + away(engine), near.y_m() + away(engine), any(engine));
     const ScanPoints scan =
-        noisy(test::simulate_scan(drive.hall.walls, place, {}, engine), drive.noise_m, engine);
+        test::noisy_points(test::simulate_scan(drive.hall.walls, place, {}, engine), drive.noise_m, engine);
     const auto found = localize_absolutely(scan, map.points(), views, at);
     if (!found) continue;
     const Pose pose = truth_from_map * found->fit.map_from_base;

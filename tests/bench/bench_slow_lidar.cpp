@@ -46,14 +46,6 @@ struct Level {
   int scans = 0, lost = 0, tried = 0, right_in_map = 0, right = 0;
 };
 
-ScanPoints noisy(const LaserScan& scan, double sigma_m, std::mt19937& engine) {
-  std::normal_distribution<float> noise(0.0F, 1.0F);
-  ScanPoints points = scan_points(scan, {});
-  for (auto* array : {&points.x_m, &points.y_m})
-    for (float& v : *array) v += static_cast<float>(sigma_m) * noise(engine);
-  return points;
-}
-
 Pose seen_from(const Pose& start, const Pose& pose) {
   const auto relative = start.inverse() * pose;
   return {relative.x_m(), relative.y_m(), relative.yaw_rad()};
@@ -88,7 +80,8 @@ void locate_absolutely(const mapping::Walls& walls, const Built& built, double s
   const Transform2<Map, Map> truth_from_map = test::laid_on(built.mapped, built.truth);
   for (int i = 0; i < 10; ++i) {
     const Pose place = test::random_pose(walls, field, 0.5, 4.0, engine);
-    const ScanPoints scan = noisy(test::simulate_scan(walls, place, {}, engine), sigma_m, engine);
+    const ScanPoints scan =
+        test::noisy_points(test::simulate_scan(walls, place, {}, engine), sigma_m, engine);
     const auto found = localize_absolutely(scan, map, views, built.mapper.strategies_for(scan));
     const Pose right = seen_from(built.start, place);
     const Pose expected = by_map(right, built.mapped, built.truth);
@@ -113,18 +106,14 @@ void add_errors(const std::vector<Pose>& poses, const std::vector<Pose>& truth, 
 void run(double sigma_m, unsigned seed, Level& level) {
   std::mt19937 engine(seed);
   const mapping::Walls walls = test::laboratory_hall();
-  test::DriveSettings settings;
-  settings.steps_per_scan = 6;  // 0.6 m: 0.3 m/s at 0.5 Hz
-  settings.sigma_rad_per_m = 0.03;
-  settings.sigma_distance = 0.03;
-  settings.lidar = test::ScanSettings{};
-  const auto moments = test::drive(walls, kWay, settings, engine);
+  const auto moments = test::drive(walls, kWay, test::half_hertz(), engine);
   SlowLidarMapper mapper;
   std::vector<Pose> causal, mapped, truth;  // of the scans in the map
   for (const auto& moment : moments) {
     (void)mapper.on_odometry(moment.odometry);
     if (!moment.has_scan) continue;
-    const PoseEstimate pose = mapper.on_scan(moment.scan.stamp, noisy(moment.scan, sigma_m, engine), {});
+    const PoseEstimate pose =
+        mapper.on_scan(moment.scan.stamp, test::noisy_points(moment.scan, sigma_m, engine), {});
     ++level.scans;
     level.lost += pose.health.state == LocalizationState::Lost;
     if (pose.health.state == LocalizationState::Lost) continue;
