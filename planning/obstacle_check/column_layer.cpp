@@ -67,8 +67,10 @@ const Column* ColumnLayer::find(std::int32_t cell_x, std::int32_t cell_y) const 
   return slot < 0 ? nullptr : &columns_[static_cast<std::size_t>(slot)];
 }
 
-void ColumnLayer::confirm(int fewest_points, double tall_m) {
+void ColumnLayer::confirm(int fewest_points, double tall_m, const ColumnLayer& stood) {
+  const auto stood_at = [&](const Column& c) { return stood.find(c.cell_x, c.cell_y) != nullptr; };
   for (Column& column : columns_) {
+    const bool is_new = !stood_at(column);
     int points = 0;
     bool tall = false;
     Highest highest;
@@ -77,7 +79,7 @@ void ColumnLayer::confirm(int fewest_points, double tall_m) {
         const Column* neighbour = find(column.cell_x + dx, column.cell_y + dy);
         if (neighbour == nullptr) continue;
         if (std::abs(dx) <= 1 && std::abs(dy) <= 1) {
-          points += neighbour->hits;
+          if (!is_new || !stood_at(*neighbour)) points += neighbour->hits;
           highest.take(neighbour->high_m);
           highest.take(second_m_[static_cast<std::size_t>(neighbour - columns_.data())]);
         }

@@ -63,8 +63,9 @@ class ColumnLayer {
   /// The column of a cell, or nothing.
   [[nodiscard]] const Column* find(std::int32_t cell_x, std::int32_t cell_y) const;
   /// Counts the points of neighbouring cells, tells how high they reach, and looks for something higher than
-  /// `tall_m` beside each.
-  void confirm(int fewest_points, double tall_m);
+  /// `tall_m` beside each. Points of what `stood` there before tell nothing of what is new beside it: a stray
+  /// point before a wall is no more than a stray point.
+  void confirm(int fewest_points, double tall_m, const ColumnLayer& stood);
 
  private:
   [[nodiscard]] bool holds(std::int32_t x, std::int32_t y) const {

@@ -10,14 +10,18 @@ namespace {
 constexpr float kGlimpseAboveM = 0.3F;  ///< nothing lower stands there as far as was seen
 constexpr double kLevelSlackM = 0.1;    ///< below the lidar's height
 
-/// Whether a layer holds such a column there or within a step beside it.
+/// Whether a layer holds such a column there or within so many cells beside it; two are a step.
 template <class Is>
-bool holds_beside(const ColumnLayer& layer, const Column& column, const Is& is) {
-  for (std::int32_t dy = -2; dy <= 2; ++dy)
-    for (std::int32_t dx = -2; dx <= 2; ++dx)
+bool holds_beside(const ColumnLayer& layer, const Column& column, const Is& is, std::int32_t cells = 2) {
+  for (std::int32_t dy = -cells; dy <= cells; ++dy)
+    for (std::int32_t dx = -cells; dx <= cells; ++dx)
       if (const Column* there = layer.find(column.cell_x + dx, column.cell_y + dy))
         if (is(*there)) return true;
   return false;
+}
+
+bool is_any(const Column& /*column*/) {
+  return true;
 }
 
 }  // namespace
@@ -51,8 +55,23 @@ void ObstacleField::take_scan(const PointCloud<Base>& scan, const SensorView& vi
     else if (away < o.body_reach_m * o.body_reach_m)
       high_.add(odom_from_base * Point2<Base>{x, y}, height);
   }
-  low_.confirm(o.fewest_points, o.tall_m);
-  high_.confirm(o.fewest_points, o.tall_m);
+  note_what_stood(lidar, scan.stamp);
+  low_.confirm(o.fewest_points, o.tall_m, stood_);
+  high_.confirm(o.fewest_points, o.tall_m, stood_);
+  for (const Column& above : high_.columns())
+    if (above.confirmed && static_cast<double>(above.high_m) > view.z_m - kLevelSlackM &&
+        !holds_beside(stood_, above, is_any, 1))
+      over_.add(above.centre(), static_cast<double>(above.high_m));
+}
+
+/// Walls, racks, parked things: what was seen more than once, and never to come.
+void ObstacleField::note_what_stood(const Point2<Odom>& lidar, Stamp now) {
+  stood_.begin(lidar, options_.reach_m, options_.cell_m, now);
+  over_.begin(lidar, options_.body_reach_m, options_.cell_m, now);
+  for (const Column& old : columns_)
+    if (old.confirmed && !old.came && old.since != old.seen)
+      for (const float height_m : {old.low_m, old.high_m})
+        stood_.add(old.centre(), static_cast<double>(height_m));
 }
 
 void ObstacleField::take_within(const std::vector<Point2<Base>>& within,
@@ -72,7 +91,7 @@ bool ObstacleField::may_reach_up(const Column& column, const SensorView& view,
   const Point2<Base> place = base_from_odom * column.centre();
   if (std::hypot(place.x_m - view.x_m, place.y_m - view.y_m) >= options_.body_reach_m) return true;
   if (!view.sees(place, options_.top_m, options_.body_top_m)) return true;
-  return holds_beside(high_, column, [](const Column&) { return true; });
+  return holds_beside(high_, column, is_any);
 }
 
 /// Columns are cut at the vehicle's height: what is part of something that goes on above it would have shown
@@ -102,11 +121,9 @@ void ObstacleField::assume_feet(const SensorView& view, const Transform2<Odom, B
 }
 
 /// Whether something as high as the lidar, which it sees at any distance, is seen above a column or within
-/// a step beside it.
-bool ObstacleField::is_under_something(const Column& column, const SensorView& view) const {
-  return holds_beside(high_, column, [&](const Column& above) {
-    return above.confirmed && static_cast<double>(above.high_m) > view.z_m - kLevelSlackM;
-  });
+/// a step beside it. A wall that stood there before has no feet.
+bool ObstacleField::is_under_something(const Column& column) const {
+  return holds_beside(over_, column, is_any);
 }
 
 bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<Base, Odom>& base_from_odom,
@@ -120,7 +137,7 @@ bool ObstacleField::keep(Column& old, const SensorView& view, const Transform2<B
     return old.confirmed && old.misses < options_.misses_to_forget;
   }
   if (!old.confirmed) return false;
-  if (is_under_something(old, view)) old.under = now;
+  if (is_under_something(old)) old.under = now;
   // One glimpse of something tall is the edge of what went by: what stands there is seen again and again.
   const bool glimpsed = old.part_of_tall && old.since == old.seen && old.low_m > kGlimpseAboveM;
   // A pallet that has come too near to be seen is still there; of a person the head would be seen. What came
@@ -155,7 +172,8 @@ bool ObstacleField::is_known(const Point2<Odom>& place) const {
 }
 
 /// Who comes into sight so near that the lowest beam passes over his near side shows his far side only. What
-/// reaches up to the lidar shows its near side, and so does what was seen further down.
+/// reaches up to the lidar shows its near side, and so does what was seen further down: also where noise puts
+/// its edge into another cell.
 void ObstacleField::note_hidden_parts(const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
                                       Stamp now) {
   const double beside_m = 1.5 * options_.cell_m;
@@ -173,8 +191,9 @@ void ObstacleField::note_hidden_parts(const SensorView& view, const Transform2<O
     const Point2<Odom> beside = c.hidden_at(beside_m);
     const bool seen =
         view.sees(base_from_odom * beside, static_cast<double>(c.low_m), static_cast<double>(c.high_m));
-    const auto is_any = [](const Column&) { return true; };
-    if (seen || is_known(beside) || is_known(c.hidden_at(2.0 * beside_m)) || holds_beside(level_, c, is_any))
+    const auto is_low = [](const Column& there) { return there.low_m <= kGlimpseAboveM; };
+    if (seen || holds_beside(stood_, c, is_low, 1) || is_known(beside) ||
+        is_known(c.hidden_at(2.0 * beside_m)) || holds_beside(level_, c, is_any))
       c.hidden_x_m = c.hidden_y_m = 0.0F;
   }
 }
@@ -215,7 +234,7 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
     if (column.seen != scan.stamp) continue;
     column.entered = has_entered(column, view, base_from_odom, scan.stamp);
     column.came = column.came || column.entered;
-    if (is_under_something(column, view)) column.under = scan.stamp;
+    if (is_under_something(column)) column.under = scan.stamp;
   }
   note_hidden_parts(view, odom_from_base, scan.stamp);
   std::swap(columns_, merged_);

@@ -63,6 +63,7 @@ class ObstacleField {
  private:
   void take_scan(const PointCloud<Base>& scan, const SensorView& view,
                  const Transform2<Odom, Base>& odom_from_base);
+  void note_what_stood(const Point2<Odom>& lidar, Stamp now);
   void take_within(const std::vector<Point2<Base>>& within, const Transform2<Odom, Base>& odom_from_base,
                    Stamp now);
   [[nodiscard]] bool holds_returns_within(const Column& column) const {
@@ -70,7 +71,7 @@ class ObstacleField {
   }
   /// Adds them to seen_.
   void assume_feet(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp now);
-  [[nodiscard]] bool is_under_something(const Column& column, const SensorView& view) const;
+  [[nodiscard]] bool is_under_something(const Column& column) const;
   /// Of merged_: which go on where they cannot be seen.
   void note_hidden_parts(const SensorView& view, const Transform2<Odom, Base>& odom_from_base, Stamp now);
   [[nodiscard]] std::int32_t cell_of(double at_m) const;
@@ -92,6 +93,8 @@ class ObstacleField {
   ColumnLayer high_;                   ///< ... from there to a person's, near the lidar
   ColumnLayer level_;                  ///< ... as high as the lidar and higher, near it
   ColumnLayer within_;                 ///< ... within the vehicle's outline
+  ColumnLayer over_;                   ///< of high_: as high as the lidar, and did not stand there before
+  ColumnLayer stood_;                  ///< before the scan at hand, and was never seen to come
   std::vector<Column> seen_, merged_;  ///< room for one update
 };
 

@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "app/mapping_run.hpp"
 #include "app/trajectory_score.hpp"
@@ -12,6 +13,7 @@
 #include "localization/slam/rbpf_mapper.hpp"
 #include "tests/support/cut_log.hpp"
 #include "tests/support/lidar_models.hpp"
+#include "tests/support/rigid_fit.hpp"
 
 namespace madori::app {
 namespace {
@@ -89,7 +91,7 @@ TEST(MappedByParticles, IntelKeepsTheRelations) {
   EXPECT_LT(score["translation_m"]["mean"].get<double>(), 0.085);
 }
 
-/// Laid on the truth: least squares over the positions at the truth's stamps.
+/// Laid on the truth by the positions at the truth's stamps.
 void align(std::vector<StampedPose>& way, const std::vector<StampedPose>& truth) {
   std::vector<std::pair<Point2<Map>, Point2<Map>>> pairs;
   for (const StampedPose& t : truth) {
@@ -97,21 +99,7 @@ void align(std::vector<StampedPose>& way, const std::vector<StampedPose>& truth)
                                      [](const StampedPose& p, Stamp s) { return p.stamp < s; });
     if (at != way.end()) pairs.emplace_back(at->map_from_base.translation(), t.map_from_base.translation());
   }
-  Point2<Map> a{0.0, 0.0}, b{0.0, 0.0};
-  for (const auto& [p, q] : pairs) {
-    const auto n = static_cast<double>(pairs.size());
-    a = {a.x_m + p.x_m / n, a.y_m + p.y_m / n};
-    b = {b.x_m + q.x_m / n, b.y_m + q.y_m / n};
-  }
-  double dot = 0.0, cross = 0.0;
-  for (const auto& [p, q] : pairs) {
-    const double px = p.x_m - a.x_m, py = p.y_m - a.y_m, qx = q.x_m - b.x_m, qy = q.y_m - b.y_m;
-    dot += px * qx + py * qy;
-    cross += px * qy - py * qx;
-  }
-  const Transform2<Map, Map> turn(0.0, 0.0, std::atan2(cross, dot));
-  const Point2<Map> turned = turn * a;
-  const Transform2<Map, Map> by(b.x_m - turned.x_m, b.y_m - turned.y_m, turn.yaw_rad());
+  const auto by = test::fit_rigidly(pairs);
   for (StampedPose& pose : way) pose.map_from_base = by * pose.map_from_base;
 }
 

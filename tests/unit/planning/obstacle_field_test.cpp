@@ -231,6 +231,66 @@ TEST(ObstacleField, ALoadThatTheVehicleDrivesPastDoesNotMove) {
   EXPECT_EQ(entered, 0);
 }
 
+/// A wall 0.45 m to the right. Something short of it, which only the lowest beam grazes, shows for some
+/// scans.
+int confirmed_before_a_wall(float y_m, int points, int scans) {
+  std::mt19937 random(10);
+  test::ToyLidar lidar;
+  lidar.height_m = 1.2;
+  lidar.bodies.push_back({{{-2.0, -0.85}, {4.0, -0.85}}, 0.4, 2.5});
+  const SensorView view{0.0, 0.0, 1.2, to_rad(-15.0), to_rad(15.0)};
+  FieldOptions options;
+  options.top_m = 1.3;
+  ObstacleField field(options);
+  int most = 0;
+  for (int i = 0; i < 60; ++i) {
+    auto scan = lidar.scan({}, at(0.1 * i), random);
+    for (int k = 0; i >= 20 && i < 20 + scans && k < points; ++k)
+      scan.points.push_back({0.64F + 0.01F * static_cast<float>(k), y_m, 1.02F, 0.0F, 1, 0});
+    field.update(scan, view, {});
+    const auto before = std::ranges::count_if(field.columns(), [](const Column& c) {
+      return c.confirmed && c.min_x_m > 0.5F && c.max_y_m > -0.37F;
+    });
+    most = std::max(most, static_cast<int>(before));
+    if (i == 59 && before > 0) return -1;  // it is still there
+  }
+  return most;
+}
+
+TEST(ObstacleField, AStrayPointIsNotConfirmedByTheWallBehindIt) {
+  EXPECT_EQ(confirmed_before_a_wall(-0.34F, 1, 1), 0);
+}
+
+TEST(ObstacleField, WhoWentByBeforeAWallIsNotKeptByTheWall) {
+  EXPECT_GT(confirmed_before_a_wall(-0.26F, 4, 3), 0);
+}
+
+/// The parts of a load's face that go on towards the lidar, while the vehicle drives up to it.
+std::ptrdiff_t going_on(double face_x_m) {
+  std::mt19937 random(11);
+  test::ToyLidar lidar;
+  lidar.height_m = 1.2;
+  lidar.noise_m = 0.02;
+  lidar.bodies.push_back({{{face_x_m + 0.4, 0.5}, {face_x_m + 0.4, 1.7}}, 0.4, 0.95});
+  const SensorView view{0.0, 0.0, 1.2, to_rad(-15.0), to_rad(15.0)};
+  FieldOptions options;
+  options.top_m = 1.3;
+  ObstacleField field(options);
+  std::ptrdiff_t count = 0;
+  for (int i = 0; i < 150; ++i) {
+    const double x = std::min(0.04 * i, 3.3);
+    field.update(lidar.scan({x, 0.0, 0.0}, at(0.1 * i), random), view, {x, 0.0, 0.0});
+    count += std::ranges::count_if(field.columns(),
+                                   [](const Column& c) { return c.confirmed && c.has_hidden_part(); });
+  }
+  return count;
+}
+
+/// It was seen down to the floor before the lidar came so near that it sees the upper edge only.
+TEST(ObstacleField, ALoadThatTheVehicleDrivesUpToGoesOnNowhere) {
+  for (const double face_x_m : {4.56, 4.58, 4.6, 4.62, 4.64}) EXPECT_EQ(going_on(face_x_m), 0) << face_x_m;
+}
+
 /// A mast of 2.2 m: the lowest beam passes over whatever stands near it.
 class SeenFromAbove : public testing::Test {
  protected:
