@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "app/cycle/drive_faults.hpp"
 #include "app/cycle/recoveries.hpp"
@@ -110,9 +111,8 @@ Standstill why_waiting(const CycleState& state, const CycleInput& input, const C
   if (const auto taken = taken_stop(state, config)) return {*taken, notice(Remedy::ClearOrGoOn), now};
   const auto ask = std::ranges::find_if(asks(), [&](const Ask& a) { return a.holds(state, config); });
   const bool has_reason = std::string_view(ask->remedy.english).find("{reason}") != std::string_view::npos;
-  const Notice remedy =
-      has_reason ? notice(ask->remedy, {{"reason", state.detour.failed}}) : notice(ask->remedy);
-  return {notice(ask->cause), remedy, now};
+  Notice remedy = has_reason ? notice(ask->remedy, {{"reason", state.detour.failed}}) : notice(ask->remedy);
+  return {notice(ask->cause), std::move(remedy), now};
 }
 
 }  // namespace

@@ -171,18 +171,21 @@ bool ObstacleField::is_known(const Point2<Odom>& place) const {
   return std::binary_search(merged_.begin(), merged_.end(), there, by_cell);
 }
 
-/// Who comes into sight so near that the lowest beam passes over his near side shows his far side only. What
-/// reaches up to the lidar shows its near side, and so does what was seen further down: also where noise puts
-/// its edge into another cell.
+/// Who comes into sight so near that the lowest beam passes over his near side shows the rim of his far side
+/// only: no more of it than the beam falls across him, or a near side as high would have been seen first.
+/// What reaches up to the lidar shows its near side, and so does what was seen further down: also where noise
+/// puts its edge into another cell.
 void ObstacleField::note_hidden_parts(const SensorView& view, const Transform2<Odom, Base>& odom_from_base,
                                       Stamp now) {
   const double beside_m = 1.5 * options_.cell_m;
+  const double fall_m = -options_.hidden_m * std::tan(view.min_elevation_rad);
   const Point2<Odom> lidar = odom_from_base * Point2<Base>{view.x_m, view.y_m};
   const auto base_from_odom = odom_from_base.inverse();
   for (Column& c : merged_) {
     if (c.seen == now) {
       const double away_m = distance_m(c.centre(), lidar);
-      const bool above = c.low_m > kGlimpseAboveM && away_m > options_.hidden_m;
+      const bool is_rim = static_cast<double>(c.high_m - c.low_m) <= fall_m;
+      const bool above = c.low_m > kGlimpseAboveM && is_rim && away_m > options_.hidden_m;
       const double share = above ? options_.hidden_m / away_m : 0.0;
       c.hidden_x_m = static_cast<float>(share * (lidar.x_m - c.centre().x_m));
       c.hidden_y_m = static_cast<float>(share * (lidar.y_m - c.centre().y_m));

@@ -340,6 +340,15 @@ TEST_F(SeenFromAbove, WhatWasSeenFurtherDownEndsThere) {
   EXPECT_FALSE(goes_on());
 }
 
+TEST_F(SeenFromAbove, AFaceIsNoRimOfAFarSide) {
+  for (const float low_m : {1.63F, 1.65F}) {
+    look(low_m);
+    EXPECT_TRUE(goes_on()) << low_m;
+  }
+  look(1.58F);  // the lowest beam falls by 0.11 m across a person
+  EXPECT_FALSE(goes_on());
+}
+
 TEST_F(SeenFromAbove, WhatReachesUpToTheLidarEndsThere) {
   look(1.71F, 2.2F);
   EXPECT_FALSE(goes_on());
