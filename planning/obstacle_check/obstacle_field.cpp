@@ -58,20 +58,25 @@ void ObstacleField::take_scan(const PointCloud<Base>& scan, const SensorView& vi
   note_what_stood(lidar, scan.stamp);
   low_.confirm(o.fewest_points, o.tall_m, stood_);
   high_.confirm(o.fewest_points, o.tall_m, stood_);
-  for (const Column& above : high_.columns())
-    if (above.confirmed && static_cast<double>(above.high_m) > view.z_m - kLevelSlackM &&
-        !holds_beside(stood_, above, is_any, 1))
-      over_.add(above.centre(), static_cast<double>(above.high_m));
+  note_what_came_over(lidar, view.z_m, scan.stamp);
 }
 
 /// Walls, racks, parked things: what was seen more than once, and never to come.
 void ObstacleField::note_what_stood(const Point2<Odom>& lidar, Stamp now) {
   stood_.begin(lidar, options_.reach_m, options_.cell_m, now);
-  over_.begin(lidar, options_.body_reach_m, options_.cell_m, now);
   for (const Column& old : columns_)
     if (old.confirmed && !old.came && old.since != old.seen)
       for (const float height_m : {old.low_m, old.high_m})
         stood_.add(old.centre(), static_cast<double>(height_m));
+}
+
+/// What is seen as high as the lidar where nothing stood.
+void ObstacleField::note_what_came_over(const Point2<Odom>& lidar, double lidar_z_m, Stamp now) {
+  over_.begin(lidar, options_.body_reach_m, options_.cell_m, now);
+  for (const Column& above : high_.columns())
+    if (above.confirmed && static_cast<double>(above.high_m) > lidar_z_m - kLevelSlackM &&
+        !holds_beside(stood_, above, is_any, 1))
+      over_.add(above.centre(), static_cast<double>(above.high_m));
 }
 
 void ObstacleField::take_within(const std::vector<Point2<Base>>& within,

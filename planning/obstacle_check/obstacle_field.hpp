@@ -64,6 +64,7 @@ class ObstacleField {
   void take_scan(const PointCloud<Base>& scan, const SensorView& view,
                  const Transform2<Odom, Base>& odom_from_base);
   void note_what_stood(const Point2<Odom>& lidar, Stamp now);
+  void note_what_came_over(const Point2<Odom>& lidar, double lidar_z_m, Stamp now);
   void take_within(const std::vector<Point2<Base>>& within, const Transform2<Odom, Base>& odom_from_base,
                    Stamp now);
   [[nodiscard]] bool holds_returns_within(const Column& column) const {

@@ -14,16 +14,14 @@
 #include "app/mapping_run.hpp"
 #include "app/trajectory_score.hpp"
 #include "localization/slam/graph_mapper.hpp"
-#include "tests/support/cut_log.hpp"
-#include "tests/support/lidar_models.hpp"
-#include "tests/support/rigid_fit.hpp"
+#include "tests/support/mapped_way.hpp"
 
 namespace madori::bench {
 namespace {
 
 constexpr std::size_t kTimes = 10;
 
-using Way = std::vector<app::StampedPose>;
+using test::Way;
 
 /// What is known of a log besides its scans.
 struct Truth {
@@ -31,11 +29,10 @@ struct Truth {
   std::vector<app::Relation> relations;
 };
 
-Way way_of(const app::MappingRun& run) {
+struct Mapped {
   Way way;
-  for (const auto& pose : run.at_last) way.push_back({pose.stamp, pose.map_from_base});
-  return way;
-}
+  app::MappingRun run;
+};
 
 Way at_moments_of(const Way& way, const Way& moments) {
   std::set<Stamp> stamps;
@@ -46,24 +43,11 @@ Way at_moments_of(const Way& way, const Way& moments) {
   return some;
 }
 
-/// Laid rigidly on the reference.
-Way laid_on(Way way, const Way& reference) {
-  std::vector<std::pair<Point2<Map>, Point2<Map>>> pairs;
-  for (const auto& r : reference) {
-    const auto at = std::lower_bound(way.begin(), way.end(), r.stamp - duration_from_seconds(0.02),
-                                     [](const auto& p, Stamp s) { return p.stamp < s; });
-    if (at != way.end() && at->stamp <= r.stamp + duration_from_seconds(0.02))
-      pairs.emplace_back(at->map_from_base.translation(), r.map_from_base.translation());
-  }
-  const auto by = test::fit_rigidly(pairs);
-  for (auto& pose : way) pose.map_from_base = by * pose.map_from_base;
-  return way;
-}
-
 std::string score(Way way, const Truth& truth) {
   std::stable_sort(way.begin(), way.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   char text[120];
-  const auto off = app::score_against_truth(laid_on(way, truth.reference), truth.reference)["position_m"];
+  test::lay_on(way, truth.reference);
+  const auto off = app::score_against_truth(way, truth.reference)["position_m"];
   std::snprintf(text, sizeof text, "%.3f, %.2f m", off["mean"].get<double>(), off["max"].get<double>());
   std::string all = text;
   if (truth.relations.empty()) return all;
@@ -78,29 +62,26 @@ void run(const std::filesystem::path& folder, const std::string& name, unsigned 
   truth.reference = app::load_tum(folder / name / "reference.tum");
   if (const auto file = folder / name / (name + ".relations"); std::filesystem::exists(file))
     truth.relations = app::load_relations(file);
-  const LidarModel lidar = test::planar_lidar({0.0, 0.0, 0.3, 0.0});
-  Way whole;
-  {
-    test::CutLog log(records, 0, 0);
+  const auto mapped_of = [&](std::size_t times, unsigned seed) {
+    test::CutLog log(records, times, seed);
     localization::GraphMapper mapper;
-    const auto mapped = app::run_mapper(log, lidar, mapper);
-    whole = way_of(mapped);
-    for (auto& pose : whole) pose.stamp = log.recorded(pose.stamp);
-    std::printf("| %s, whole | - | %zu of %zu | %s | |\n", name.c_str(), mapped.map.scans.size(),
-                mapped.map.scans.size() + static_cast<std::size_t>(mapped.map.lost_scans),
-                score(whole, truth).c_str());
-  }
-  for (unsigned seed = first; seed < first + count; ++seed) {
-    test::CutLog log(records, kTimes, seed);
-    localization::GraphMapper mapper;
-    const auto mapped = app::run_mapper(log, lidar, mapper);
-    Way way = way_of(mapped);
-    for (auto& pose : way) pose.stamp = log.recorded(pose.stamp);
-    std::printf("| %s, %u | %zu | %zu of %zu | %s | %s |\n", name.c_str(), seed, mapped.map.carried.size(),
-                mapped.map.scans.size(),
-                mapped.map.scans.size() + static_cast<std::size_t>(mapped.map.lost_scans),
-                score(way, truth).c_str(), score(at_moments_of(whole, way), truth).c_str());
+    Mapped mapped;
+    mapped.way = test::mapped_way(log, mapper, mapped.run);
+    return mapped;
+  };
+  const auto tell = [&](const std::string& order, const Mapped& mapped, const std::string& beside) {
+    const std::size_t scans = mapped.run.map.scans.size();
+    std::printf("| %s, %s | %zu | %zu of %zu | %s | %s |\n", name.c_str(), order.c_str(),
+                mapped.run.map.carried.size(), scans,
+                scans + static_cast<std::size_t>(mapped.run.map.lost_scans), score(mapped.way, truth).c_str(),
+                beside.c_str());
     std::fflush(stdout);
+  };
+  const Mapped whole = mapped_of(0, 0);
+  tell("whole", whole, "");
+  for (unsigned seed = first; seed < first + count; ++seed) {
+    const Mapped mapped = mapped_of(kTimes, seed);
+    tell(std::to_string(seed), mapped, score(at_moments_of(whole.way, mapped.way), truth));
   }
 }
 

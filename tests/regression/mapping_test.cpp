@@ -11,9 +11,7 @@
 #include "app/trajectory_score.hpp"
 #include "localization/slam/graph_mapper.hpp"
 #include "localization/slam/rbpf_mapper.hpp"
-#include "tests/support/cut_log.hpp"
-#include "tests/support/lidar_models.hpp"
-#include "tests/support/rigid_fit.hpp"
+#include "tests/support/mapped_way.hpp"
 
 namespace madori::app {
 namespace {
@@ -38,17 +36,10 @@ class Records final : public sensors::LogReader {
   std::size_t next_ = 0;
 };
 
-std::vector<StampedPose> way_of(sensors::LogReader& log, localization::Mapper& mapper, MappingRun& run) {
-  run = run_mapper(log, test::planar_lidar({0.0, 0.0, 0.3, 0.0}), mapper);
-  std::vector<StampedPose> way;
-  for (const auto& pose : run.at_last) way.push_back({pose.stamp, pose.map_from_base});
-  return way;
-}
-
 std::vector<StampedPose> final_way(const std::string& log, int every, localization::Mapper& mapper) {
   Records reader(log_records(log, every));
   MappingRun run;
-  return way_of(reader, mapper, run);
+  return test::mapped_way(reader, mapper, run);
 }
 
 /// A log, which scans of it, and the most that the mean of its relations may be off.
@@ -91,18 +82,6 @@ TEST(MappedByParticles, IntelKeepsTheRelations) {
   EXPECT_LT(score["translation_m"]["mean"].get<double>(), 0.085);
 }
 
-/// Laid on the truth by the positions at the truth's stamps.
-void align(std::vector<StampedPose>& way, const std::vector<StampedPose>& truth) {
-  std::vector<std::pair<Point2<Map>, Point2<Map>>> pairs;
-  for (const StampedPose& t : truth) {
-    const auto at = std::lower_bound(way.begin(), way.end(), t.stamp,
-                                     [](const StampedPose& p, Stamp s) { return p.stamp < s; });
-    if (at != way.end()) pairs.emplace_back(at->map_from_base.translation(), t.map_from_base.translation());
-  }
-  const auto by = test::fit_rigidly(pairs);
-  for (StampedPose& pose : way) pose.map_from_base = by * pose.map_from_base;
-}
-
 // Measured: mean 0.108 m, largest 0.32 m; 0.21 m before loops were sought over the whole memory.
 TEST(MappedAces, StandsWithinDecimetresOfTheReference) {
   const auto reference = kLogs / "aces" / "reference.tum";
@@ -110,7 +89,7 @@ TEST(MappedAces, StandsWithinDecimetresOfTheReference) {
   const std::vector<StampedPose> truth = load_tum(reference);
   localization::GraphMapper mapper;
   std::vector<StampedPose> way = final_way("aces", 1, mapper);
-  align(way, truth);
+  test::lay_on(way, truth);
   EXPECT_LT(score_against_truth(way, truth)["position_m"]["mean"].get<double>(), 0.13);
 }
 
@@ -126,8 +105,7 @@ TEST(CarriedAway, TenTimesOnIntelIsNotJoinedWrongly) {
   test::CutLog log(log_records("intel", 1), 10, 1);
   localization::GraphMapper mapper;
   MappingRun run;
-  std::vector<StampedPose> way = way_of(log, mapper, run);
-  for (StampedPose& pose : way) pose.stamp = log.recorded(pose.stamp);
+  const std::vector<StampedPose> way = test::mapped_way(log, mapper, run);
   EXPECT_GE(run.map.carried.size(), 10U);
   EXPECT_LT(run.map.lost_scans, 400);
   EXPECT_LT(relations_off_m(way), 0.08);
