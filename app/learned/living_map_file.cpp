@@ -6,6 +6,7 @@
 #include "core/result.hpp"
 #include "localization/ndt_map/hybrid_map_file.hpp"
 #include "mapping/site/atomic_file.hpp"
+#include "mapping/wall_map/wall_files.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 
 namespace madori::app {
@@ -37,7 +38,7 @@ LivingMap begin_living_map(const std::filesystem::path& site, const mapping::Wal
     else
       begun.message = file.string() + " is not used: " + reason + "; a new one is begun";
   }
-  begun.map.draw(walls);
+  begun.map.draw(walls, mapping::load_other_lines(site));
   return begun;
 }
 

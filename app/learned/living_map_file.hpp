@@ -14,8 +14,9 @@ inline constexpr const char* kLivingMapFile = "learned/living_map.bin";
 /// A living map by itself, whatever walls it lies on. Throws Error where it is missing or damaged.
 [[nodiscard]] localization::HybridMap load_living_map(const std::filesystem::path& file);
 
-/// What earlier drives kept with a site, with these walls drawn into it, also where walls were edited since;
-/// an empty one where nothing usable is kept, with the reason in `message` where there is one.
+/// What earlier drives kept with a site, with these walls and what else the site's drawing shows drawn into
+/// it, also where walls were edited since; an empty one where nothing usable is kept, with the reason in
+/// `message` where there is one.
 struct LivingMap {
   localization::HybridMap map;
   std::string message;

@@ -60,6 +60,13 @@ void stage_walls(mapping::SiteTransaction& change, const mapping::Site& now,
       now.scale ? mapping::WallFileOptions{} : mapping::WallFileOptions::unscaled());
 }
 
+/// The new drawing's own, in the site's unit.
+void stage_other_lines(mapping::SiteTransaction& change, const fs::path& beside, double factor) {
+  mapping::Walls lines = mapping::load_other_lines(beside);
+  mapping::scale_walls(lines, factor);
+  change.write(mapping::kOtherLinesFile, mapping::walls_csv(lines));
+}
+
 }  // namespace
 
 mapping::Similarity inverse(const mapping::Similarity& by) {
@@ -131,6 +138,7 @@ void carry_site(const fs::path& site, const fs::path& beside, const mapping::Sim
   change.say("drawing replaced by a new revision, routes kept");
   stage_drawing(change, beside, old, now);
   stage_walls(change, now, walls, now_from_old);
+  stage_other_lines(change, beside, factor);
   if (fs::exists(site / "routes/path.csv"))
     change.write("routes/path.csv",
                  planning::path_csv(carried(planning::load_routes(site / "routes"), now_from_old)));

@@ -47,13 +47,14 @@ void CellLayers::take(double evidence, Stamp stamp, const LayerOptions& options)
   seen = std::max(seen, stamp);
 }
 
-CellState CellLayers::state(Stamp stamp, const LayerOptions& options, bool is_drawn) const {
+CellState CellLayers::state(Stamp stamp, const LayerOptions& options, DrawnAs drawn) const {
   if (!was_seen()) return CellState::Unseen;
   const CellLayers then = at(stamp, options);
   const bool stays = then.permanent > options.permanent;
   if (then.now > options.known) {
-    if (stays || is_drawn) return CellState::Static;
-    return then.stands > options.stands ? CellState::SemiStatic : CellState::Moving;
+    if (stays || drawn == DrawnAs::Wall) return CellState::Static;
+    if (then.stands <= options.stands) return CellState::Moving;
+    return drawn == DrawnAs::Line ? CellState::Static : CellState::SemiStatic;
   }
   if (then.now < -options.known)
     return stays || then.stands > options.gone ? CellState::TakenAway : CellState::Free;

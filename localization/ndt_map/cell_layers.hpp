@@ -9,6 +9,13 @@ namespace madori::localization {
 /// What a cell is, as it is read.
 enum class CellState : std::uint8_t { Unseen, Free, Moving, SemiStatic, Static, TakenAway };
 
+/// What the drawing shows where something was seen.
+enum class DrawnAs : std::uint8_t {
+  Nothing,
+  Line,  ///< a line that is no wall: a machine's, a rack's, or one of the floor
+  Wall
+};
+
 /// Constants of the layers; docs/explanation/living-map.md says why. Evidence in nats.
 struct LayerOptions {
   double look_most = 1.4;  ///< of one look
@@ -36,8 +43,9 @@ struct CellLayers {
   void take(double evidence, Stamp stamp, const LayerOptions& options);
   /// As they count at `stamp`: out of view, each falls back to the slower one.
   [[nodiscard]] CellLayers at(Stamp stamp, const LayerOptions& options) const;
-  /// `is_drawn`: what was seen here lies on a drawn wall; then it is static at once.
-  [[nodiscard]] CellState state(Stamp stamp, const LayerOptions& options, bool is_drawn = false) const;
+  /// On a drawn wall it is static at once, on another drawn line as soon as it stands.
+  [[nodiscard]] CellState state(Stamp stamp, const LayerOptions& options,
+                                DrawnAs drawn = DrawnAs::Nothing) const;
 };
 
 }  // namespace madori::localization

@@ -20,7 +20,8 @@ struct HybridMapOptions {
   double range_min_m = 0.4;     ///< nearer returns are the vehicle itself
   double low_m = 0.15;          ///< above the floor: what is lower is driven over ...
   double high_m = 1.9;          ///< ... and higher than a person stands nothing in the way
-  double drawn_m = 0.15;        ///< what stands so near to a drawn line is that wall
+  double drawn_m = 0.15;        ///< what stands so near to a drawn line is what it shows
+  double shortest_m = 0.5;      ///< of another line: two cells; shorter ones are letters and arrows
   double surface_m = 0.05;      ///< ends within it of a surface, one sigma: noise of range and pose
   double most_samples = 500.0;  ///< of a Gaussian: older ones fade
   std::size_t most_cells = 250'000;
@@ -36,8 +37,9 @@ class HybridMap {
 
   /// One scan from `map_from_base`, at `stamp`. Points that are not finite are left out.
   void look(const Beams& beams, const Transform2<Map, Base>& map_from_base, Stamp stamp);
-  /// What stands where these are drawn is static from its first look on. Takes the place of earlier ones.
-  void draw(const mapping::Walls& walls);
+  /// What is seen where walls are drawn is static from its first look on; what stands where other lines are
+  /// drawn is, too: what the drawing shows was built in. Takes the place of earlier ones.
+  void draw(const mapping::Walls& walls, const mapping::Walls& other_lines = {});
 
   [[nodiscard]] const HybridMapOptions& options() const { return options_; }
   [[nodiscard]] const CellTree& cells() const { return cells_; }
@@ -57,11 +59,13 @@ class HybridMap {
   void weigh(CellTree::Index cell, double evidence);
   void settle(Stamp stamp);
   void forget_oldest();
-  void mark_drawn(std::int32_t wall);
+  void mark_drawn(std::int32_t line_number);
+  [[nodiscard]] DrawnAs drawn_as(const MapCell& cell) const;
 
   HybridMapOptions options_;
   CellTree cells_;
-  std::vector<Segment2<Map>> drawn_;
+  std::vector<Segment2<Map>> drawn_;  ///< walls, and then other lines
+  std::size_t drawn_walls_ = 0;
   Stamp newest_{};
   std::vector<double> evidence_;  ///< of the look at hand, by cell
   std::vector<char> is_touched_;

@@ -90,14 +90,14 @@ class Explanation {
       first_key_.push_back(first_key_.back() + 2 * stretches(line));
     unit_of_key_.assign(first_key_.back(), -1);
     fresh_ = start == DrawingWarp();
-    pivot_ = centre();
+    pivot_ = centre_of(cloud_);
   }
 
   /// `doubt` is how much of the warp's uncertainty the association allows for.
   void round(double doubt) {
     pair_up(doubt);
-    vote(doubt);
-    share_out(doubt);
+    vote();
+    share_out();
     solve(doubt);
   }
   void learn_statistics();
@@ -119,15 +119,14 @@ class Explanation {
                         : 0;
     return first_key_[c.wall] + 2 * std::min(at, count - 1) + static_cast<std::size_t>(c.side);
   }
-  [[nodiscard]] Point2<Map> centre() const;
   [[nodiscard]] double spread_m2(const Point2<Map>& p, double doubt) const {
     const double sigma = fresh_ ? statistics_.amplitude_m : warp_.sigma_m(p);
     return doubt * doubt * sigma * sigma;
   }
   [[nodiscard]] double odds(const Pair& pair, double offset_m) const;
   void pair_up(double doubt);
-  void vote(double doubt);
-  void share_out(double doubt);
+  void vote();
+  void share_out();
   void solve(double doubt);
   [[nodiscard]] WarpLattice lattice() const;
   [[nodiscard]] std::vector<WarpObservation> observations() const;
@@ -149,11 +148,6 @@ class Explanation {
   WarpPriorWeights prior_;
   std::optional<WarpPosterior> posterior_;
 };
-
-Point2<Map> Explanation::centre() const {
-  const Point2<Map> c = centre_of(cloud_);
-  return c;
-}
 
 double Explanation::odds(const Pair& pair, double offset_m) const {
   const double inliers = std::clamp(statistics_.inliers, 0.05, 0.98);
@@ -180,7 +174,7 @@ void Explanation::pair_up(double doubt) {
 
 /// Where does each stretch stand beside the warp? The best of all offsets, by the surfaces that no other wall
 /// explains.
-void Explanation::vote(double doubt) {
+void Explanation::vote() {
   constexpr int kBins = static_cast<int>(2.0 * WallSides::kReachM / kVoteM) + 1;
   const auto bin_of = [](double d) {
     return static_cast<int>(std::lround((d + WallSides::kReachM) / kVoteM));
@@ -236,10 +230,9 @@ void Explanation::vote(double doubt) {
       }
     }
   }
-  (void)doubt;
 }
 
-void Explanation::share_out(double) {
+void Explanation::share_out() {
   for (Unit& unit : units_) unit.weight = 0.0;
   std::vector<double> own;
   for (std::size_t first = 0; first < pairs_.size();) {

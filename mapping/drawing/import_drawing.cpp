@@ -45,17 +45,33 @@ StageSink debug_sink(const ImportOptions& options, SiteTransaction& change) {
   };
 }
 
-/// Image to Map: x = u * s, y = (height - v) * s (architecture.md, frames).
+/// Image to Map: x = u * s, y = (height - v) * s (architecture.md, frames). Takes the next number.
+void add_line(Walls& lines, const PixelSegment& s, double probability, int height_px, double m_per_px) {
+  const Point2<Map> a{s.u1 * m_per_px, (height_px - s.v1) * m_per_px};
+  const Point2<Map> b{s.u2 * m_per_px, (height_px - s.v2) * m_per_px};
+  lines.push_back({static_cast<int>(lines.size()) + 1, {a, b}, probability});
+}
+
 Walls to_map(const DetectedWalls& found, int height_px, double m_per_px) {
   Walls walls;
   walls.reserve(found.walls.size());
-  for (const auto& s : found.walls) {
-    const Point2<Map> a{s.u1 * m_per_px, (height_px - s.v1) * m_per_px};
-    const Point2<Map> b{s.u2 * m_per_px, (height_px - s.v2) * m_per_px};
-    const double probability = found.probabilities.empty() ? 1.0 : found.probabilities[walls.size()];
-    walls.push_back({static_cast<int>(walls.size()) + 1, {a, b}, probability});
-  }
+  for (const auto& s : found.walls)
+    add_line(walls, s, found.probabilities.empty() ? 1.0 : found.probabilities[walls.size()], height_px,
+             m_per_px);
   return walls;
+}
+
+/// What a drawing file does not say to be writing, measures, an opening or the sheet's own may stand there.
+bool may_stand(RejectReason reason) {
+  return reason == RejectReason::Furniture || reason == RejectReason::TooShort ||
+         reason == RejectReason::Other;
+}
+
+Walls other_lines(const DetectedWalls& found, int height_px, double m_per_px) {
+  Walls lines;
+  for (const RejectedSegment& other : found.rejected)
+    if (may_stand(other.reason)) add_line(lines, other.segment, other.probability, height_px, m_per_px);
+  return lines;
 }
 
 /// One colour from edge to edge, as an empty page or a failed scan has it.
@@ -195,6 +211,7 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
   auto picture = start_picture(plan, found, scale ? std::optional(unit) : std::nullopt);
   stages.begin("points", 0.85);
   report.points = stage_walls(options, plan, report.walls, unit, scale.has_value(), change);
+  change.write(kOtherLinesFile, walls_csv(other_lines(found, plan.picture.height_px, unit)));
   stages.end(report.points.points.size());
   stages.begin("save", 0.9);
   stage_site(options, report.site, change);

@@ -9,30 +9,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void scale_walls(Walls& walls, double factor) {
-  for (auto& wall : walls)
-    for (Point2<Map>* p : {&wall.segment.a, &wall.segment.b}) *p = {p->x_m * factor, p->y_m * factor};
+/// A line of the Map frame as it lies on the drawing.
+PixelSegment on_drawing(const Wall& line, const Site& site) {
+  const double m_per_px = site.scale->m_per_px;
+  const auto& [a, b] = line.segment;
+  return {a.x_m / m_per_px, site.drawing.height_px - a.y_m / m_per_px, b.x_m / m_per_px,
+          site.drawing.height_px - b.y_m / m_per_px};
 }
 
-/// Lines that import rejected are not kept in the site, so the new picture is without them.
-void stage_picture(SiteTransaction& change, const fs::path& folder, const Site& site, const Walls& walls) {
+void stage_picture(SiteTransaction& change, const fs::path& folder, const Site& site, const Walls& walls,
+                   const Walls& other_lines) {
   PlanOptions options;
   options.page = site.drawing.page;
   if (site.drawing.dpi > 0.0) options.dpi = site.drawing.dpi;
   const Plan plan = load_plan(folder / site.drawing.file, options);
-  const double m_per_px = site.scale->m_per_px;
   std::vector<PixelSegment> segments;
   std::vector<double> probabilities;
-  for (const auto& [id, s, probability] : walls) {
-    PixelSegment pixel;
-    pixel.u1 = s.a.x_m / m_per_px;
-    pixel.v1 = site.drawing.height_px - s.a.y_m / m_per_px;
-    pixel.u2 = s.b.x_m / m_per_px;
-    pixel.v2 = site.drawing.height_px - s.b.y_m / m_per_px;
-    segments.push_back(pixel);
-    probabilities.push_back(probability);
+  for (const Wall& wall : walls) {
+    segments.push_back(on_drawing(wall, site));
+    probabilities.push_back(wall.probability);
   }
-  const auto png = import_picture(plan.picture, segments, {}, m_per_px, probabilities);
+  std::vector<RejectedSegment> others;
+  for (const Wall& line : other_lines)
+    others.push_back({on_drawing(line, site), RejectReason::Other, line.probability});
+  const auto png = import_picture(plan.picture, segments, others, site.scale->m_per_px, probabilities);
   change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
@@ -53,7 +53,10 @@ double apply_scale(const fs::path& folder, const ScaleEstimate& estimate, const 
   scale_walls(walls, factor);
   (void)stage_wall_files(change, walls, site.drawing.width_px * estimate.m_per_px,
                          site.drawing.height_px * estimate.m_per_px, {});
-  if (fs::exists(folder / "import.png")) stage_picture(change, folder, site, walls);
+  Walls other_lines = load_other_lines(folder);
+  scale_walls(other_lines, factor);
+  if (!other_lines.empty()) change.write(kOtherLinesFile, walls_csv(other_lines));
+  if (fs::exists(folder / "import.png")) stage_picture(change, folder, site, walls, other_lines);
   if (others) others(change, factor);
   change.write("site.yaml", site_yaml(site));
   change.commit();

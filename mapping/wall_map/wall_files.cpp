@@ -15,4 +15,14 @@ PointMap stage_wall_files(SiteTransaction& change, const Walls& walls, double wi
   return points;
 }
 
+Walls load_other_lines(const std::filesystem::path& site) {
+  const auto file = site / kOtherLinesFile;
+  return std::filesystem::exists(file) ? load_walls(file) : Walls{};
+}
+
+void scale_walls(Walls& walls, double factor) {
+  for (auto& wall : walls)
+    for (Point2<Map>* p : {&wall.segment.a, &wall.segment.b}) *p = {p->x_m * factor, p->y_m * factor};
+}
+
 }  // namespace madori::mapping

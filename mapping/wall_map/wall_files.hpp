@@ -22,4 +22,13 @@ struct WallFileOptions {
 PointMap stage_wall_files(SiteTransaction& change, const Walls& walls, double width, double height,
                           const WallFileOptions& options);
 
+/// What else is drawn, as `walls.csv`: lines that were not taken for walls, and may be of things that stand
+/// there. A map by driving has none.
+inline constexpr const char* kOtherLinesFile = "other_lines.csv";
+/// Of a site; none where the file is missing. Throws Error as load_walls does.
+[[nodiscard]] Walls load_other_lines(const std::filesystem::path& site);
+
+/// Lines in another unit.
+void scale_walls(Walls& walls, double factor);
+
 }  // namespace madori::mapping

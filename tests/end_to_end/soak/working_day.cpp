@@ -10,6 +10,7 @@
 #include "app/learned/living_map_file.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/simulated/factory_link.hpp"
+#include "mapping/wall_map/wall_files.hpp"
 #include "planning/route_graph/route_csv.hpp"
 
 namespace madori::soak {
@@ -70,8 +71,9 @@ WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int numb
 
 /// In lock-step, so that the same day gives the same map.
 void WorkingDay::watch_map(app::LocalizerPoseOptions& options) {
-  map_learner_ = std::make_unique<localization::MapLearner>(
-      app::begin_living_map(options_.living_map, loaded_.walls).map);
+  localization::HybridMap map = app::begin_living_map(options_.living_map, loaded_.walls).map;
+  map.draw(loaded_.walls, mapping::load_other_lines(options_.site));
+  map_learner_ = std::make_unique<localization::MapLearner>(std::move(map));
   map_truth_ = std::make_unique<MapTruth>(*factory_);
   options.sweep_onlooker = [this](const auto& sweep, const auto& lidar, const auto& pose) {
     map_truth_->look();

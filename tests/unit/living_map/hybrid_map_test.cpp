@@ -68,6 +68,37 @@ TEST(HybridMap, WhatIsDrawnIsStaticAtOnceAndTheRestOnTheSecondDayAfter) {
   EXPECT_EQ(undrawn.map.state_at(kBeforeTheWall), CellState::Static);
 }
 
+TEST(HybridMap, WhatStandsWhereALineIsDrawnIsStaticAsSoonAsItStands) {
+  Room room;
+  const mapping::Walls machine = box_at(5.0, 3.03);
+  mapping::Walls lines = machine;
+  test::add_wall(lines, 2.9, 4.9, 3.3, 4.9);  // as short as a letter
+  room.map.draw(room.walls(), lines);
+  room.look_for(0.3, machine);
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Moving);  // who walks over a line is no machine
+  mapping::Walls things = machine;
+  const mapping::Walls letter = box_at(3.1, 5.0, 0.1), pallet = box_at(5.0, 1.0);
+  things.insert(things.end(), letter.begin(), letter.end());
+  things.insert(things.end(), pallet.begin(), pallet.end());
+  room.look_for(20.0, things);
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Static);
+  EXPECT_EQ(room.map.state_at({4.61, 1.1}), CellState::SemiStatic);
+  EXPECT_EQ(room.map.state_at({3.1, 4.9}), CellState::SemiStatic);
+  EXPECT_EQ(room.map.state_at({0.1, 3.1}), CellState::Static);
+  EXPECT_EQ(room.map.state_at(kFloor), CellState::Free);
+}
+
+TEST(HybridMap, ASideOfWhatStandsBeforeAWallIsNoWall) {
+  Room room;
+  room.map.draw(room.walls());
+  mapping::Walls cupboard;
+  test::add_box(cupboard, 4.6, 0.02, 6.0, 0.9);
+  room.look_for(20.0, cupboard);
+  EXPECT_EQ(room.map.state_at({4.6 + 0.01, 0.6}), CellState::SemiStatic);
+  EXPECT_EQ(room.map.state_at({4.6 + 0.01, 0.14}), CellState::SemiStatic);
+  EXPECT_EQ(room.map.state_at({3.1, 0.1}), CellState::Static);
+}
+
 TEST(HybridMap, AThingThatIsPutDownMovesFirstAndStandsLater) {
   Room room;
   room.look_for(20.0);

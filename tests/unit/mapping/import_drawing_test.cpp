@@ -6,6 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <opencv2/core.hpp>
@@ -13,8 +15,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/result.hpp"
+#include "mapping/georeference/apply_scale.hpp"
 #include "mapping/site/atomic_file.hpp"
-#include "mapping/wall_map/wall.hpp"
+#include "mapping/wall_map/wall_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::mapping {
@@ -62,8 +65,8 @@ TEST_F(ImportDrawing, MakesAWholeSite) {
   ImportOptions o = options(draw_room(folder_));
   o.m_per_px = 0.02;
   const ImportReport report = import_drawing(o);
-  for (const char* name :
-       {"site.yaml", "drawing.png", "walls.csv", "walls.pcd", "map.pgm", "map.yaml", "import.png"})
+  for (const char* name : {"site.yaml", "drawing.png", "walls.csv", "other_lines.csv", "walls.pcd", "map.pgm",
+                           "map.yaml", "import.png"})
     EXPECT_TRUE(fs::exists(o.site / name)) << name;
   EXPECT_EQ(file_content(o.site / "drawing.png"), file_content(o.drawing));
   EXPECT_GT(report.points.sampled, report.points.points.size());
@@ -73,6 +76,30 @@ TEST_F(ImportDrawing, MakesAWholeSite) {
     EXPECT_GT(wall.segment.a.x_m, 0.8);  // 50 px of margin
     EXPECT_LT(wall.segment.a.y_m, 6.2);
   }
+}
+
+TEST_F(ImportDrawing, WhatIsDrawnAndNoWallIsKeptAndScaled) {
+  const fs::path drawing = draw_room(folder_);
+  cv::Mat picture = cv::imread(drawing.string(), cv::IMREAD_GRAYSCALE);
+  cv::rectangle(picture, {300, 120}, {380, 170}, 110, 1);  // a machine
+  cv::imwrite(drawing.string(), picture);
+  const ImportOptions o = options(drawing);
+  import_drawing(o);
+  const Walls unscaled = load_other_lines(o.site);
+  const auto front = std::ranges::find_if(unscaled, [](const Wall& line) {
+    const auto& [a, b] = line.segment;
+    return std::abs(a.y_m - 180.0) < 1.5 && std::abs(b.y_m - 180.0) < 1.5 && std::abs(a.x_m - b.x_m) > 70.0;
+  });
+  ASSERT_NE(front, unscaled.end());
+  EXPECT_LT(front->probability, 0.5);
+  ScaleEstimate estimate;
+  estimate.m_per_px = 0.02;
+  estimate.method = "option";
+  apply_scale(o.site, estimate, "2026-11-27T00:00:00Z", {});
+  const Walls scaled = load_other_lines(o.site);
+  ASSERT_EQ(scaled.size(), unscaled.size());
+  for (std::size_t i = 0; i < scaled.size(); ++i)
+    EXPECT_NEAR(scaled[i].segment.b.x_m, 0.02 * unscaled[i].segment.b.x_m, 2e-6);
 }
 
 TEST_F(ImportDrawing, WithoutScaleNothingMayDriveOnIt) {
