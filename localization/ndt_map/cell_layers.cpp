@@ -26,7 +26,9 @@ CellLayers CellLayers::at(Stamp stamp, const LayerOptions& options) const {
   const double since_s = to_seconds(stamp - seen);
   CellLayers then = *this;
   then.stands = between(stands, permanent, apart(since_s, options.permanent_tau_s));
-  then.now = between(now, then.stands, apart(since_s, options.stands_tau_s));
+  // Who came may have gone when nobody looked; what was gone does not come back.
+  if (now > 0.0F || then.stands < 0.0F)
+    then.now = between(now, then.stands, apart(since_s, options.stands_tau_s));
   return then;
 }
 

@@ -131,6 +131,19 @@ TEST(HybridMap, WhoWalksOutOfSightIsForgotten) {
   EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Free);
 }
 
+TEST(HybridMap, WhatWasSeenToBeGoneDoesNotComeBackOutOfSight) {
+  Room room;
+  for (int day = 0; day < 2; ++day) {
+    room.look_for(60.0, box_at(5.0, 3.03));
+    room.next_day();
+  }
+  room.look_for(1.0);  // in passing
+  mapping::Walls screen;
+  test::add_wall(screen, 3.5, 0.0, 3.5, 6.0);
+  room.look_for(120.0, screen);
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::TakenAway);
+}
+
 TEST(HybridMap, AWallThatIsGoneIsMissedForDays) {
   Room room;
   const mapping::Walls screen{{7, {{4.6, 1.0}, {4.6, 5.0}}}};
