@@ -26,9 +26,7 @@ CellLayers CellLayers::at(Stamp stamp, const LayerOptions& options) const {
   const double since_s = to_seconds(stamp - seen);
   CellLayers then = *this;
   then.stands = between(stands, permanent, apart(since_s, options.permanent_tau_s));
-  // Who came may have gone when nobody looked; what was gone does not come back.
-  if (now > 0.0F || then.stands < 0.0F)
-    then.now = between(now, then.stands, apart(since_s, options.stands_tau_s));
+  then.now = between(now, then.stands, apart(since_s, options.stands_tau_s));
   return then;
 }
 
@@ -37,9 +35,9 @@ void CellLayers::take(double evidence, Stamp stamp, const LayerOptions& options)
   const double since_s = was_seen() ? to_seconds(stamp - seen) : 0.0;
   const bool same = (now > 0.0F) == (look > 0.0) && now != 0.0F;  // as at the look before
   *this = at(stamp, options);
-  // What came while nobody looked may have stood all that time: that floor was seen before says less of it.
-  if (!same && look > 0.0 && stands < 0.0F)
-    stands = between(stands, 0.0F, apart(since_s, options.stands_tau_s));
+  // What came, or went, while nobody looked may have been so all that time: what was seen before says less.
+  if (!same && (look > 0.0) == (stands < 0.0F))
+    stands = between(stands, 0.0F, apart(since_s, options.stands_tau_s) * std::abs(look) / options.look_most);
   if (same) {
     add(stands, apart(since_s, options.stands_tau_s) * look, -options.stands_most, options.stands_most);
     add(permanent, apart(since_s, options.permanent_tau_s) * look, options.permanent_least,

@@ -20,8 +20,7 @@ struct CellPlace {
 struct MapCell {
   CellGaussian gaussian;
   CellLayers layers;
-  std::array<std::int32_t, 2> drawn{-1,
-                                    -1};  ///< lines nearest to its middle, walls first: a wall has two faces
+  std::array<std::int32_t, 2> drawn{-1, -1};  ///< lines nearest to its middle, walls first, which have faces
 };
 
 /// Cells in a quadtree of fixed depth; a cell exists once it was asked for with at(). Indices stay as they
