@@ -25,7 +25,9 @@ CellLayers CellLayers::at(Stamp stamp, const LayerOptions& options) const {
   if (!was_seen()) return *this;
   const double since_s = to_seconds(stamp - seen);
   CellLayers then = *this;
-  then.stands = between(stands, permanent, apart(since_s, options.permanent_tau_s));
+  const float stays =
+      permanent > static_cast<float>(options.permanent) ? permanent : std::min(permanent, 0.0F);
+  then.stands = between(stands, stays, apart(since_s, options.permanent_tau_s));
   then.now = between(now, then.stands, apart(since_s, options.stands_tau_s));
   return then;
 }

@@ -41,7 +41,8 @@ struct CellLayers {
   [[nodiscard]] bool was_seen() const { return seen != Stamp{}; }
   /// One look's evidence, at `stamp`. A look that is not later than the last one tells of *now* only.
   void take(double evidence, Stamp stamp, const LayerOptions& options);
-  /// As they count at `stamp`: out of view, each falls back to the slower one.
+  /// As they count at `stamp`: out of view, each falls back to the slower one; what is not known to be
+  /// permanent is not known to be there on another day.
   [[nodiscard]] CellLayers at(Stamp stamp, const LayerOptions& options) const;
   /// On a drawn wall it is static at once, on another drawn line as soon as it stands.
   [[nodiscard]] CellState state(Stamp stamp, const LayerOptions& options,

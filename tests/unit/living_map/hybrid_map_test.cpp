@@ -145,6 +145,23 @@ TEST(HybridMap, WhatWasSeenToBeGoneDoesNotComeBackOutOfSight) {
   EXPECT_NE(room.map.state_at(kFaceOfTheBox), CellState::Static);
 }
 
+TEST(HybridMap, WhatStoodOnTwoDaysIsNotKnownToStandOnAThirdOneUnseen) {
+  Room room;
+  mapping::Walls screen;
+  test::add_wall(screen, 3.5, 0.0, 3.5, 6.0);
+  for (int day = 0; day < 2; ++day) {
+    room.look_for(60.0, box_at(5.0, 3.03));
+    room.next_day();
+  }
+  room.look_for(3.0, screen);
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Unseen);
+  room.next_day();
+  room.look_for(60.0, box_at(5.0, 3.03));
+  room.next_day();
+  room.look_for(3.0, screen);
+  EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Static);  // it was there on three days of three
+}
+
 TEST(HybridMap, AWallThatIsGoneIsMissedForDays) {
   Room room;
   const mapping::Walls screen{{7, {{4.6, 1.0}, {4.6, 5.0}}}};
