@@ -13,7 +13,6 @@
 #include "hmi/server/site_files.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/site/site_versions.hpp"
-#include "mapping/wall_map/wall_files.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -25,10 +24,10 @@ constexpr const char* kFolder = "site/";
 constexpr std::uint64_t kLargest = 1ULL << 30U;  ///< of one file: drawings are at most 256 MB
 using TarBlock = std::array<char, kTarBlock>;
 
+/// What its versions keep, what follows from that, and what was learned.
 bool is_of_site(const std::string& name) {
-  return name == "site.yaml" || name == "import.png" || name == mapping::kOtherLinesFile ||
-         name == "reliability.csv" || name == "memory.bin" || name == "self_calibration.yaml" ||
-         name.starts_with("drawing.") || name.starts_with("walls.") || name.starts_with("map.") ||
+  return mapping::is_kept(name) || name == "reliability.csv" || name == "memory.bin" ||
+         name == "self_calibration.yaml" || name.starts_with("walls.") || name.starts_with("map.") ||
          name.starts_with("routes/") || name.starts_with("tiles/") || name.starts_with("learned/") ||
          name.starts_with("versions/");
 }

@@ -186,14 +186,13 @@ CellState HybridMap::state(CellTree::Index cell) const {
 /// A thing that stands before a wall, or on a line of the floor, has faces across it.
 DrawnAs HybridMap::drawn_as(const MapCell& cell) const {
   if (cell.gaussian.empty()) return DrawnAs::Nothing;
-  const GaussianAxes axes = cell.gaussian.axes();
   const Point2<Map> at{cell.gaussian.x_m, cell.gaussian.y_m};
   DrawnAs found = DrawnAs::Nothing;
   for (const std::int32_t line : cell.drawn) {
     if (line < 0) continue;
     const auto i = static_cast<std::size_t>(line);
-    if (!runs_across(axes, drawn_[i]) &&
-        mapping::squared_distance_m2(drawn_[i], at) < options_.drawn_m * options_.drawn_m)
+    if (mapping::squared_distance_m2(drawn_[i], at) < options_.drawn_m * options_.drawn_m &&
+        !runs_across(cell.gaussian.axes(), drawn_[i]))
       found = std::max(found, i < drawn_walls_ ? DrawnAs::Wall : DrawnAs::Line);
   }
   return found;
