@@ -122,11 +122,8 @@ void save_mapped_site(const MappedSite& mapped, const std::filesystem::path& fol
   mapping::SiteTransaction change(folder);
   const mapping::GrayImage picture = picture_of(mapped);
   std::vector<mapping::PixelSegment> lines;
-  for (const mapping::Wall& wall : mapped.walls) {
-    const Segment2<Map>& s = wall.segment;
-    lines.push_back({s.a.x_m / kScale, mapped.height_px - s.a.y_m / kScale, s.b.x_m / kScale,
-                     mapped.height_px - s.b.y_m / kScale});
-  }
+  for (const mapping::Wall& wall : mapped.walls)
+    lines.push_back(mapping::on_drawing(wall.segment, mapped.height_px, kScale));
   mapping::stage_wall_files(change, mapped.walls, mapped.width_px * kScale, mapped.height_px * kScale, {});
   change.write("drawing.png", picture_png(picture));
   change.write("import.png", as_text(mapping::import_picture(picture, lines, {}, kScale)));

@@ -9,29 +9,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A line of the Map frame as it lies on the drawing.
-PixelSegment on_drawing(const Wall& line, const Site& site) {
-  const double m_per_px = site.scale->m_per_px;
-  const auto& [a, b] = line.segment;
-  return {a.x_m / m_per_px, site.drawing.height_px - a.y_m / m_per_px, b.x_m / m_per_px,
-          site.drawing.height_px - b.y_m / m_per_px};
-}
-
 void stage_picture(SiteTransaction& change, const fs::path& folder, const Site& site, const Walls& walls,
                    const Walls& other_lines) {
   PlanOptions options;
   options.page = site.drawing.page;
   if (site.drawing.dpi > 0.0) options.dpi = site.drawing.dpi;
   const Plan plan = load_plan(folder / site.drawing.file, options);
+  const auto pixels = [&](const Wall& line) {
+    return on_drawing(line.segment, site.drawing.height_px, site.scale->m_per_px);
+  };
   std::vector<PixelSegment> segments;
   std::vector<double> probabilities;
   for (const Wall& wall : walls) {
-    segments.push_back(on_drawing(wall, site));
+    segments.push_back(pixels(wall));
     probabilities.push_back(wall.probability);
   }
   std::vector<RejectedSegment> others;
   for (const Wall& line : other_lines)
-    others.push_back({on_drawing(line, site), RejectReason::Other, line.probability});
+    others.push_back({pixels(line), RejectReason::Other, line.probability});
   const auto png = import_picture(plan.picture, segments, others, site.scale->m_per_px, probabilities);
   change.write("import.png", {reinterpret_cast<const char*>(png.data()), png.size()});
 }

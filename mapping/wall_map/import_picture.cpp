@@ -144,6 +144,11 @@ void draw_footer(Layer& layer, double zoom, std::optional<double> m_per_px) {
 
 }  // namespace
 
+PixelSegment on_drawing(const Segment2<Map>& line, int height_px, double m_per_px) {
+  return {line.a.x_m / m_per_px, height_px - line.a.y_m / m_per_px, line.b.x_m / m_per_px,
+          height_px - line.b.y_m / m_per_px};
+}
+
 std::vector<std::uint8_t> import_picture(const GrayImage& drawing, std::span<const PixelSegment> walls,
                                          std::span<const RejectedSegment> rejected,
                                          std::optional<double> m_per_px,
