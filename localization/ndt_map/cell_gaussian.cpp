@@ -56,4 +56,17 @@ GaussianAxes CellGaussian::axes() const {
   return axes;
 }
 
+double same_surface(const CellGaussian& a, const CellGaussian& b, double sigma_m) {
+  const GaussianAxes of_a = a.axes(), of_b = b.axes();
+  const double cosine = of_a.normal_x * of_b.normal_x + of_a.normal_y * of_b.normal_y;
+  if (of_a.is_surface() && of_b.is_surface() && cosine * cosine < 0.5) return 0.0;
+  const bool a_is_flatter = of_a.small_m2 * of_b.large_m2 < of_b.small_m2 * of_a.large_m2;
+  const GaussianAxes& flat = a_is_flatter ? of_a : of_b;
+  const CellGaussian& other = a_is_flatter ? b : a;
+  const double x = flat.normal_x, y = flat.normal_y;
+  const double apart_m = x * (a.x_m - b.x_m) + y * (a.y_m - b.y_m);
+  const double theirs_m2 = x * x * other.xx_m2 + 2.0 * x * y * other.xy_m2 + y * y * other.yy_m2;
+  return std::exp(-0.5 * apart_m * apart_m / (flat.small_m2 + theirs_m2 + sigma_m * sigma_m));
+}
+
 }  // namespace madori::localization

@@ -8,6 +8,9 @@ struct GaussianAxes {
   double small_m2 = 0.0;
   double normal_x = 0.0;
   double normal_y = 0.0;
+
+  /// A surface, not a corner nor a heap: with 3 cm of noise a face has a fifth.
+  [[nodiscard]] bool is_surface() const { return small_m2 <= 0.5 * large_m2; }
 };
 
 /// The end points that fell into a cell as a normal distribution, and their heights. Moments are those of the
@@ -28,5 +31,9 @@ struct CellGaussian {
   void merge(const CellGaussian& other, double most_samples);
   [[nodiscard]] GaussianAxes axes() const;
 };
+
+/// How surely both are of one surface, 0..1: by how far their means lie apart across the flatter one, in
+/// standard deviations, `sigma_m` among them (range and pose); 0 where they run across each other.
+[[nodiscard]] double same_surface(const CellGaussian& a, const CellGaussian& b, double sigma_m);
 
 }  // namespace madori::localization

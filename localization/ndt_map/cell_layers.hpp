@@ -40,13 +40,18 @@ struct CellLayers {
 
   [[nodiscard]] bool was_seen() const { return seen != Stamp{}; }
   /// One look's evidence, at `stamp`. A look that is not later than the last one tells of *now* only.
-  void take(double evidence, Stamp stamp, const LayerOptions& options);
+  /// `same_thing`, 0..1: how surely what it sees is what was known there.
+  void take(double evidence, Stamp stamp, const LayerOptions& options, double same_thing = 1.0);
   /// As they count at `stamp`: out of view, each falls back to the slower one; what is not known to be
   /// permanent is not known to be there on another day.
   [[nodiscard]] CellLayers at(Stamp stamp, const LayerOptions& options) const;
-  /// On a drawn wall it is static at once, on another drawn line as soon as it stands.
-  [[nodiscard]] CellState state(Stamp stamp, const LayerOptions& options,
-                                DrawnAs drawn = DrawnAs::Nothing) const;
+  [[nodiscard]] bool lasts(const LayerOptions& options) const {
+    return static_cast<double>(permanent) > options.permanent;
+  }
+  /// On a drawn wall it is static at once, on another drawn line as soon as it stands. `is_what_lasts`: what
+  /// is seen there is what is known to last.
+  [[nodiscard]] CellState state(Stamp stamp, const LayerOptions& options, DrawnAs drawn = DrawnAs::Nothing,
+                                bool is_what_lasts = true) const;
 };
 
 }  // namespace madori::localization

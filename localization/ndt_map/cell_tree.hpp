@@ -18,8 +18,9 @@ struct CellPlace {
 };
 
 struct MapCell {
-  CellGaussian gaussian;
+  CellGaussian gaussian;  ///< of what is seen; of other days little is left
   CellLayers layers;
+  CellGaussian lasting;  ///< of what is known to be permanent, which may be hidden or gone
   std::array<std::int32_t, 2> drawn{-1, -1};  ///< lines nearest to its middle, walls first, which have faces
 };
 

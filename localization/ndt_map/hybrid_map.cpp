@@ -64,8 +64,7 @@ void walk(const MapBeam& beam, const Way& way, double cell_m, Visit&& visit) {
 
 /// Whether a surface, where it is one, runs more across the line than along it.
 bool runs_across(const GaussianAxes& axes, const Segment2<Map>& line) {
-  constexpr double kDirected = 0.5;  // smaller over larger variance; with 3 cm of noise a face has a fifth
-  if (axes.small_m2 > kDirected * axes.large_m2) return false;
+  if (!axes.is_surface()) return false;
   const double x = line.b.x_m - line.a.x_m, y = line.b.y_m - line.a.y_m;
   return std::abs(axes.normal_x * x + axes.normal_y * y) > std::abs(axes.normal_x * y - axes.normal_y * x);
 }
@@ -95,22 +94,21 @@ CellState HybridMap::state_at(const Point2<Map>& p) const {
   return cell == CellTree::kNone ? CellState::Unseen : state(cell);
 }
 
-void HybridMap::weigh(CellTree::Index cell, double evidence) {
-  if (cell >= evidence_.size()) {
-    evidence_.resize(cells_.size(), 0.0);
-    is_touched_.resize(cells_.size(), 0);
+HybridMap::Sighting& HybridMap::sighting(CellTree::Index cell) {
+  if (cell >= sighting_of_.size()) sighting_of_.resize(cells_.size(), 0);
+  if (sighting_of_[cell] == 0) {
+    sightings_.emplace_back().cell = cell;
+    sighting_of_[cell] = static_cast<std::uint32_t>(sightings_.size());
   }
-  if (is_touched_[cell] == 0) touched_.push_back(cell);
-  is_touched_[cell] = 1;
-  evidence_[cell] += evidence;
+  return sightings_[sighting_of_[cell] - 1];
 }
 
 void HybridMap::hit(const Ray& ray) {
   if (!ray.ends_here) return;
   const auto& b = ray.beam;
-  const auto cell = cells_.at(ray.end);
-  cells_[cell].gaussian.add(b.x_m + b.dx_m, b.y_m + b.dy_m, b.z_m + b.dz_m, options_.most_samples);
-  weigh(cell, options_.hit);
+  Sighting& seen = sighting(cells_.at(ray.end));
+  seen.ends.add(b.x_m + b.dx_m, b.y_m + b.dy_m, b.z_m + b.dz_m, options_.most_samples);
+  seen.evidence += options_.hit;
 }
 
 void HybridMap::pass(const Ray& ray) {
@@ -119,7 +117,7 @@ void HybridMap::pass(const Ray& ray) {
     const auto cell = cells_.at(place);
     const CellGaussian& gaussian = cells_[cell].gaussian;
     const double surely = gaussian.empty() ? 1.0 : refutes(ray.beam, from, to, gaussian, options_.surface_m);
-    weigh(cell, -options_.pass * surely);
+    sighting(cell).evidence -= options_.pass * surely;
   });
 }
 
@@ -145,21 +143,37 @@ void HybridMap::look(const Beams& beams, const Transform2<Map, Base>& map_from_b
     rays.push_back(ray);
   }
   for (const Ray& ray : rays) hit(ray);
+  for (Sighting& seen : sightings_) take_shape(seen, stamp);
   for (const Ray& ray : rays) pass(ray);
   settle(stamp);
+}
+
+/// The shape is of what stands there now: another day may have put another thing into the cell. What lasts
+/// keeps its own, and is known again by it.
+void HybridMap::take_shape(Sighting& seen, Stamp stamp) {
+  MapCell& cell = cells_[seen.cell];
+  const CellGaussian& known = cell.lasting.empty() ? cell.gaussian : cell.lasting;
+  if (!known.empty()) seen.same_thing = same_surface(seen.ends, known, options_.surface_m);
+  const double since_s = cell.layers.was_seen() ? std::max(0.0, to_seconds(stamp - cell.layers.seen)) : 0.0;
+  cell.gaussian.samples *= static_cast<float>(std::exp(-since_s / options_.layers.permanent_tau_s));
+  cell.gaussian.merge(seen.ends, options_.most_samples);
 }
 
 /// The look's evidence goes into the layers. Where nothing is left of what stood there, its shape goes, too.
 void HybridMap::settle(Stamp stamp) {
   newest_ = std::max(newest_, stamp);
-  for (const auto i : touched_) {
-    MapCell& cell = cells_[i];
-    cell.layers.take(evidence_[i], stamp, options_.layers);
+  for (const Sighting& seen : sightings_) {
+    MapCell& cell = cells_[seen.cell];
+    cell.layers.take(seen.evidence, stamp, options_.layers, seen.same_thing);
+    if (!cell.layers.lasts(options_.layers)) {
+      cell.lasting = {};
+    } else if (cell.lasting.empty()) {
+      cell.lasting = cell.gaussian;
+    }
     if (cell.layers.now <= -options_.layers.now_most && cell.layers.stands < 0.0F) cell.gaussian = {};
-    evidence_[i] = 0.0;
-    is_touched_[i] = 0;
+    sighting_of_[seen.cell] = 0;
   }
-  touched_.clear();
+  sightings_.clear();
   if (cells_.size() > options_.most_cells) forget_oldest();
 }
 
@@ -175,23 +189,26 @@ void HybridMap::forget_oldest() {
   CellTree kept;
   for (const auto i : order) kept[kept.at(cells_.place(i))] = cells_[i];
   cells_ = std::move(kept);
-  evidence_.assign(cells_.size(), 0.0);
-  is_touched_.assign(cells_.size(), 0);
+  sighting_of_.assign(cells_.size(), 0);
 }
 
 CellState HybridMap::state(CellTree::Index cell) const {
-  return cells_[cell].layers.state(newest_, options_.layers, drawn_as(cells_[cell]));
+  const MapCell& c = cells_[cell];
+  const bool is_what_lasts = c.gaussian.empty() || c.lasting.empty() ||
+                             same_surface(c.gaussian, c.lasting, options_.surface_m) > 0.5;
+  return c.layers.state(newest_, options_.layers, drawn_as(c), is_what_lasts);
 }
 
 /// A thing that stands before a wall, or on a line of the floor, has faces across it.
 DrawnAs HybridMap::drawn_as(const MapCell& cell) const {
   if (cell.gaussian.empty()) return DrawnAs::Nothing;
   const Point2<Map> at{cell.gaussian.x_m, cell.gaussian.y_m};
+  const double near_m = options_.drawn_sigmas * options_.surface_m;
   DrawnAs found = DrawnAs::Nothing;
   for (const std::int32_t line : cell.drawn) {
     if (line < 0) continue;
     const auto i = static_cast<std::size_t>(line);
-    if (mapping::squared_distance_m2(drawn_[i], at) < options_.drawn_m * options_.drawn_m &&
+    if (mapping::squared_distance_m2(drawn_[i], at) < near_m * near_m &&
         !runs_across(cell.gaussian.axes(), drawn_[i]))
       found = std::max(found, i < drawn_walls_ ? DrawnAs::Wall : DrawnAs::Line);
   }
@@ -203,7 +220,8 @@ DrawnAs HybridMap::drawn_as(const MapCell& cell) const {
 void HybridMap::mark_drawn(std::int32_t line_number) {
   const auto is_wall = [&](std::int32_t i) { return static_cast<std::size_t>(i) < drawn_walls_; };
   const Segment2<Map>& line = drawn_[static_cast<std::size_t>(line_number)];
-  const double reach_m = options_.drawn_m + 0.75 * options_.cell_m;  // to the middle of such a cell
+  const double reach_m =
+      options_.drawn_sigmas * options_.surface_m + 0.75 * options_.cell_m;  // to the middle of such a cell
   const auto low =
       place_of({std::min(line.a.x_m, line.b.x_m) - reach_m, std::min(line.a.y_m, line.b.y_m) - reach_m});
   const auto high =

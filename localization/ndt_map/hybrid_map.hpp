@@ -20,9 +20,9 @@ struct HybridMapOptions {
   double range_min_m = 0.4;     ///< nearer returns are the vehicle itself
   double low_m = 0.15;          ///< above the floor: what is lower is driven over ...
   double high_m = 1.9;          ///< ... and higher than a person stands nothing in the way
-  double drawn_m = 0.15;        ///< what stands so near to a drawn line is what it shows
   double shortest_m = 0.5;      ///< of another line: two cells; shorter ones are letters and arrows
-  double surface_m = 0.05;      ///< ends within it of a surface, one sigma: noise of range and pose
+  double surface_m = 0.05;      ///< of ends on a surface, one sigma: noise of range and pose
+  double drawn_sigmas = 2.0;    ///< what stands so near to a drawn line is what it shows
   double most_samples = 500.0;  ///< of a Gaussian: older ones fade
   std::size_t most_cells = 250'000;
   LayerOptions layers;
@@ -54,9 +54,17 @@ class HybridMap {
 
  private:
   struct Ray;
+  /// What the look at hand says of a cell.
+  struct Sighting {
+    CellTree::Index cell = 0;
+    double evidence = 0.0;
+    double same_thing = 1.0;
+    CellGaussian ends;
+  };
   void hit(const Ray& ray);
   void pass(const Ray& ray);
-  void weigh(CellTree::Index cell, double evidence);
+  Sighting& sighting(CellTree::Index cell);
+  void take_shape(Sighting& seen, Stamp stamp);
   void settle(Stamp stamp);
   void forget_oldest();
   void mark_drawn(std::int32_t line_number);
@@ -67,9 +75,8 @@ class HybridMap {
   std::vector<Segment2<Map>> drawn_;  ///< walls, and then other lines
   std::size_t drawn_walls_ = 0;
   Stamp newest_{};
-  std::vector<double> evidence_;  ///< of the look at hand, by cell
-  std::vector<char> is_touched_;
-  std::vector<CellTree::Index> touched_;
+  std::vector<Sighting> sightings_;         ///< of the look at hand
+  std::vector<std::uint32_t> sighting_of_;  ///< by cell, counted from 1; 0: none
 };
 
 }  // namespace madori::localization

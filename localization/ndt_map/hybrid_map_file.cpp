@@ -9,32 +9,44 @@ namespace madori::localization {
 namespace {
 
 constexpr std::string_view kMagic = "MADORILM";
-constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kLeastBytes = 32;  // of a cell
+constexpr std::uint32_t kVersion = 2;
+constexpr std::size_t kLeastBytes = 36;  // of a cell
 
-void put_cell(ByteWriter& out, const CellPlace& place, const MapCell& cell) {
-  const CellLayers& l = cell.layers;
-  const CellGaussian& g = cell.gaussian;
-  out.put(place.column);
-  out.put(place.row);
-  out.put(static_cast<std::int64_t>(l.seen.time_since_epoch().count()));
-  for (const float v : {l.now, l.stands, l.permanent, g.samples}) out.put(v);
+void put_gaussian(ByteWriter& out, const CellGaussian& g) {
+  out.put(g.samples);
   if (g.empty()) return;
   out.put(g.x_m);
   out.put(g.y_m);
   for (const float v : {g.xx_m2, g.xy_m2, g.yy_m2, g.z_m, g.zz_m2}) out.put(v);
 }
 
-MapCell get_cell(ByteReader& in) {
-  MapCell cell;
-  CellLayers& l = cell.layers;
-  CellGaussian& g = cell.gaussian;
-  l.seen = Stamp(Duration(in.get<std::int64_t>()));
-  for (float* v : {&l.now, &l.stands, &l.permanent, &g.samples}) *v = in.get<float>();
-  if (g.empty()) return cell;
+CellGaussian get_gaussian(ByteReader& in) {
+  CellGaussian g;
+  g.samples = in.get<float>();
+  if (g.empty()) return g;
   g.x_m = in.get<double>();
   g.y_m = in.get<double>();
   for (float* v : {&g.xx_m2, &g.xy_m2, &g.yy_m2, &g.z_m, &g.zz_m2}) *v = in.get<float>();
+  return g;
+}
+
+void put_cell(ByteWriter& out, const CellPlace& place, const MapCell& cell) {
+  const CellLayers& l = cell.layers;
+  out.put(place.column);
+  out.put(place.row);
+  out.put(static_cast<std::int64_t>(l.seen.time_since_epoch().count()));
+  for (const float v : {l.now, l.stands, l.permanent}) out.put(v);
+  put_gaussian(out, cell.gaussian);
+  put_gaussian(out, cell.lasting);
+}
+
+MapCell get_cell(ByteReader& in) {
+  MapCell cell;
+  CellLayers& l = cell.layers;
+  l.seen = Stamp(Duration(in.get<std::int64_t>()));
+  for (float* v : {&l.now, &l.stands, &l.permanent}) *v = in.get<float>();
+  cell.gaussian = get_gaussian(in);
+  cell.lasting = get_gaussian(in);
   return cell;
 }
 

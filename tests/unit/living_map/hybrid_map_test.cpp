@@ -202,6 +202,35 @@ TEST(HybridMap, WhatComesAndGoesIsNotPermanent) {
   EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::Static);
 }
 
+/// What stands close before a wall shares its cell; the wall is known again when it is gone.
+TEST(HybridMap, WhatStandsCloseBeforeAWallIsNotTheWall) {
+  const mapping::Walls boards{{7, {{7.86, 2.0}, {7.86, 4.0}}}};
+  for (const bool is_drawn : {false, true}) {
+    Room room;
+    if (is_drawn) room.map.draw(room.walls());
+    for (int day = 0; day < 4; ++day) {
+      room.look_for(3.0);
+      room.next_day();
+    }
+    EXPECT_EQ(room.map.state_at(kBeforeTheWall), CellState::Static);
+    room.look_for(3.0, boards);
+    EXPECT_EQ(room.map.state_at(kBeforeTheWall), CellState::SemiStatic) << is_drawn;
+    room.next_day();
+    room.look_for(3.0);
+    EXPECT_EQ(room.map.state_at(kBeforeTheWall), CellState::Static) << is_drawn;
+  }
+}
+
+/// Each day another pallet, all of them with a face in one cell.
+TEST(HybridMap, OtherThingsInTheSameCellAreNotOneThatLasts) {
+  Room room;
+  for (int day = 0; day < 6; ++day) {
+    room.look_for(3.0, box_at(4.95 + 0.09 * (day % 3), 3.03));
+    EXPECT_EQ(room.map.state_at(kFaceOfTheBox), CellState::SemiStatic) << day;
+    room.next_day();
+  }
+}
+
 TEST(HybridMap, AManySightingsAtOnceAreOne) {
   Room room;
   room.look_for(30.0);
