@@ -191,6 +191,15 @@ bool GraphMapper::lies_on_earlier(std::size_t end) const {
          distance_m(match.map_from_base.translation(), here.translation()) < kSamePlaceM;
 }
 
+/// Ties that were believed before the building was known to repeat itself so far.
+void GraphMapper::untie_what_is_doubtful() {
+  const std::vector<std::size_t> of = finder_.surely_tied(map_.memory);
+  const auto is_doubtful = [&of](const Memory&, const RelativeFactor& f) {
+    return of[static_cast<std::size_t>(f.from)] != of[static_cast<std::size_t>(f.to)];
+  };
+  if (map_.memory.forget_loops(is_doubtful) > 0) map_.memory.optimise({});
+}
+
 /// What nothing ties to the largest piece is forgotten. Returns how many scans that were.
 int GraphMapper::keep_largest_piece() {
   Memory& memory = map_.memory;
@@ -245,6 +254,7 @@ FinishedMap GraphMapper::finish() {
   if (map_.memory.empty()) return finished;
   judge_joints(map_.memory.size());
   close_loops(true);
+  untie_what_is_doubtful();
   for (std::size_t k = 0; k < scan_of_.size(); ++k)
     if (map_.memory.keyframes()[k].cut) finished.carried.push_back(scans_[scan_of_[k]]->stamp);
   finished.lost_scans = keep_largest_piece();

@@ -45,6 +45,7 @@ class GraphMapper final : public Mapper {
   void tie(const std::vector<RelativeFactor>& loops);
   void note_piece();
   [[nodiscard]] bool sees_through_newest(const SurfaceScan& scan) const;
+  void untie_what_is_doubtful();
   [[nodiscard]] int keep_largest_piece();
   [[nodiscard]] std::vector<MomentPose> laid_pieces(const Memory& memory) const;
 

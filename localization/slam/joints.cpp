@@ -7,6 +7,7 @@ namespace {
 
 /// A scan that lies on less than this of what was seen before is where it is by the wheels' word alone.
 constexpr double kUnmatched = 0.35;
+constexpr double kOnNothing = 0.15;  // no neighbour is near by chance alone, either
 
 }  // namespace
 
@@ -33,8 +34,12 @@ bool is_false_joint(const Memory& memory, std::size_t k, double off_wheels, cons
   if (k == 0 || keyframes[k].cut || keyframes[k].agreement > options.least_agreement) return false;
   const SightCount sights = joint_sights(memory, k, options);
   const bool is_doubted = off_wheels > options.off_wheels || keyframes[k].agreement < kUnmatched;
-  const double most = is_doubted ? options.most_through_off : options.most_through;
-  if (sights.both() < options.least_seen || sights.contradiction() < most) return false;
+  const bool has_to_be_vouched_for = keyframes[k].agreement < kOnNothing;
+  if (sights.both() < options.least_seen) return has_to_be_vouched_for;
+  const double most = has_to_be_vouched_for ? options.most_through_alone
+                      : is_doubted          ? options.most_through_off
+                                            : options.most_through;
+  if (sights.contradiction() < most) return false;
   const bool is_followed =
       k + 1 < memory.size() && !keyframes[k + 1].cut && keyframes[k + 1].agreement < options.least_agreement;
   return !is_followed || joint_sights(memory, k + 1, options).contradiction() < sights.contradiction();

@@ -8,12 +8,13 @@
 namespace madori::localization {
 
 struct JointOptions {
-  std::size_t keyframes = 3;       ///< on either side of a joint that are asked
-  int least_seen = 40;             ///< points that both sides must have had in view
-  double most_through = 0.3;       ///< share of them that may contradict,
-  double most_through_off = 0.15;  ///< the same where the scans lead off the wheels,
-  double off_wheels = 16.3;        ///< sigmas squared: chi-squared of three, one in a thousand,
-  double least_agreement = 0.55;   ///< unless this share of the scan lies on what was seen before it
+  std::size_t keyframes = 3;         ///< on either side of a joint that are asked
+  int least_seen = 40;               ///< points that both sides must have had in view
+  double most_through = 0.3;         ///< share of them that may contradict,
+  double most_through_off = 0.15;    ///< the same where the scans lead off the wheels,
+  double most_through_alone = 0.07;  ///< and where a scan lies on nothing: the sights alone vouch for it,
+  double off_wheels = 16.3;          ///< sigmas squared: chi-squared of three, one in a thousand,
+  double least_agreement = 0.55;     ///< unless this share of the scan lies on what was seen before it
 };
 
 /// What the keyframes before `k` and those from `k` on say of each other.

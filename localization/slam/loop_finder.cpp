@@ -3,7 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "localization/memory/fuse.hpp"
 #include "localization/slam/graph_spread.hpp"
@@ -26,6 +28,11 @@ struct Span {
   [[nodiscard]] double length() const { return high - low; }
 };
 
+/// Of the motion that two alike views stand for.
+Eigen::Matrix3d guess_covariance(const StretchOptions& o) {
+  return Eigen::Vector3d(0.5 * o.search_m, 0.5 * o.search_m, 0.5 * o.search_rad).cwiseAbs2().asDiagonal();
+}
+
 std::size_t from_of(const RelativeFactor& f) {
   return static_cast<std::size_t>(f.from);
 }
@@ -46,10 +53,7 @@ bool LoopFinder::is_complete(const Memory& memory, std::size_t k) const {
 std::vector<LoopFinder::Candidate> LoopFinder::candidates(const Memory& memory, std::size_t newest) const {
   const GraphSpread spread(newest, memory.poses(), memory.factors());
   const StretchOptions& stretch = options_.stretch;
-  const Eigen::Matrix3d of_guess =
-      Eigen::Vector3d(0.5 * stretch.search_m, 0.5 * stretch.search_m, 0.5 * stretch.search_rad)
-          .cwiseAbs2()
-          .asDiagonal();
+  const Eigen::Matrix3d of_guess = guess_covariance(stretch);
   std::vector<Candidate> found;
   for (std::size_t k = 0; k < newest; ++k) {
     const auto& known = spread.at(k);
@@ -66,19 +70,25 @@ std::vector<LoopFinder::Candidate> LoopFinder::candidates(const Memory& memory, 
     if (spread.chi_squared(k, motion.inverse(), of_guess) > options_.most_sigmas2) continue;
     found.push_back({k, alike.difference, motion});
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.difference < b.difference; });
   const std::vector<std::size_t> pieces = memory.pieces();
   const bool is_tied = pieces[newest] == pieces.front();
-  std::vector<Candidate> apart;
+  return apart(memory, std::move(found), is_tied ? options_.tried : options_.tried_apart);
+}
+
+/// The most alike that are some driving apart from each other.
+std::vector<LoopFinder::Candidate> LoopFinder::apart(const Memory& memory, std::vector<Candidate> found,
+                                                     std::size_t count) const {
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.difference < b.difference; });
+  std::vector<Candidate> some;
   for (const Candidate& c : found) {
-    if (apart.size() == (is_tied ? options_.tried : options_.tried_apart)) break;
-    if (std::none_of(apart.begin(), apart.end(), [&](const Candidate& other) {
+    if (some.size() == count) break;
+    if (std::none_of(some.begin(), some.end(), [&](const Candidate& other) {
           return between_m(memory, other.keyframe, c.keyframe) < options_.apart_m;
         }))
-      apart.push_back(c);
+      some.push_back(c);
   }
-  return apart;
+  return some;
 }
 
 void LoopFinder::seek(const Memory& memory, std::size_t newest) {
@@ -97,6 +107,67 @@ void LoopFinder::seek(const Memory& memory, std::size_t newest) {
   }
 }
 
+/// What the graph knows to be another place than keyframe `k`, and what passes for it all the same.
+void LoopFinder::survey(const Memory& memory, std::size_t k) {
+  const StretchOptions& stretch = options_.stretch;
+  const GraphSpread spread(k, memory.poses(), memory.factors());
+  const Eigen::Matrix3d of_guess = guess_covariance(stretch);
+  std::vector<Candidate> elsewhere;
+  for (std::size_t i = 0; i < k; ++i) {
+    if (!spread.at(i)) continue;
+    const ViewDifference alike = compare_views(views_[k], views_[i]);
+    const Transform2<Base, Base> motion(0.0, 0.0, alike.turn_rad());
+    if (alike.difference <= options_.most_unlike &&
+        spread.chi_squared(i, motion.inverse(), of_guess) > options_.most_sigmas2)
+      elsewhere.push_back({i, alike.difference, motion});
+  }
+  const Stretch here = stretch_around(memory.keyframes(), k, stretch);
+  for (const Candidate& c : apart(memory, std::move(elsewhere), options_.tried)) {
+    const auto match = match_stretches(memory, stretch_around(memory.keyframes(), c.keyframe, stretch), here,
+                                       c.motion, stretch);
+    if (!match) continue;
+    const RelativeFactor back = reversed(match->factor);
+    if (spread.chi_squared(c.keyframe, back.motion, back.information.inverse()) > options_.most_sigmas2)
+      mistakes_.push_back(match->factor);
+  }
+}
+
+/// So densely that a mistake of that length would show several times. False: not all could be looked at now.
+bool LoopFinder::is_surveyed(const Memory& memory, double length_m) {
+  constexpr double kTimes = 3.0;
+  is_surveyed_.resize(sought_.size(), 0);
+  const auto step = static_cast<std::size_t>(std::max(1.0, length_m / (kTimes * options_.every_m)));
+  for (std::size_t i = 0; i < sought_.size(); i += step) {
+    if (is_surveyed_[i] != 0) continue;
+    if (surveys_left_ == 0) return false;
+    --surveys_left_;
+    survey(memory, sought_[i]);
+    is_surveyed_[i] = 1;
+  }
+  return true;
+}
+
+double LoopFinder::longest_mistake_m(const Memory& memory) const {
+  double longest_m = 0.0;
+  for (const RelativeFactor& m : mistakes_) {
+    const Group group = group_of(memory, mistakes_, m);
+    longest_m = std::max({longest_m, group.here_m, group.there_m});
+  }
+  return longest_m;
+}
+
+std::vector<std::size_t> LoopFinder::surely_tied(const Memory& memory) const {
+  std::vector<std::size_t> of(memory.size());
+  for (std::size_t k = 1; k < of.size(); ++k) of[k] = of[k - 1] + (memory.keyframes()[k].cut ? 1 : 0);
+  const double longest_m = longest_mistake_m(memory);
+  for (const Tie& tie : ties_) {
+    if (tie.length_m < options_.surer * longest_m) continue;
+    const std::size_t a = of[tie.from], b = of[tie.to];
+    std::replace(of.begin(), of.end(), std::max(a, b), std::min(a, b));
+  }
+  return of;
+}
+
 std::vector<std::vector<RelativeFactor>> LoopFinder::mended_cuts(const Memory& memory) {
   std::vector<std::vector<RelativeFactor>> mended;
   StretchOptions options = options_.stretch;
@@ -107,7 +178,10 @@ std::vector<std::vector<RelativeFactor>> LoopFinder::mended_cuts(const Memory& m
     if (first >= views_.size()) return false;
     const auto match = match_stretches(memory, stretch_around(memory.keyframes(), first - 1, options),
                                        stretch_around(memory.keyframes(), first, options), motion, options);
-    if (match) mended.push_back({match->factor});
+    if (match && match->sights.contradiction() < options_.most_through_all) {
+      mended.push_back({match->factor});
+      ties_.push_back({first - 1, first, std::numeric_limits<double>::infinity()});
+    }
     return true;
   });
   return mended;
@@ -141,32 +215,47 @@ bool LoopFinder::agree(const Memory& memory, const RelativeFactor& a, const Rela
          options_.most_sigmas2;
 }
 
-/// The loops that agree with the newest, where they are enough and no others speak for another place.
-std::vector<RelativeFactor> LoopFinder::believed(const Memory& memory, const RelativeFactor& newest) const {
-  std::vector<RelativeFactor> with;
-  std::size_t against = 0;
+/// The loops that agree with one of them.
+LoopFinder::Group LoopFinder::group_of(const Memory& memory, const std::vector<RelativeFactor>& loops,
+                                       const RelativeFactor& one) const {
+  Group group;
   Span here, there;
-  for (const RelativeFactor& f : likely_) {
-    if (!comparable(memory, f, newest)) {
-      against += between_m(memory, to_of(f), to_of(newest)) < options_.comparable_m;
+  const std::vector<std::size_t> pieces = memory.pieces();
+  for (const RelativeFactor& f : loops) {
+    if (pieces[from_of(f)] != pieces[from_of(one)] || pieces[to_of(f)] != pieces[to_of(one)]) continue;
+    const bool is_near = comparable(memory, f, one);
+    if (!is_near && between_m(memory, to_of(f), to_of(one)) >= options_.comparable_m) continue;
+    if (!agree(memory, f, one) || (!is_near && pieces[from_of(one)] == pieces[to_of(one)])) {
+      ++group.against;
       continue;
     }
-    if (!agree(memory, f, newest)) {
-      ++against;
-      continue;
-    }
-    with.push_back(f);
+    if (!is_near) continue;
+    group.loops.push_back(f);
     here.add(memory.keyframes()[to_of(f)].path_m);
     there.add(memory.keyframes()[from_of(f)].path_m);
   }
+  group.here_m = here.length();
+  group.there_m = there.length();
+  return group;
+}
+
+/// The loops that agree with the newest, where they are enough and no others speak for another place.
+std::vector<RelativeFactor> LoopFinder::believed(const Memory& memory, const RelativeFactor& newest) {
+  Group group = group_of(memory, likely_, newest);
+  if (group.loops.size() < options_.together || 2 * group.against >= group.loops.size()) return {};
+  if (group.here_m < options_.span_m) return {};
   const std::vector<std::size_t> pieces = memory.pieces();
-  const bool apart = pieces[from_of(newest)] != pieces[to_of(newest)];
-  if (with.size() < options_.together || 2 * against >= with.size()) return {};
-  if (here.length() < options_.span_m) return {};
-  if (apart && (std::min(here.length(), there.length()) < options_.span_apart_m ||
-                !fit_all_over(memory, pieces, newest)))
-    return {};
-  return with;
+  if (pieces[from_of(newest)] != pieces[to_of(newest)]) {
+    const double length_m = std::min(group.here_m, group.there_m);
+    if (length_m < options_.span_apart_m || !fit_all_over(memory, pieces, newest)) return {};
+    if (!is_surveyed(memory, length_m / options_.surer)) {
+      is_put_off_ = true;
+      return {};
+    }
+    if (length_m < options_.surer * longest_mistake_m(memory)) return {};
+    ties_.push_back({from_of(newest), to_of(newest), length_m});
+  }
+  return std::move(group.loops);
 }
 
 /// With two pieces laid on each other by a loop, all that they see of each other speaks, not the place of the
@@ -212,7 +301,9 @@ std::vector<std::vector<RelativeFactor>> LoopFinder::look(const Memory& memory, 
         stretch_scan(memory, stretch_around(keyframes, k, options_.stretch), options_.stretch.spacing_m)));
     if (keyframes[k].path_m - sought_path_m_ < options_.every_m && !keyframes[k].cut) continue;
     sought_path_m_ = keyframes[k].path_m;
-    const std::size_t before = likely_.size();
+    sought_.push_back(k);
+    const std::size_t before = std::exchange(is_put_off_, false) ? 0 : likely_.size();
+    surveys_left_ = at_end ? std::numeric_limits<std::size_t>::max() : options_.surveys;
     seek(memory, k);
     for (std::size_t h = before; h < likely_.size(); ++h) {
       auto group = believed(memory, likely_[h]);

@@ -24,8 +24,10 @@ struct LoopFinderOptions {
   double joint_rad = 0.5;
   double most_sigmas2 = 16.3;      ///< chi-squared of three, one right loop in a thousand is refused
   std::size_t together = 3;        ///< loops that must lead to the same place, and what must have been driven
-  double span_m = 1.0;             ///< from the first to the last of them, within a piece;
+  double span_m = 1.0;             ///< from the first to the last of them;
   double span_apart_m = 4.0;       ///< between pieces, of which the graph knows nothing, on either side,
+  double surer = 2.0;              ///< between pieces this many times the longest mistake, on either side,
+  std::size_t surveys = 20;        ///< at once while driving,
   double around_m = 12.0;          ///< and all that they saw of each other so far around the loop,
   double near_m = 6.0;             ///< keyframes so near to each other,
   double most_through_all = 0.15;  ///< may contradict to this share
@@ -39,7 +41,9 @@ struct LoopFinderOptions {
 /// Finds places again by what they look like, over all that is remembered and however far the estimate has
 /// drifted: views of stretches of keyframes are compared (RDNM), likely pairs laid on each other, weighed
 /// against the graph's own covariance, and believed when several lead to the same place and none of as much
-/// weight to another.
+/// weight to another. Between pieces, of which the graph knows nothing, it says itself how far a building is
+/// to be trusted: places that the graph knows to be others are laid on each other, too, and over how much
+/// driving they pass for one (the longest mistake) is what a tie has to exceed.
 class LoopFinder {
  public:
   explicit LoopFinder(const LoopFinderOptions& options = {}) : options_(options) {}
@@ -54,6 +58,9 @@ class LoopFinder {
   void note_cut(std::size_t keyframe, const Transform2<Base, Base>& motion) {
     cuts_.emplace_back(keyframe, motion);
   }
+  /// For every keyframe a number that it has in common with those to which it is surely tied: by the motions
+  /// of a drive, and by ties that exceed also the mistakes that were found after them.
+  [[nodiscard]] std::vector<std::size_t> surely_tied(const Memory& memory) const;
   [[nodiscard]] const LoopFinderOptions& options() const { return options_; }
 
  private:
@@ -62,22 +69,47 @@ class LoopFinder {
     double difference;
     Transform2<Base, Base> motion;  ///< of the place sought, seen from the keyframe
   };
+  /// Loops that lead to one place, and the driving from the first to the last of them on either side.
+  struct Group {
+    std::vector<RelativeFactor> loops;
+    double here_m = 0.0;
+    double there_m = 0.0;
+    std::size_t against = 0;  ///< lead elsewhere
+  };
+  /// Drives were tied between these keyframes.
+  struct Tie {
+    std::size_t from = 0;
+    std::size_t to = 0;
+    double length_m = 0.0;
+  };
   [[nodiscard]] bool is_complete(const Memory& memory, std::size_t k) const;
   [[nodiscard]] std::vector<Candidate> candidates(const Memory& memory, std::size_t newest) const;
+  [[nodiscard]] std::vector<Candidate> apart(const Memory& memory, std::vector<Candidate> found,
+                                             std::size_t count) const;
   void seek(const Memory& memory, std::size_t newest);
+  void survey(const Memory& memory, std::size_t k);
+  bool is_surveyed(const Memory& memory, double length_m);
+  [[nodiscard]] double longest_mistake_m(const Memory& memory) const;
   [[nodiscard]] std::vector<std::vector<RelativeFactor>> mended_cuts(const Memory& memory);
   [[nodiscard]] bool fit_all_over(const Memory& memory, const std::vector<std::size_t>& pieces,
                                   const RelativeFactor& loop) const;
   [[nodiscard]] bool comparable(const Memory& memory, const RelativeFactor& a, const RelativeFactor& b) const;
   [[nodiscard]] bool agree(const Memory& memory, const RelativeFactor& a, const RelativeFactor& b) const;
-  [[nodiscard]] std::vector<RelativeFactor> believed(const Memory& memory,
-                                                     const RelativeFactor& newest) const;
+  [[nodiscard]] Group group_of(const Memory& memory, const std::vector<RelativeFactor>& loops,
+                               const RelativeFactor& one) const;
+  [[nodiscard]] std::vector<RelativeFactor> believed(const Memory& memory, const RelativeFactor& newest);
 
   LoopFinderOptions options_;
   std::vector<PlaceView> views_;        ///< one a keyframe, of those whose surroundings are complete
   std::vector<RelativeFactor> likely_;  ///< laid on each other, not yet believed
   std::vector<std::pair<std::size_t, Transform2<Base, Base>>> cuts_;  ///< not yet looked at
   double sought_path_m_ = -1e9;
+  std::vector<std::size_t> sought_;
+  std::vector<char> is_surveyed_;         ///< by the number in sought_
+  std::size_t surveys_left_ = 0;          ///< of this look
+  bool is_put_off_ = false;               ///< a tie, until more is surveyed
+  std::vector<RelativeFactor> mistakes_;  ///< laid on each other, and known to be different places
+  std::vector<Tie> ties_;
 };
 
 }  // namespace madori::localization
