@@ -291,9 +291,24 @@ bool LoopFinder::fit_all_over(const Memory& memory, const std::vector<std::size_
   return sum.contradiction() < options_.most_through_all;
 }
 
+/// The first group of loops that is believed, from the likely one `from` on; its loops are likely no longer.
+std::vector<std::vector<RelativeFactor>> LoopFinder::taken(const Memory& memory, std::size_t from) {
+  for (std::size_t h = from; h < likely_.size(); ++h) {
+    auto group = believed(memory, likely_[h]);
+    if (group.empty()) continue;
+    std::erase_if(likely_, [&](const RelativeFactor& f) {
+      return std::any_of(group.begin(), group.end(),
+                         [&](const RelativeFactor& g) { return g.from == f.from && g.to == f.to; });
+    });
+    return {std::move(group)};
+  }
+  return {};
+}
+
 std::vector<std::vector<RelativeFactor>> LoopFinder::look(const Memory& memory, bool at_end) {
   std::vector<std::vector<RelativeFactor>> groups = mended_cuts(memory);
   if (!groups.empty()) return groups;
+  surveys_left_ = at_end ? std::numeric_limits<std::size_t>::max() : options_.surveys;
   const auto& keyframes = memory.keyframes();
   while (views_.size() < memory.size() && (at_end || is_complete(memory, views_.size()))) {
     const std::size_t k = views_.size();
@@ -303,19 +318,12 @@ std::vector<std::vector<RelativeFactor>> LoopFinder::look(const Memory& memory, 
     sought_path_m_ = keyframes[k].path_m;
     sought_.push_back(k);
     const std::size_t before = std::exchange(is_put_off_, false) ? 0 : likely_.size();
-    surveys_left_ = at_end ? std::numeric_limits<std::size_t>::max() : options_.surveys;
     seek(memory, k);
-    for (std::size_t h = before; h < likely_.size(); ++h) {
-      auto group = believed(memory, likely_[h]);
-      if (group.empty()) continue;
-      std::erase_if(likely_, [&](const RelativeFactor& f) {
-        return std::any_of(group.begin(), group.end(),
-                           [&](const RelativeFactor& g) { return g.from == f.from && g.to == f.to; });
-      });
-      groups.push_back(std::move(group));
-      return groups;  // the graph changes before the next is sought
-    }
+    groups = taken(memory, before);
+    if (!groups.empty()) return groups;  // the graph changes before the next is sought
   }
+  if (at_end && std::exchange(is_put_off_, false)) groups = taken(memory, 0);
+  if (!groups.empty()) return groups;
   return mended_cuts(memory);
 }
 

@@ -98,6 +98,7 @@ class LoopFinder {
   [[nodiscard]] Group group_of(const Memory& memory, const std::vector<RelativeFactor>& loops,
                                const RelativeFactor& one) const;
   [[nodiscard]] std::vector<RelativeFactor> believed(const Memory& memory, const RelativeFactor& newest);
+  [[nodiscard]] std::vector<std::vector<RelativeFactor>> taken(const Memory& memory, std::size_t from);
 
   LoopFinderOptions options_;
   std::vector<PlaceView> views_;        ///< one a keyframe, of those whose surroundings are complete

@@ -98,17 +98,42 @@ double relations_off_m(const std::vector<StampedPose>& way) {
   return score_against_relations(way, relations)["translation_m"]["mean"].get<double>();
 }
 
-// Measured: 0.0736 m, 573 of 910 scans in the map. The order of the pieces is one that thresholds were chosen
-// on.
-TEST(CarriedAway, TenTimesOnIntelIsNotJoinedWrongly) {
-  if (!std::filesystem::exists(kLogs / "intel" / "intel.relations")) GTEST_SKIP() << "no log in " << kLogs;
-  test::CutLog log(log_records("intel", 1), 10, 1);
-  localization::GraphMapper mapper;
+struct CutAndMapped {
   MappingRun run;
-  const std::vector<StampedPose> way = test::mapped_way(log, mapper, run);
-  EXPECT_GE(run.map.carried.size(), 10U);
-  EXPECT_LT(run.map.lost_scans, 400);
-  EXPECT_LT(relations_off_m(way), 0.08);
+  std::vector<StampedPose> way;  ///< in the order of the log before it was cut
+};
+
+CutAndMapped carried_ten_times(const char* name, unsigned order) {
+  CutAndMapped mapped;
+  test::CutLog log(log_records(name, 1), 10, order);
+  localization::GraphMapper mapper;
+  mapped.way = test::mapped_way(log, mapper, mapped.run);
+  std::stable_sort(mapped.way.begin(), mapped.way.end(),
+                   [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  return mapped;
+}
+
+// Measured: 0.0666 m (the map of the whole log at the same moments 0.0661 m), 862 of 910 scans in the map.
+// The order of the pieces is one that thresholds were chosen on.
+TEST(CarriedAway, TenTimesOnIntelIsFoundAgain) {
+  if (!std::filesystem::exists(kLogs / "intel" / "intel.relations")) GTEST_SKIP() << "no log in " << kLogs;
+  const CutAndMapped mapped = carried_ten_times("intel", 1);
+  EXPECT_GE(mapped.run.map.carried.size(), 10U);
+  EXPECT_LT(mapped.run.map.lost_scans, 100);
+  EXPECT_LT(relations_off_m(mapped.way), 0.0661 * 1.1);
+}
+
+// A building that is its own image, turned by half a turn. Measured: 0.109 and 0.074 m in the mean, 0.37 and
+// 0.20 m at most; with ties of four metres, whatever the building, 13.8 and 2.0 m in the mean.
+TEST(CarriedAway, TenTimesOnAcesIsNotJoinedWrongly) {
+  if (!std::filesystem::exists(kLogs / "aces" / "reference.tum")) GTEST_SKIP() << "no log in " << kLogs;
+  const std::vector<StampedPose> truth = load_tum(kLogs / "aces" / "reference.tum");
+  for (const unsigned order : {2U, 4U}) {
+    CutAndMapped mapped = carried_ten_times("aces", order);
+    test::lay_on(mapped.way, truth);
+    EXPECT_GT(mapped.run.map.scans.size(), 40U);
+    EXPECT_LT(score_against_truth(mapped.way, truth)["position_m"]["max"].get<double>(), 1.0) << order;
+  }
 }
 
 }  // namespace
