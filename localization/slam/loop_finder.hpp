@@ -26,7 +26,7 @@ struct LoopFinderOptions {
   std::size_t together = 3;        ///< loops that must lead to the same place, and what must have been driven
   double span_m = 1.0;             ///< from the first to the last of them;
   double span_apart_m = 4.0;       ///< between pieces, of which the graph knows nothing, on either side,
-  double surer = 2.0;              ///< between pieces this many times the longest mistake, on either side,
+  double surer = 3.0;              ///< between pieces this many times the longest mistake, on either side,
   std::size_t surveys = 20;        ///< at once while driving,
   double around_m = 12.0;          ///< and all that they saw of each other so far around the loop,
   double near_m = 6.0;             ///< keyframes so near to each other,

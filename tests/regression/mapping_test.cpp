@@ -123,12 +123,13 @@ TEST(CarriedAway, TenTimesOnIntelIsFoundAgain) {
   EXPECT_LT(relations_off_m(mapped.way), 0.0661 * 1.1);
 }
 
-// A building that is its own image, turned by half a turn. Measured: 0.109 and 0.074 m in the mean, 0.37 and
-// 0.20 m at most; with ties of four metres, whatever the building, 13.8 and 2.0 m in the mean.
+// A building that is its own image, turned by half a turn. Measured: 0.109 and 0.064 m in the mean, 0.37 and
+// 0.21 m at most; with ties of four metres, whatever the building, the first was 13.8 m off in the mean, with
+// ties of twice the longest mistake the second 13.1 m. Orders that the factor was chosen on.
 TEST(CarriedAway, TenTimesOnAcesIsNotJoinedWrongly) {
   if (!std::filesystem::exists(kLogs / "aces" / "reference.tum")) GTEST_SKIP() << "no log in " << kLogs;
   const std::vector<StampedPose> truth = load_tum(kLogs / "aces" / "reference.tum");
-  for (const unsigned order : {2U, 4U}) {
+  for (const unsigned order : {2U, 9U}) {
     CutAndMapped mapped = carried_ten_times("aces", order);
     test::lay_on(mapped.way, truth);
     EXPECT_GT(mapped.run.map.scans.size(), 40U);
