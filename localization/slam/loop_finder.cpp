@@ -134,7 +134,7 @@ void LoopFinder::survey(const Memory& memory, std::size_t k) {
 
 /// So densely that a mistake of that length would show several times. False: not all could be looked at now.
 bool LoopFinder::is_surveyed(const Memory& memory, double length_m) {
-  constexpr double kTimes = 3.0;
+  constexpr double kTimes = 2.0;
   is_surveyed_.resize(sought_.size(), 0);
   const auto step = static_cast<std::size_t>(std::max(1.0, length_m / (kTimes * options_.every_m)));
   for (std::size_t i = 0; i < sought_.size(); i += step) {
