@@ -203,7 +203,7 @@ CellState HybridMap::state(CellTree::Index cell) const {
 DrawnAs HybridMap::drawn_as(const MapCell& cell) const {
   if (cell.gaussian.empty()) return DrawnAs::Nothing;
   const Point2<Map> at{cell.gaussian.x_m, cell.gaussian.y_m};
-  const double near_m = options_.drawn_sigmas * options_.surface_m;
+  const double near_m = options_.drawn_m();
   DrawnAs found = DrawnAs::Nothing;
   for (const std::int32_t line : cell.drawn) {
     if (line < 0) continue;
@@ -220,8 +220,7 @@ DrawnAs HybridMap::drawn_as(const MapCell& cell) const {
 void HybridMap::mark_drawn(std::int32_t line_number) {
   const auto is_wall = [&](std::int32_t i) { return static_cast<std::size_t>(i) < drawn_walls_; };
   const Segment2<Map>& line = drawn_[static_cast<std::size_t>(line_number)];
-  const double reach_m =
-      options_.drawn_sigmas * options_.surface_m + 0.75 * options_.cell_m;  // to the middle of such a cell
+  const double reach_m = options_.drawn_m() + 0.75 * options_.cell_m;  // to the middle of such a cell
   const auto low =
       place_of({std::min(line.a.x_m, line.b.x_m) - reach_m, std::min(line.a.y_m, line.b.y_m) - reach_m});
   const auto high =

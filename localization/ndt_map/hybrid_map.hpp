@@ -26,6 +26,8 @@ struct HybridMapOptions {
   double most_samples = 500.0;  ///< of a Gaussian: older ones fade
   std::size_t most_cells = 250'000;
   LayerOptions layers;
+
+  [[nodiscard]] double drawn_m() const { return drawn_sigmas * surface_m; }
 };
 
 /// The hybrid NDT-occupancy map (docs/explanation/living-map.md; Einhorn and Gross 2015 after the

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "localization/memory/fuse.hpp"
-#include "localization/slam/graph_spread.hpp"
 
 namespace madori::localization {
 namespace {
@@ -91,19 +89,24 @@ std::vector<LoopFinder::Candidate> LoopFinder::apart(const Memory& memory, std::
   return some;
 }
 
+/// The candidate's stretch and the one here laid on each other, where they fit.
+std::optional<LoopFinder::Laid> LoopFinder::lay(const Memory& memory, const GraphSpread& spread,
+                                                const Candidate& c, const Stretch& here) const {
+  const auto match = match_stretches(memory, stretch_around(memory.keyframes(), c.keyframe, options_.stretch),
+                                     here, c.motion, options_.stretch);
+  if (!match) return std::nullopt;
+  const RelativeFactor back = reversed(match->factor);
+  const double off = spread.chi_squared(c.keyframe, back.motion, back.information.inverse());
+  return Laid{match->factor, off <= options_.most_sigmas2};
+}
+
 void LoopFinder::seek(const Memory& memory, std::size_t newest) {
   const Stretch here = stretch_around(memory.keyframes(), newest, options_.stretch);
   std::optional<GraphSpread> spread;
   for (const Candidate& c : candidates(memory, newest)) {
     if (!spread) spread.emplace(newest, memory.poses(), memory.factors());
-    const auto match =
-        match_stretches(memory, stretch_around(memory.keyframes(), c.keyframe, options_.stretch), here,
-                        c.motion, options_.stretch);
-    if (!match) continue;
-    const RelativeFactor back = reversed(match->factor);
-    if (spread->chi_squared(c.keyframe, back.motion, back.information.inverse()) > options_.most_sigmas2)
-      continue;
-    likely_.push_back(match->factor);
+    const auto laid = lay(memory, *spread, c, here);
+    if (laid && laid->may_be) likely_.push_back(laid->factor);
   }
 }
 
@@ -123,17 +126,13 @@ void LoopFinder::survey(const Memory& memory, std::size_t k) {
   }
   const Stretch here = stretch_around(memory.keyframes(), k, stretch);
   for (const Candidate& c : apart(memory, std::move(elsewhere), options_.tried)) {
-    const auto match = match_stretches(memory, stretch_around(memory.keyframes(), c.keyframe, stretch), here,
-                                       c.motion, stretch);
-    if (!match) continue;
-    const RelativeFactor back = reversed(match->factor);
-    if (spread.chi_squared(c.keyframe, back.motion, back.information.inverse()) > options_.most_sigmas2)
-      mistakes_.push_back(match->factor);
+    const auto laid = lay(memory, spread, c, here);
+    if (laid && !laid->may_be) mistakes_.push_back(laid->factor);
   }
 }
 
-/// So densely that a mistake of that length would show several times. False: not all could be looked at now.
-bool LoopFinder::is_surveyed(const Memory& memory, double length_m) {
+/// Surveys so densely that a mistake of that length would show. False: not all could be looked at now.
+bool LoopFinder::survey_for(const Memory& memory, double length_m) {
   constexpr double kTimes = 2.0;
   is_surveyed_.resize(sought_.size(), 0);
   const auto step = static_cast<std::size_t>(std::max(1.0, length_m / (kTimes * options_.every_m)));
@@ -149,8 +148,9 @@ bool LoopFinder::is_surveyed(const Memory& memory, double length_m) {
 
 double LoopFinder::longest_mistake_m(const Memory& memory) const {
   double longest_m = 0.0;
+  const std::vector<std::size_t> pieces = memory.pieces();
   for (const RelativeFactor& m : mistakes_) {
-    const Group group = group_of(memory, mistakes_, m);
+    const Group group = group_of(memory, pieces, mistakes_, m);
     longest_m = std::max({longest_m, group.here_m, group.there_m});
   }
   return longest_m;
@@ -216,11 +216,11 @@ bool LoopFinder::agree(const Memory& memory, const RelativeFactor& a, const Rela
 }
 
 /// The loops that agree with one of them.
-LoopFinder::Group LoopFinder::group_of(const Memory& memory, const std::vector<RelativeFactor>& loops,
+LoopFinder::Group LoopFinder::group_of(const Memory& memory, const std::vector<std::size_t>& pieces,
+                                       const std::vector<RelativeFactor>& loops,
                                        const RelativeFactor& one) const {
   Group group;
   Span here, there;
-  const std::vector<std::size_t> pieces = memory.pieces();
   for (const RelativeFactor& f : loops) {
     if (pieces[from_of(f)] != pieces[from_of(one)] || pieces[to_of(f)] != pieces[to_of(one)]) continue;
     const bool is_near = comparable(memory, f, one);
@@ -241,14 +241,14 @@ LoopFinder::Group LoopFinder::group_of(const Memory& memory, const std::vector<R
 
 /// The loops that agree with the newest, where they are enough and no others speak for another place.
 std::vector<RelativeFactor> LoopFinder::believed(const Memory& memory, const RelativeFactor& newest) {
-  Group group = group_of(memory, likely_, newest);
+  const std::vector<std::size_t> pieces = memory.pieces();
+  Group group = group_of(memory, pieces, likely_, newest);
   if (group.loops.size() < options_.together || 2 * group.against >= group.loops.size()) return {};
   if (group.here_m < options_.span_m) return {};
-  const std::vector<std::size_t> pieces = memory.pieces();
   if (pieces[from_of(newest)] != pieces[to_of(newest)]) {
     const double length_m = std::min(group.here_m, group.there_m);
     if (length_m < options_.span_apart_m || !fit_all_over(memory, pieces, newest)) return {};
-    if (!is_surveyed(memory, length_m / options_.surer)) {
+    if (!survey_for(memory, length_m / options_.surer)) {
       is_put_off_ = true;
       return {};
     }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "localization/memory/memory.hpp"
+#include "localization/slam/graph_spread.hpp"
 #include "localization/slam/place_views.hpp"
 #include "localization/slam/stretch.hpp"
 
@@ -69,6 +71,10 @@ class LoopFinder {
     double difference;
     Transform2<Base, Base> motion;  ///< of the place sought, seen from the keyframe
   };
+  struct Laid {
+    RelativeFactor factor;
+    bool may_be;  ///< the same place, by the graph
+  };
   /// Loops that lead to one place, and the driving from the first to the last of them on either side.
   struct Group {
     std::vector<RelativeFactor> loops;
@@ -86,17 +92,19 @@ class LoopFinder {
   [[nodiscard]] std::vector<Candidate> candidates(const Memory& memory, std::size_t newest) const;
   [[nodiscard]] std::vector<Candidate> apart(const Memory& memory, std::vector<Candidate> found,
                                              std::size_t count) const;
+  [[nodiscard]] std::optional<Laid> lay(const Memory& memory, const GraphSpread& spread, const Candidate& c,
+                                        const Stretch& here) const;
   void seek(const Memory& memory, std::size_t newest);
   void survey(const Memory& memory, std::size_t k);
-  bool is_surveyed(const Memory& memory, double length_m);
+  bool survey_for(const Memory& memory, double length_m);
   [[nodiscard]] double longest_mistake_m(const Memory& memory) const;
   [[nodiscard]] std::vector<std::vector<RelativeFactor>> mended_cuts(const Memory& memory);
   [[nodiscard]] bool fit_all_over(const Memory& memory, const std::vector<std::size_t>& pieces,
                                   const RelativeFactor& loop) const;
   [[nodiscard]] bool comparable(const Memory& memory, const RelativeFactor& a, const RelativeFactor& b) const;
   [[nodiscard]] bool agree(const Memory& memory, const RelativeFactor& a, const RelativeFactor& b) const;
-  [[nodiscard]] Group group_of(const Memory& memory, const std::vector<RelativeFactor>& loops,
-                               const RelativeFactor& one) const;
+  [[nodiscard]] Group group_of(const Memory& memory, const std::vector<std::size_t>& pieces,
+                               const std::vector<RelativeFactor>& loops, const RelativeFactor& one) const;
   [[nodiscard]] std::vector<RelativeFactor> believed(const Memory& memory, const RelativeFactor& newest);
   [[nodiscard]] std::vector<std::vector<RelativeFactor>> taken(const Memory& memory, std::size_t from);
 

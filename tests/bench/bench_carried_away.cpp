@@ -44,7 +44,6 @@ Way at_moments_of(const Way& way, const Way& moments) {
 }
 
 std::string score(Way way, const Truth& truth) {
-  std::stable_sort(way.begin(), way.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   char text[120];
   test::lay_on(way, truth.reference);
   const auto off = app::score_against_truth(way, truth.reference)["position_m"];

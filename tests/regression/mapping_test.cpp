@@ -100,7 +100,7 @@ double relations_off_m(const std::vector<StampedPose>& way) {
 
 struct CutAndMapped {
   MappingRun run;
-  std::vector<StampedPose> way;  ///< in the order of the log before it was cut
+  std::vector<StampedPose> way;
 };
 
 CutAndMapped carried_ten_times(const char* name, unsigned order) {
@@ -108,8 +108,6 @@ CutAndMapped carried_ten_times(const char* name, unsigned order) {
   test::CutLog log(log_records(name, 1), 10, order);
   localization::GraphMapper mapper;
   mapped.way = test::mapped_way(log, mapper, mapped.run);
-  std::stable_sort(mapped.way.begin(), mapped.way.end(),
-                   [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   return mapped;
 }
 

@@ -23,10 +23,11 @@ inline Way mapped_way(sensors::LogReader& log, localization::Mapper& mapper, app
   return way;
 }
 
-/// The same of a cut log, at the stamps of the log before it was cut.
+/// The same of a cut log, at the stamps and in the order of the log before it was cut.
 inline Way mapped_way(CutLog& log, localization::Mapper& mapper, app::MappingRun& run) {
   Way way = mapped_way(static_cast<sensors::LogReader&>(log), mapper, run);
   for (app::StampedPose& pose : way) pose.stamp = log.recorded(pose.stamp);
+  std::stable_sort(way.begin(), way.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   return way;
 }
 
