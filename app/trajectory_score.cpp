@@ -46,6 +46,7 @@ Transform2<Map, Base> between(const StampedPose& a, const StampedPose& b, Stamp 
 /// `max_dt_s`; nothing otherwise.
 std::optional<Transform2<Map, Base>> sample(const std::vector<StampedPose>& poses, Stamp stamp,
                                             const ScoreOptions& options, double max_gap_s, bool interpolate) {
+  if (poses.empty()) return std::nullopt;
   const auto after = std::lower_bound(poses.begin(), poses.end(), stamp,
                                       [](const StampedPose& pose, Stamp t) { return pose.stamp < t; });
   const auto last = static_cast<std::ptrdiff_t>(poses.size()) - 1;

@@ -123,12 +123,22 @@ void Memory::make_room() {
   for (const auto& scan : room_.spare) scan->points.reserve(most + most / 4);
 }
 
-void Memory::cut(std::size_t first) {
+void Memory::forget_across(std::size_t first) {
   const int begin = static_cast<int>(first);
   std::erase_if(factors_, [&](const RelativeFactor& f) { return (f.from < begin) != (f.to < begin); });
-  keyframes_[first].cut = keyframes_[first].after_break = true;
   looked_back_ = std::min(looked_back_, first);
   room_.has_recent = false;
+}
+
+void Memory::lead_otherwise(std::size_t first, const RelativeFactor& motion) {
+  forget_across(first);
+  factors_.push_back(motion);
+  move(poses_[first - 1] * motion.motion * poses_[first].inverse(), first);
+}
+
+void Memory::cut(std::size_t first) {
+  forget_across(first);
+  keyframes_[first].cut = keyframes_[first].after_break = true;
 }
 
 void Memory::tie(const std::vector<RelativeFactor>& loops) {

@@ -29,6 +29,7 @@ class Memory {
   [[nodiscard]] int loops() const { return loops_; }
 
   /// The first of the keyframes that count as recent.
+  void forget_across(std::size_t first);
   [[nodiscard]] std::size_t window_begin() const { return empty() ? 0 : window_begin(size() - 1); }
   /// The weakest agreement between the keyframes from `first` on: where all are strong, nothing has drifted.
   [[nodiscard]] double weakest_agreement(std::size_t first) const;
@@ -49,6 +50,9 @@ class Memory {
   /// The vehicle was carried to where keyframe `first` is: nothing leads there from those before it, and what
   /// follows is a piece of its own. Loops across the cut are forgotten, and sought anew once it is tied.
   void cut(std::size_t first);
+  /// Another motion from its forerunner leads to keyframe `first`, and all later ones go with it; loops with
+  /// what was before are forgotten.
+  void lead_otherwise(std::size_t first, const RelativeFactor& motion);
   /// Ties two keyframes each; they may lie in different pieces.
   void tie(const std::vector<RelativeFactor>& loops);
   /// For every keyframe the first one of its piece: the keyframes that motions and loops lead to.

@@ -57,6 +57,7 @@ void GraphMapper::remember(const SurfaceScan& scan) {
   map_.memory.add(scan, follower_.since_keyframe().path_m(), anchor_,
                   map_.memory.empty() ? MeasuredMotion{}
                                       : follower_.since_keyframe().measured(map_.memory.poses().back()));
+  wheels_at_.push_back(follower_.since_keyframe().wheels());
   follower_.begin_keyframe();
   off_wheels_at_.push_back(std::exchange(off_wheels_, 0.0));
   scan_of_.push_back(reckoned_.size() - 1);
@@ -64,8 +65,19 @@ void GraphMapper::remember(const SurfaceScan& scan) {
 
 /// A joint is judged when some keyframes stand on either side of it.
 void GraphMapper::judge_joints(std::size_t until) {
-  for (; judged_ < until; ++judged_)
-    if (is_false_joint(map_.memory, judged_, off_wheels_at_[judged_], joints_)) cut(judged_);
+  for (; judged_ < until; ++judged_) {
+    const auto [joint, motion] =
+        judge_joint(map_.memory, judged_, wheels_at_[judged_], off_wheels_at_[judged_], joints_);
+    if (joint == Joint::Otherwise) lead_otherwise(judged_, motion);
+    if (joint == Joint::False) cut(judged_);
+  }
+}
+
+void GraphMapper::lead_otherwise(std::size_t first, const RelativeFactor& motion) {
+  Memory& memory = map_.memory;
+  const Transform2<Map, Base> newest = memory.poses().back();
+  memory.lead_otherwise(first, motion);
+  anchor_ = memory.poses().back() * newest.inverse() * anchor_;
 }
 
 void GraphMapper::cut(std::size_t first) {

@@ -40,6 +40,7 @@ class GraphMapper final : public Mapper {
   void follow(const SurfaceScan& scan);
   void remember(const SurfaceScan& scan);
   void judge_joints(std::size_t until);
+  void lead_otherwise(std::size_t first, const RelativeFactor& motion);
   void cut(std::size_t first);
   void close_loops(bool at_end);
   void tie(const std::vector<RelativeFactor>& loops);
@@ -60,7 +61,8 @@ class GraphMapper final : public Mapper {
   std::vector<std::size_t> scan_of_;                       ///< the scan that each keyframe is
   JointOptions joints_;
   double off_wheels_ = 0.0;  ///< sigmas squared that scans led off the wheels, since the newest keyframe
-  std::vector<double> off_wheels_at_;  ///< on the way to each keyframe
+  std::vector<double> off_wheels_at_;    ///< on the way to each keyframe
+  std::vector<OdometryStep> wheels_at_;  ///< the wheels' word of that way
   LoopFinder finder_;
   int cuts_ = 0;
   std::size_t judged_ = 1;  ///< joints before this keyframe

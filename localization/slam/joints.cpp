@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "localization/localizer/pose_covariance.hpp"
+#include "localization/slam/stretch.hpp"
+
 namespace madori::localization {
 namespace {
 
-/// A scan that lies on less than this of what was seen before is where it is by the wheels' word alone.
-constexpr double kUnmatched = 0.35;
 constexpr double kOnNothing = 0.15;  // no neighbour is near by chance alone, either
 
 }  // namespace
@@ -29,20 +30,45 @@ SightCount joint_sights(const Memory& memory, std::size_t k, const JointOptions&
   return sum;
 }
 
-bool is_false_joint(const Memory& memory, std::size_t k, double off_wheels, const JointOptions& options) {
+namespace {
+
+/// The share that may contradict: the less of the scan lies on what was seen before, the less.
+double most_through(double agreement, double off_wheels, const JointOptions& o) {
+  if (off_wheels > o.off_wheels) return o.most_through_doubted;
+  const double sure = (agreement - o.doubted_agreement) / (o.fair_agreement - o.doubted_agreement);
+  return o.most_through_doubted + std::clamp(sure, 0.0, 1.0) * (o.most_through - o.most_through_doubted);
+}
+
+/// The stretches on both sides of the joint laid on each other by the wheels' word.
+StretchMatch led_by_wheels(const Memory& memory, std::size_t k, const OdometryStep& wheels) {
+  StretchOptions options;
+  options.search_rad = 0.8;  // wheels slip
+  Stretch before = stretch_around(memory.keyframes(), k - 1, options);
+  Stretch after = stretch_around(memory.keyframes(), k, options);
+  before.last = k - 1;
+  after.first = k;
+  return lean_stretches(memory, before, after, wheels.motion, with_floor(wheels.covariance), options);
+}
+
+}  // namespace
+
+JointVerdict judge_joint(const Memory& memory, std::size_t k, const OdometryStep& wheels, double off_wheels,
+                         const JointOptions& options) {
   const auto& keyframes = memory.keyframes();
-  if (k == 0 || keyframes[k].cut || keyframes[k].agreement > options.least_agreement) return false;
+  if (k == 0 || keyframes[k].cut || keyframes[k].agreement > options.least_agreement) return {};
+  const double most = most_through(keyframes[k].agreement, off_wheels, options);
+  const auto is_explained = [&](const SightCount& sights) {
+    return sights.both() >= options.least_seen && sights.contradiction() < most;
+  };
   const SightCount sights = joint_sights(memory, k, options);
-  const bool is_doubted = off_wheels > options.off_wheels || keyframes[k].agreement < kUnmatched;
-  const bool has_to_be_vouched_for = keyframes[k].agreement < kOnNothing;
-  if (sights.both() < options.least_seen) return has_to_be_vouched_for;
-  const double most = has_to_be_vouched_for ? options.most_through_alone
-                      : is_doubted          ? options.most_through_off
-                                            : options.most_through;
-  if (sights.contradiction() < most) return false;
+  if (is_explained(sights)) return {};
+  if (sights.both() < options.least_seen && keyframes[k].agreement > kOnNothing) return {};
   const bool is_followed =
       k + 1 < memory.size() && !keyframes[k + 1].cut && keyframes[k + 1].agreement < options.least_agreement;
-  return !is_followed || joint_sights(memory, k + 1, options).contradiction() < sights.contradiction();
+  if (is_followed && joint_sights(memory, k + 1, options).contradiction() > sights.contradiction()) return {};
+  const StretchMatch led = led_by_wheels(memory, k, wheels);
+  if (is_explained(led.sights)) return {Joint::Otherwise, led.factor};
+  return {Joint::False, {}};
 }
 
 }  // namespace madori::localization

@@ -1,6 +1,7 @@
 #include "localization/slam/stretch.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,6 +19,20 @@ using Pose = Transform2<Map, Base>;
 /// A frame of its own: the middle keyframe of the older stretch is its origin.
 Pose as_pose(const Transform2<Base, Base>& motion) {
   return {motion.x_m(), motion.y_m(), motion.yaw_rad()};
+}
+
+Transform2<Base, Base> as_motion(const Pose& pose) {
+  return {pose.x_m(), pose.y_m(), pose.yaw_rad()};
+}
+
+/// What the keyframes of a stretch saw around the guess, axes of its middle keyframe.
+LocalMap stretch_map(const Memory& memory, const Stretch& from, const Transform2<Base, Base>& guess,
+                     const StretchOptions& options) {
+  std::vector<LocalMap::Piece> pieces;
+  for (std::size_t k = from.first; k <= from.last; ++k)
+    pieces.push_back({memory.keyframes()[k].scan.get(),
+                      as_pose(memory.poses()[from.middle].inverse() * memory.poses()[k])});
+  return {pieces, as_pose(guess).translation(), options.map_radius_m};
 }
 
 std::int64_t cell_of(const SurfacePoint& p, double side_m) {
@@ -97,22 +112,40 @@ bool is_seen_alike(const Memory& memory, const RelativeFactor& loop, double most
   return stretch_sights(memory, from, to, loop.motion, options.witnesses).contradiction() <= most_through;
 }
 
+StretchMatch lean_stretches(const Memory& memory, const Stretch& from, const Stretch& to,
+                            const Transform2<Base, Base>& guess, const Eigen::Matrix3d& covariance,
+                            const StretchOptions& options) {
+  const LocalMap map = stretch_map(memory, from, guess, options);
+  const double sigma_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
+  const double sigma_rad = std::sqrt(covariance(2, 2));
+  const SearchWindow window{std::min(3.0 * sigma_m, options.search_m),
+                            std::min(3.0 * sigma_rad, options.search_rad), sigma_m, sigma_rad};
+  const SurfaceScan scan = stretch_scan(memory, to, options.spacing_m);
+  const MatchPrior prior{as_pose(guess), covariance.inverse()};
+  Pose pose = as_pose(guess);
+  MatchResult match;
+  if (!map.empty()) {
+    match = map.refine(scan, map.search(scan, pose, window).map_from_base, prior);
+    pose = match.map_from_base;
+  }
+  const Transform2<Base, Base> motion = as_motion(pose);
+  return {{static_cast<int>(from.middle), static_cast<int>(to.middle), motion,
+           limited(match.information + prior.information), false},
+          stretch_sights(memory, from, to, motion, options.witnesses),
+          match.inlier_share};
+}
+
 std::optional<StretchMatch> match_stretches(const Memory& memory, const Stretch& from, const Stretch& to,
                                             const Transform2<Base, Base>& guess,
                                             const StretchOptions& options) {
-  std::vector<LocalMap::Piece> pieces;
-  for (std::size_t k = from.first; k <= from.last; ++k)
-    pieces.push_back({memory.keyframes()[k].scan.get(),
-                      as_pose(memory.poses()[from.middle].inverse() * memory.poses()[k])});
-  const LocalMap map(pieces, as_pose(guess).translation(), options.map_radius_m);
+  const LocalMap map = stretch_map(memory, from, guess, options);
   if (map.empty()) return std::nullopt;
   const SurfaceScan scan = stretch_scan(memory, to, options.spacing_m);
   const SearchWindow window{options.search_m, options.search_rad, options.search_m, options.search_rad};
   const SearchResult coarse = map.search(scan, as_pose(guess), window);
   const MatchResult match = map.refine(scan, coarse.map_from_base, {});
   if (!match.converged || match.inlier_share < options.least_inliers) return std::nullopt;
-  const Transform2<Base, Base> motion(match.map_from_base.x_m(), match.map_from_base.y_m(),
-                                      match.map_from_base.yaw_rad());
+  const Transform2<Base, Base> motion = as_motion(match.map_from_base);
   const Eigen::Matrix3d information = limited(match.information);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> directions(information, Eigen::EigenvaluesOnly);
   if (directions.eigenvalues()[0] < options.least_information) return std::nullopt;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -51,6 +52,14 @@ struct StretchMatch {
   SightCount sights;
   double inlier_share = 0.0;
 };
+
+/// Lays one stretch on another, `guess` being the middle of `to` seen from the middle of `from`, and
+/// `covariance` what is known of that (x, y, yaw, axes of `from`'s middle): the likeliest by both, however
+/// little of the one lies on the other. The factor's information is that of both.
+[[nodiscard]] StretchMatch lean_stretches(const Memory& memory, const Stretch& from, const Stretch& to,
+                                          const Transform2<Base, Base>& guess,
+                                          const Eigen::Matrix3d& covariance,
+                                          const StretchOptions& options = {});
 
 /// Lays one stretch on another, `guess` being the middle of `to` seen from the middle of `from`. Nothing
 /// where they do not fit, or where what the one saw stands in what the other looked through.

@@ -1,6 +1,7 @@
 // Logs cut into pieces that are joined in another order: at each joint the vehicle is carried to another
 // place, and neither wheels nor stamps tell of it. What the graph mapper makes of it, beside its map of the
-// whole log at the same moments. `bench_carried_away FOLDER [log,log,… [first seed [count]]]`
+// whole log at the same moments. `bench_carried_away FOLDER [log,log,… [first seed [count [every]]]]`, every:
+// only every n-th scan arrives.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -44,6 +45,7 @@ Way at_moments_of(const Way& way, const Way& moments) {
 }
 
 std::string score(Way way, const Truth& truth) {
+  if (way.empty()) return "–";
   char text[120];
   test::lay_on(way, truth.reference);
   const auto off = app::score_against_truth(way, truth.reference)["position_m"];
@@ -55,8 +57,9 @@ std::string score(Way way, const Truth& truth) {
   return all + text;
 }
 
-void run(const std::filesystem::path& folder, const std::string& name, unsigned first, unsigned count) {
-  const auto records = test::records_of(folder / name / (name + ".log"));
+void run(const std::filesystem::path& folder, const std::string& name, unsigned first, unsigned count,
+         int every) {
+  const auto records = test::records_of(folder / name / (name + ".log"), every);
   Truth truth;
   truth.reference = app::load_tum(folder / name / "reference.tum");
   if (const auto file = folder / name / (name + ".relations"); std::filesystem::exists(file))
@@ -89,16 +92,18 @@ void run(const std::filesystem::path& folder, const std::string& name, unsigned 
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "bench_carried_away FOLDER [log,log,… [first seed [count]]]\n");
+    std::fprintf(stderr, "bench_carried_away FOLDER [log,log,… [first seed [count [every]]]]\n");
     return 2;
   }
   std::istringstream names(argc > 2 ? argv[2] : "intel,aces,fr079");
   const auto first = static_cast<unsigned>(argc > 3 ? std::atoi(argv[3]) : 1);
   const auto count = static_cast<unsigned>(argc > 4 ? std::atoi(argv[4]) : 5);
+  const int every = argc > 5 ? std::max(1, std::atoi(argv[5])) : 1;
   std::puts(
       "| log, order | cuts found | scans in the map | off the reference, mean, largest; relations | whole "
       "log, same moments |");
   std::puts("| --- | --- | --- | --- | --- |");
-  for (std::string name; std::getline(names, name, ',');) madori::bench::run(argv[1], name, first, count);
+  for (std::string name; std::getline(names, name, ',');)
+    madori::bench::run(argv[1], name, first, count, every);
   return 0;
 }
