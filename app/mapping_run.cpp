@@ -56,9 +56,9 @@ std::vector<MomentPose> with_wheels(const localization::FinishedMap& map,
     anchors.push_back({way.size(), scan.map_from_base});
     way.push_back({scan.stamp, wheels_at(wheels, scan.stamp)});
   }
-  for (; next != wheels.end(); ++next)
-    if (!carried_between(map, way.empty() ? Stamp::min() : way.back().stamp, next->stamp))
-      way.push_back(*next);
+  // Where it was carried after the last scan in the map, the wheels do not say when.
+  if (!way.empty() && !carried_between(map, way.back().stamp, Stamp::max()))
+    way.insert(way.end(), next, wheels.end());
   lay();
   return all;
 }

@@ -6,12 +6,6 @@
 #include "localization/slam/stretch.hpp"
 
 namespace madori::localization {
-namespace {
-
-constexpr double kOnNothing = 0.15;  // no neighbour is near by chance alone, either
-
-}  // namespace
-
 SightCount joint_sights(const Memory& memory, std::size_t k, const JointOptions& options) {
   SightCount sum;
   const auto& keyframes = memory.keyframes();
@@ -34,9 +28,13 @@ namespace {
 
 /// The share that may contradict: the less of the scan lies on what was seen before, the less.
 double most_through(double agreement, double off_wheels, const JointOptions& o) {
+  const auto between = [&](double low, double high, double most_low, double most_high) {
+    return most_low + std::clamp((agreement - low) / (high - low), 0.0, 1.0) * (most_high - most_low);
+  };
+  if (agreement < o.doubted_agreement)
+    return between(o.no_agreement, o.doubted_agreement, o.most_through_alone, o.most_through_doubted);
   if (off_wheels > o.off_wheels) return o.most_through_doubted;
-  const double sure = (agreement - o.doubted_agreement) / (o.fair_agreement - o.doubted_agreement);
-  return o.most_through_doubted + std::clamp(sure, 0.0, 1.0) * (o.most_through - o.most_through_doubted);
+  return between(o.doubted_agreement, o.fair_agreement, o.most_through_doubted, o.most_through);
 }
 
 /// The stretches on both sides of the joint laid on each other by the wheels' word.
@@ -62,7 +60,7 @@ JointVerdict judge_joint(const Memory& memory, std::size_t k, const OdometryStep
   };
   const SightCount sights = joint_sights(memory, k, options);
   if (is_explained(sights)) return {};
-  if (sights.both() < options.least_seen && keyframes[k].agreement > kOnNothing) return {};
+  if (sights.both() < options.least_seen && keyframes[k].agreement > options.no_agreement) return {};
   const bool is_followed =
       k + 1 < memory.size() && !keyframes[k + 1].cut && keyframes[k + 1].agreement < options.least_agreement;
   if (is_followed && joint_sights(memory, k + 1, options).contradiction() > sights.contradiction()) return {};

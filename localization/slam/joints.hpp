@@ -11,15 +11,17 @@ namespace madori::localization {
 struct JointOptions {
   std::size_t keyframes = 3;  ///< on either side of a joint that are asked
   int least_seen = 40;        ///< points that both sides must have had in view
-  /// Share of them that may contradict where this share of the scan lies on what was seen before it, and
-  /// where so little does or the scans lead off the wheels; between them in proportion. Chosen on Intel and
-  /// ACES, cut ten times in four orders and whole, all scans, every second and every fifth.
+  /// Share of them that may contradict, by the share of the scan that lies on what was seen before it, and in
+  /// proportion between. Chosen on Intel and ACES, whole and cut ten times in four orders, all scans, every
+  /// second and every fifth, and on FR079 cut once.
   double most_through = 0.3;
   double fair_agreement = 0.45;
-  double most_through_doubted = 0.12;
+  double most_through_doubted = 0.12;  ///< the same where the scans lead off the wheels,
   double doubted_agreement = 0.3;
-  double off_wheels = 16.3;       ///< sigmas squared: chi-squared of three, one in a thousand,
-  double least_agreement = 0.55;  ///< of the scan: no joint is doubted
+  double most_through_alone = 0.07;  ///< and where a scan lies on nothing
+  double no_agreement = 0.15;        ///< no neighbour is near by chance alone, either
+  double off_wheels = 16.3;          ///< sigmas squared: chi-squared of three, one in a thousand,
+  double least_agreement = 0.55;     ///< of the scan: no joint is doubted
 };
 
 /// What the keyframes before `k` and those from `k` on say of each other.

@@ -103,9 +103,9 @@ struct CutAndMapped {
   std::vector<StampedPose> way;
 };
 
-CutAndMapped carried_ten_times(const char* name, unsigned order) {
+CutAndMapped carried_ten_times(const char* name, unsigned order, int every = 1) {
   CutAndMapped mapped;
-  test::CutLog log(log_records(name, 1), 10, order);
+  test::CutLog log(log_records(name, every), 10, order);
   localization::GraphMapper mapper;
   mapped.way = test::mapped_way(log, mapper, mapped.run);
   return mapped;
@@ -133,6 +133,34 @@ TEST(CarriedAway, TenTimesOnAcesIsNotJoinedWrongly) {
     EXPECT_GT(mapped.run.map.scans.size(), 40U);
     EXPECT_LT(score_against_truth(mapped.way, truth)["position_m"]["max"].get<double>(), 1.0) << order;
   }
+}
+
+// A scan in six seconds. Measured: 0.18, 0.19 and 0.18 m at most; 40, 19 and 15 m where what may contradict
+// did not depend on how much of a scan lies on anything, and where poses were told between a carry's two
+// scans.
+TEST(CarriedAway, TenTimesWithEverySecondScanOfAcesIsNotJoinedWrongly) {
+  if (!std::filesystem::exists(kLogs / "aces" / "reference.tum")) GTEST_SKIP() << "no log in " << kLogs;
+  const std::vector<StampedPose> truth = load_tum(kLogs / "aces" / "reference.tum");
+  for (const unsigned order : {1U, 2U, 3U}) {
+    CutAndMapped mapped = carried_ten_times("aces", order, 2);
+    test::lay_on(mapped.way, truth);
+    EXPECT_GT(mapped.run.map.scans.size(), 25U);
+    EXPECT_LT(score_against_truth(mapped.way, truth)["position_m"]["max"].get<double>(), 1.0) << order;
+  }
+}
+
+// Nobody carried the vehicle: what little two scans have in common says so. With every second scan of Intel
+// 449 of 455 are in the map (447 before joints were laid by the wheels' word), of ACES all 440.
+TEST(CarriedAway, AWholeDriveIsOnePiece) {
+  if (!std::filesystem::exists(kLogs / "aces" / "aces.log")) GTEST_SKIP() << "no log in " << kLogs;
+  localization::GraphMapper aces, intel;
+  MappingRun run;
+  Records all(log_records("aces", 1)), second(log_records("intel", 2));
+  (void)test::mapped_way(all, aces, run);
+  EXPECT_EQ(run.map.lost_scans, 0);
+  EXPECT_TRUE(run.map.carried.empty());
+  (void)test::mapped_way(second, intel, run);
+  EXPECT_LT(run.map.lost_scans, 10);
 }
 
 }  // namespace

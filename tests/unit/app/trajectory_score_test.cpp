@@ -52,6 +52,14 @@ TEST(TrajectoryScore, ATrajectoryScoresPerfectlyAgainstItself) {
   EXPECT_EQ(score["within"]["share"], 1.0);
 }
 
+TEST(TrajectoryScore, NothingToScoreIsRefused) {
+  std::mt19937 engine(1);
+  const auto poses = wander(engine, 10, 0.5);
+  EXPECT_THROW((void)score_against_truth({}, poses), Error);
+  EXPECT_THROW((void)score_against_truth(poses, {}), Error);
+  EXPECT_THROW((void)score_against_relations({}, {{poses.front().stamp, poses.back().stamp, {}}}), Error);
+}
+
 TEST(TrajectoryScore, AKnownOffsetIsItsError) {
   std::mt19937 engine(2);
   const auto truth = wander(engine, 50, 1.0);

@@ -49,6 +49,47 @@ TEST(Sights, SayNothingOfWhatIsHidden) {
   EXPECT_EQ(before.agree, 0);
 }
 
+/// Two keyframes before a joint and two behind it, laid where wheels lead that are wrong by `off`.
+Memory joined(const std::vector<Pose>& truth, const Transform2<Base, Base>& off) {
+  std::mt19937 engine(5);
+  const mapping::Walls walls = test::laboratory_hall();
+  Memory memory;
+  Pose at = truth.front();
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    auto motion = k > 0 ? from_to(truth[k - 1], truth[k]) : Transform2<Base, Base>();
+    if (k == 2) motion = motion * off;
+    if (k > 0) at = at * motion;
+    memory.add(scan_at(walls, truth[k], engine), 1.0, at,
+               MeasuredMotion{motion, 400.0 * Eigen::Matrix3d::Identity(), k == 2 ? 0.1 : 0.9});
+  }
+  return memory;
+}
+
+OdometryStep wheels_to(const Memory& memory, std::size_t k) {
+  OdometryStep step;
+  step.motion = from_to(memory.poses()[k - 1], memory.poses()[k]);
+  step.covariance = Eigen::Vector3d(0.09, 0.09, 0.09).asDiagonal();
+  return step;
+}
+
+/// The scans lie on nothing where the wheels lead, and see through each other.
+TEST(Joints, AreLaidAnewWhereTheWheelsAreOnlyWrong) {
+  const std::vector<Pose> truth{{5.0, 1.2, 0.0}, {6.0, 1.2, 0.1}, {9.0, 1.3, 0.4}, {10.0, 1.6, 0.3}};
+  const Memory right = joined(truth, {}), wrong = joined(truth, {-0.4, 0.3, 0.25});
+  EXPECT_EQ(judge_joint(right, 2, wheels_to(right, 2), 0.0).joint, Joint::Holds);
+  const JointVerdict verdict = judge_joint(wrong, 2, wheels_to(wrong, 2), 0.0);
+  ASSERT_EQ(verdict.joint, Joint::Otherwise);
+  const Transform2<Base, Base> off = verdict.motion.motion.inverse() * from_to(truth[1], truth[2]);
+  EXPECT_LT(std::hypot(off.x_m(), off.y_m()), 0.05);
+  EXPECT_LT(std::abs(off.yaw_rad()), to_rad(1.0));
+}
+
+TEST(Joints, AreFalseWhereTheVehicleWasCarried) {
+  const std::vector<Pose> truth{{5.0, 1.2, 0.0}, {6.0, 1.2, 0.1}, {13.5, 7.6, 2.4}, {13.0, 8.2, 2.6}};
+  const Memory carried = joined(truth, from_to(truth[1], truth[2]).inverse());  // the wheels stood still
+  EXPECT_EQ(judge_joint(carried, 2, wheels_to(carried, 2), 0.0).joint, Joint::False);
+}
+
 TEST(PlaceViews, TellTheTurnAndThePlace) {
   std::mt19937 engine(4);
   const mapping::Walls walls = test::laboratory_hall();

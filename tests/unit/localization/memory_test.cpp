@@ -204,6 +204,21 @@ TEST(Memory, TellsTheWeakestLinkOfAStretch) {
   EXPECT_DOUBLE_EQ(memory.weakest_agreement(2), 0.7);
 }
 
+TEST(Memory, IsLedOtherwise) {
+  Memory memory;
+  const SurfaceScan scan;
+  for (int k = 0; k < 4; ++k)
+    memory.add(scan, 1.0, {1.0 * k, 0.0, 0.0},
+               MeasuredMotion{{1.0, 0.0, 0.0}, 400.0 * Eigen::Matrix3d::Identity()});
+  memory.tie({{0, 3, {3.0, 0.0, 0.0}, 400.0 * Eigen::Matrix3d::Identity(), true}});
+  memory.lead_otherwise(2, {1, 2, {0.0, 1.0, 0.5 * kPi}, 400.0 * Eigen::Matrix3d::Identity(), false});
+  EXPECT_NEAR(memory.poses()[2].y_m(), 1.0, 1e-12);
+  EXPECT_NEAR(memory.poses()[3].x_m(), 1.0, 1e-12);
+  EXPECT_NEAR(memory.poses()[3].y_m(), 2.0, 1e-12);
+  EXPECT_EQ(memory.factors().size(), 3U);  // the loop led across
+  EXPECT_EQ(memory.pieces().back(), 0U);
+}
+
 TEST(PoseGraph, AUnaryFactorPullsOnlyWhereItSees) {
   std::vector<Transform2<Map, Base>> poses{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
   const std::vector<RelativeFactor> factors{
