@@ -55,17 +55,18 @@ JointVerdict judge_joint(const Memory& memory, std::size_t k, const OdometryStep
   const auto& keyframes = memory.keyframes();
   if (k == 0 || keyframes[k].cut || keyframes[k].agreement > options.least_agreement) return {};
   const double most = most_through(keyframes[k].agreement, off_wheels, options);
-  const auto is_explained = [&](const SightCount& sights) {
-    return sights.both() >= options.least_seen && sights.contradiction() < most;
+  const auto is_explained = [&options](const SightCount& sights, double by) {
+    return sights.both() >= options.least_seen && sights.contradiction() < by;
   };
   const SightCount sights = joint_sights(memory, k, options);
-  if (is_explained(sights)) return {};
+  if (is_explained(sights, most)) return {};
   if (sights.both() < options.least_seen && keyframes[k].agreement > options.no_agreement) return {};
   const bool is_followed =
       k + 1 < memory.size() && !keyframes[k + 1].cut && keyframes[k + 1].agreement < options.least_agreement;
   if (is_followed && joint_sights(memory, k + 1, options).contradiction() > sights.contradiction()) return {};
   const StretchMatch led = led_by_wheels(memory, k, wheels);
-  if (is_explained(led.sights)) return {Joint::Otherwise, led.factor};
+  if (is_explained(led.sights, std::min(most, options.most_through_led)))
+    return {Joint::Otherwise, led.factor};
   return {Joint::False, {}};
 }
 
