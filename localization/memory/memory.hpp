@@ -29,7 +29,6 @@ class Memory {
   [[nodiscard]] int loops() const { return loops_; }
 
   /// The first of the keyframes that count as recent.
-  void forget_across(std::size_t first);
   [[nodiscard]] std::size_t window_begin() const { return empty() ? 0 : window_begin(size() - 1); }
   /// The weakest agreement between the keyframes from `first` on: where all are strong, nothing has drifted.
   [[nodiscard]] double weakest_agreement(std::size_t first) const;
@@ -97,6 +96,7 @@ class Memory {
   void make_room();
 
  private:
+  void forget_across(std::size_t first);
   [[nodiscard]] std::size_t window_begin(std::size_t newest) const;
   [[nodiscard]] std::shared_ptr<const SurfaceScan> kept(const SurfaceScan& scan);
 

@@ -6,6 +6,9 @@
 #include "localization/slam/stretch.hpp"
 
 namespace madori::localization {
+namespace {
+
+/// What the keyframes before `k` and those from `k` on say of each other.
 SightCount joint_sights(const Memory& memory, std::size_t k, const JointOptions& options) {
   SightCount sum;
   const auto& keyframes = memory.keyframes();
@@ -23,8 +26,6 @@ SightCount joint_sights(const Memory& memory, std::size_t k, const JointOptions&
   }
   return sum;
 }
-
-namespace {
 
 /// The share that may contradict: the less of the scan lies on what was seen before, the less.
 double most_through(double agreement, double off_wheels, const JointOptions& o) {

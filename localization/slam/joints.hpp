@@ -13,7 +13,7 @@ struct JointOptions {
   int least_seen = 40;        ///< points that both sides must have had in view
   /// Share of them that may contradict, by the share of the scan that lies on what was seen before it, and in
   /// proportion between. Chosen on Intel and ACES, whole and cut ten times in four orders, all scans, every
-  /// second and every fifth, and on FR079 cut once.
+  /// second and every fifth, and on FR079 and ACES cut once more each.
   double most_through = 0.3;
   double fair_agreement = 0.45;
   double most_through_doubted = 0.12;  ///< the same where the scans lead off the wheels,
@@ -24,9 +24,6 @@ struct JointOptions {
   double off_wheels = 16.3;          ///< sigmas squared: chi-squared of three, one in a thousand,
   double least_agreement = 0.55;     ///< of the scan: no joint is doubted
 };
-
-/// What the keyframes before `k` and those from `k` on say of each other.
-[[nodiscard]] SightCount joint_sights(const Memory& memory, std::size_t k, const JointOptions& options = {});
 
 enum class Joint {
   Holds,

@@ -121,8 +121,8 @@ TEST(CarriedAway, TenTimesOnIntelIsFoundAgain) {
   EXPECT_LT(relations_off_m(mapped.way), 0.0661 * 1.1);
 }
 
-// A building that is its own image, turned by half a turn. Measured: 0.109 and 0.064 m in the mean, 0.37 and
-// 0.21 m at most; with ties of four metres, whatever the building, the first was 13.8 m off in the mean, with
+// A building that is its own image, turned by half a turn. Measured: 0.066 and 0.076 m in the mean, 0.25 and
+// 0.17 m at most; with ties of four metres, whatever the building, the first was 13.8 m off in the mean, with
 // ties of twice the longest mistake the second 13.1 m. Orders that the factor was chosen on.
 TEST(CarriedAway, TenTimesOnAcesIsNotJoinedWrongly) {
   if (!std::filesystem::exists(kLogs / "aces" / "reference.tum")) GTEST_SKIP() << "no log in " << kLogs;
