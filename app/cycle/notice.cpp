@@ -8,8 +8,8 @@
 namespace madori::app {
 namespace {
 
-static_assert(kCauses.size() == static_cast<std::size_t>(Cause::SomeoneBeside) + 1);
-static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::LookOrWait) + 1);
+static_assert(kCauses.size() == static_cast<std::size_t>(Cause::StopTaken) + 1);
+static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::ClearOrGoOn) + 1);
 
 }  // namespace
 

@@ -66,7 +66,6 @@ enum class Cause : std::uint8_t {
   LidarYaw,
   StopUnsure,
   StopTaken,
-  SomeoneBeside,
 };
 
 /// What a person can do about it.
@@ -101,7 +100,6 @@ enum class Remedy : std::uint8_t {
   CorrectMounting,
   LookAtPlace,
   ClearOrGoOn,
-  LookOrWait,
 };
 
 inline constexpr std::array kCauses{
@@ -154,7 +152,6 @@ inline constexpr std::array kCauses{
         "the vehicle gets where lidar {name} would look at {found} degrees, and {typed} was typed"},
     CatalogueEntry{"stop-unsure", "the vehicle is only to {percent} % sure that this is node {node}"},
     CatalogueEntry{"stop-taken", "something stands at node {node}: the vehicle is {metres} m away from it"},
-    CatalogueEntry{"someone-beside", "somebody went out of the lidar's sight beside the vehicle"},
 };
 
 inline constexpr std::array kRemedies{
@@ -190,9 +187,6 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"look-at-place", "look whether it is, then press Go on; else show its place: Where am I?"},
     CatalogueEntry{"clear-or-go-on",
                    "clear it, then it goes on by itself; or press Go on to end the stop here"},
-    CatalogueEntry{
-        "look-or-wait",
-        "look around, then press Resume; or it goes on by itself once he is seen, at the latest after 15 s"},
 };
 
 /// An event of the cycle, not the cause of a standstill.

@@ -12,14 +12,6 @@ bool after_a_gap(const CycleState& state, const CycleInput& /*input*/, const Cyc
   return state.gap.has_value();
 }
 
-/// Who went out of sight beside the vehicle may have stopped there, to let it pass: nobody knows where he is,
-/// and no way leads around him.
-bool someone_is_beside(const CycleState& state, const CycleInput& input, const CycleConfig& /*config*/) {
-  return std::ranges::any_of(state.movers, [&](const MoverWatch& watch) {
-    return watch.out_of_sight.anyone_beside(state.odometry.reading().odom_from_base, input.now);
-  });
-}
-
 bool drive_is_silent(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   return is_silent(state.drive_heard, input.now, config.drive_silent_s);
 }
@@ -53,7 +45,6 @@ std::vector<SafetyRule> standard_safety_rules() {
       {entry(Cause::ProtectiveField), entry(Remedy::ClearField), false, field_is_entered},
       {entry(Cause::DriveSilent), entry(Remedy::CheckDrive), true, drive_is_silent},
       {entry(Cause::LidarSilent), entry(Remedy::CheckLidar), false, lidar_is_silent, who_is_silent},
-      {entry(Cause::SomeoneBeside), entry(Remedy::LookOrWait), false, someone_is_beside},
       {entry(Cause::LidarHeight), entry(Remedy::CorrectMounting), false, mounting_is_wrong, what_is_wrong},
   };
 }

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kTurned = 0.35;  ///< sideways of his way by metre of it: 20 degrees
 constexpr double kHeadM = 0.15;   ///< of his top that may be missed: lasers are degrees apart, and few hit it
-constexpr double kAboutS = 15.0;  ///< most walk out within 3 s; one in twenty is not noticed when he does
 constexpr double kLevelM = 0.05;  ///< above his top as a level lidar knows it, which is its own height
 
 /// Whether someone so high stands within the view of lidars in direction, and below that of all in height.
@@ -90,11 +89,6 @@ bool may_be(const LostMover& w, const MovingObjects::Track& track, Stamp now) {
          aside_m <= kSlackM + kTurned * along_m;
 }
 
-bool lately(const LostMover& w, Stamp now) {
-  const double since_s = to_seconds(now - w.seen);
-  return since_s >= 0.0 && since_s < kAboutS;
-}
-
 void add_disc(const Point2<Odom>& at, double radius_m, std::vector<Point2<Odom>>& points) {
   constexpr int kCorners = 8;
   for (int i = 0; i < kCorners; ++i) {
@@ -112,8 +106,9 @@ void OutOfSight::clear() {
 
 void OutOfSight::update(const MovingObjects& objects, std::span<const LidarModel> lidars,
                         const Transform2<Odom, Base>& odom_from_base, Stamp now) {
-  constexpr double kAboutM = 2.0;  // he may have turned, or walk beside the vehicle
-  constexpr double kRimM = 1.0;    // around the places without sight: who comes from elsewhere is another one
+  constexpr double kAboutS = 15.0;  // most walk out within 3 s; one in twenty is not noticed when he does
+  constexpr double kAboutM = 2.0;   // he may have turned, or walk beside the vehicle
+  constexpr double kRimM = 1.0;  // around the places without sight: who comes from elsewhere is another one
   const Blind blind(lidars, odom_from_base);
   for (const auto& track : objects.tracks()) {
     const Point2<Odom>& there = track.sightings.back().at;
@@ -130,14 +125,8 @@ void OutOfSight::update(const MovingObjects& objects, std::span<const LidarModel
     const std::size_t before = points_.size();
     places(w, blind, now, [&](const auto& at, double radius_m) { add_disc(at, radius_m, points_); });
     if (points_.size() > before) return false;
-    return !lately(w, now) || !blind.hides(w.last.at, w.high_m, kAboutM);
-  });
-}
-
-bool OutOfSight::anyone_beside(const Transform2<Odom, Base>& odom_from_base, Stamp now) const {
-  constexpr double kTwoStepsM = 2.5;  // from Base; a mast of 2.2 m looks over a person within 2.2 m of it
-  return std::ranges::any_of(walkers_, [&](const LostMover& w) {
-    return lately(w, now) && distance_m(w.last.at, odom_from_base.translation()) < kTwoStepsM;
+    const double since_s = to_seconds(now - w.seen);
+    return !(since_s >= 0.0 && since_s < kAboutS) || !blind.hides(w.last.at, w.high_m, kAboutM);
   });
 }
 

@@ -22,8 +22,6 @@ class OutOfSight {
   [[nodiscard]] const std::vector<Point2<Odom>>& points() const { return points_; }
   /// Whether somebody may be near, unseen.
   [[nodiscard]] bool anyone() const { return !walkers_.empty(); }
-  /// Whether somebody may stand beside the vehicle: he went out of sight two steps from it, and lately.
-  [[nodiscard]] bool anyone_beside(const Transform2<Odom, Base>& odom_from_base, Stamp now) const;
   void clear();
   /// What is remembered, and going on with what was remembered at another time.
   [[nodiscard]] const std::vector<LostMover>& walkers() const { return walkers_; }

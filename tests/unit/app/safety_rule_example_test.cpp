@@ -39,24 +39,6 @@ TEST(SafetyRule, AMadeUpOneStopsTheVehicleSaysWhyAndLetsItGoOn) {
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << "it is exchanged, and goes on by itself";
 }
 
-TEST(SafetyRule, NothingMovesWhileSomebodyMayStandBesideTheVehicleUnseen) {
-  const auto v = test::corridor_vehicle();
-  CycleState state{v->config, nullptr};
-  CycleInput input;
-  input.now = stamp_from_seconds(20.0);
-  state.drive_heard = state.lidar_heard = input.now;
-  ASSERT_EQ(forbidding_rule(state, input, v->config), nullptr);
-  const planning::LostMover walker{{{1.8, 0.5}, -1.0, 0.0, 0.3}, 1.75, input.now};
-  state.movers.front().out_of_sight.restore({walker}, {});
-  const SafetyRule* rule = forbidding_rule(state, input, v->config);
-  ASSERT_NE(rule, nullptr);
-  EXPECT_STREQ(rule->cause.code, "someone-beside");
-  EXPECT_EQ(forbidding_rule(state, input, v->config, true), nullptr) << "who drives by hand looks himself";
-  input.now += duration_from_seconds(15.0);
-  state.drive_heard = state.lidar_heard = input.now;
-  EXPECT_EQ(forbidding_rule(state, input, v->config), nullptr);
-}
-
 TEST(SafetyRule, OneThatDoesNotHoldByHandLetsAPersonDrive) {
   auto v = test::corridor_vehicle();
   v->config.safety_rules.push_back(kBatteryRule);

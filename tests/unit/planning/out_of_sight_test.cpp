@@ -81,18 +81,6 @@ TEST(OutOfSight, WhoWalksUnderTheMastIsBelievedThereUntilHeIsSeenToLeave) {
   EXPECT_TRUE(scene.out_of_sight.points().empty());
 }
 
-TEST(OutOfSight, WhoWentBesideTheVehicleStandsThereForAWhile) {
-  Scene scene;
-  scene.walk_to({1.2, 0.0});
-  const auto at = [&](double later_s) { return stamp_from_seconds(scene.at_s + later_s); };
-  EXPECT_TRUE(scene.out_of_sight.anyone_beside({}, at(0.0)));
-  EXPECT_FALSE(scene.out_of_sight.anyone_beside(Transform2<Odom, Base>(-2.0, 0.0, 0.0), at(0.0)))
-      << "the vehicle is further away";
-  EXPECT_FALSE(scene.out_of_sight.anyone_beside({}, at(15.0)));
-  scene.walk_to({3.5, 0.0});
-  EXPECT_FALSE(scene.out_of_sight.anyone_beside({}, at(0.0))) << "seen to leave";
-}
-
 TEST(OutOfSight, WhoTurnsBackIsSeenToLeave) {
   Scene scene;
   scene.stand(1.0);

@@ -312,8 +312,6 @@ export const de: Record<TextKey, string> = {
   "remedy.look-at-place": "Nachsehen, ob es stimmt, dann Weiterfahren drücken; sonst den Ort zeigen: Wo bin ich?",
   "cause.stop-taken": "Etwas steht auf Punkt {node}: das Fahrzeug ist {metres} m davor",
   "remedy.clear-or-go-on": "Räumen, dann fährt es von selbst weiter; oder Weiterfahren drücken, um den Halt hier zu beenden",
-  "cause.someone-beside": "Jemand ging neben dem Fahrzeug aus der Sicht des Lidars",
-  "remedy.look-or-wait": "Umsehen, dann Weiter drücken; oder es fährt von selbst weiter, sobald er gesehen wird, spätestens nach 15 s",
   "event.lidar-lost": "Lidar {name} schweigt: Das Fahrzeug fährt mit den anderen weiter, so schnell sie erlauben",
   "event.not-kept":
     "Was das Fahrzeug gelernt hat, lässt sich nicht behalten: {why}; auf dem Datenträger Platz schaffen oder das Schreiben erlauben",

@@ -327,8 +327,6 @@ export const en = {
   "remedy.look-at-place": "Look whether it is, then press Go on; else show its place: Where am I?",
   "cause.stop-taken": "Something stands at node {node}: the vehicle is {metres} m away from it",
   "remedy.clear-or-go-on": "Clear it, then it goes on by itself; or press Go on to end the stop here",
-  "cause.someone-beside": "Somebody went out of the lidar's sight beside the vehicle",
-  "remedy.look-or-wait": "Look around, then press Resume; or it goes on by itself once he is seen, at the latest after 15 s",
   "event.lidar-lost": "Lidar {name} is silent: the vehicle goes on with the others, as fast as they allow",
   "event.not-kept":
     "What the vehicle learned cannot be kept: {why}; make room on the disk, or let it be written",

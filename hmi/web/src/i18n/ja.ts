@@ -328,8 +328,6 @@ export const ja: Record<TextKey, string> = {
   "remedy.look-at-place": "正しければ「先へ進む」を押し、違えば「現在地は?」で場所を示してください",
   "cause.stop-taken": "点{node}に障害物があります：{metres} m 手前です",
   "remedy.clear-or-go-on": "取り除くと自動で進みます。ここで停止を終えるには「先へ進む」を押してください",
-  "cause.someone-beside": "車両のそばで、人がライダーの視界から外れました",
-  "remedy.look-or-wait": "周りを確認して「再開」を押してください。見えるようになれば、遅くとも15秒後に自動で進みます",
   "event.lidar-lost": "ライダー {name} が応答しません。他のライダーで可能な速度で走行を続けます",
   "event.not-kept":
     "車両が学習した内容を保存できません: {why}。ディスクの空きを増やすか、書き込みを許可してください",
