@@ -23,4 +23,10 @@ double scan_noise_m(const ScanPoints& points) {
   return median_of(off) / (kMedianOfRayleigh * std::sqrt(1.5));
 }
 
+double LidarNoise::after(const ScanPoints& points) {
+  const double noise_m = scan_noise_m(points);
+  if (noise_m > 0.0 && (least_m_ == 0.0 || noise_m < least_m_)) least_m_ = noise_m;
+  return least_m_;
+}
+
 }  // namespace madori::localization

@@ -8,4 +8,14 @@ namespace madori::localization {
 /// order, robustly; 0 when too few points have near neighbours to tell.
 [[nodiscard]] double scan_noise_m(const ScanPoints& points);
 
+/// The noise of a lidar by its scans so far. What stands about makes a scan look noisier than it is, so the
+/// least counts.
+class LidarNoise {
+ public:
+  double after(const ScanPoints& points);
+
+ private:
+  double least_m_ = 0.0;  ///< 0: not known yet
+};
+
 }  // namespace madori::localization

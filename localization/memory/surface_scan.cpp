@@ -1,7 +1,6 @@
 #include "localization/memory/surface_scan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -27,21 +26,27 @@ void sort_by_bearing(const Point2<Base>& sensor, const std::vector<Point2<Base>>
   });
 }
 
-constexpr std::size_t kReach = 4;  ///< neighbours to each side
-
 /// Places in a scan, the point's own and its neighbours'.
-struct Neighbours {
-  std::array<std::size_t, 2 * kReach + 1> places;
-  std::size_t count = 0;
+using Neighbours = std::vector<std::size_t>;
 
-  void add(std::size_t place) { places[count++] = place; }
-  [[nodiscard]] auto begin() const { return places.begin(); }
-  [[nodiscard]] auto end() const { return places.begin() + count; }
+/// How far the neighbours of a point are looked for that tell the direction of its surface: the noisier the
+/// points, the more of them, and the further.
+struct Reach {
+  explicit Reach(double noise_m) {
+    constexpr double kUsualM = 0.04;  // no lidar is noisier; all below is made for it
+    const double times = std::max(1.0, noise_m / kUsualM);
+    gap_m *= times, reach_m *= times;
+    to_each_side = static_cast<std::size_t>(static_cast<double>(to_each_side) * times * times);
+    across_m2 = 1.5 * std::max(0.0, noise_m * noise_m - kUsualM * kUsualM);
+  }
+  double gap_m = 0.15, reach_m = 0.25;
+  std::size_t to_each_side = 4;
+  double across_m2 = 0.0;  ///< what the noise alone makes a line thick by
 };
 
 /// Total least squares line through the points; false where they are no line.
-bool fit_normal(const std::vector<Polar>& scan, const Neighbours& of, SurfacePoint& out) {
-  const double n = static_cast<double>(of.count);
+bool fit_normal(const std::vector<Polar>& scan, const Neighbours& of, double across_m2, SurfacePoint& out) {
+  const auto n = static_cast<double>(of.size());
   double mean_x = 0.0;
   double mean_y = 0.0;
   for (const std::size_t i : of) {
@@ -61,7 +66,7 @@ bool fit_normal(const std::vector<Polar>& scan, const Neighbours& of, SurfacePoi
   const double mean = 0.5 * (xx + yy);
   const double spread = std::hypot(0.5 * (xx - yy), xy);
   constexpr double kFlat = 0.04;  // ratio of the principal variances: a fifth in length
-  if (mean + spread <= 0.0 || (mean - spread) > kFlat * (mean + spread)) {
+  if (mean + spread <= 0.0 || (mean - spread) - n * across_m2 > kFlat * (mean + spread)) {
     return false;
   }
   const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
@@ -70,34 +75,33 @@ bool fit_normal(const std::vector<Polar>& scan, const Neighbours& of, SurfacePoi
   return true;
 }
 
-/// The points around i that lie on the same surface, at most kReach to each side. A lidar that looks over
-/// things sees several surfaces in one direction: those of the others are passed over.
-Neighbours neighbourhood(const std::vector<Polar>& scan, std::size_t i) {
-  constexpr std::size_t kLook = 16;
-  const double gap_m = std::max(0.15, 0.06 * scan[i].range_m);
-  const double reach_m = std::max(0.25, 0.1 * scan[i].range_m);
-  Neighbours found;
-  found.add(i);
+/// The points around i that lie on the same surface. A lidar that looks over things sees several surfaces in
+/// one direction: those of the others are passed over.
+void find_neighbours(const std::vector<Polar>& scan, std::size_t i, const Reach& reach, Neighbours& found) {
+  const std::size_t look = 4 * reach.to_each_side;
+  const double gap_m = std::max(reach.gap_m, 0.06 * scan[i].range_m);
+  const double reach_m = std::max(reach.reach_m, 0.1 * scan[i].range_m);
+  found.assign(1, i);
   for (const bool up : {false, true}) {
     std::size_t last = i;
     std::size_t taken = 0;
-    for (std::size_t step = 1; step <= kLook && taken < kReach; ++step) {
+    for (std::size_t step = 1; step <= look && taken < reach.to_each_side; ++step) {
       if (up ? i + step >= scan.size() : step > i) break;
       const std::size_t k = up ? i + step : i - step;
       if (distance_m(scan[last].point, scan[k].point) >= gap_m ||
           distance_m(scan[i].point, scan[k].point) >= reach_m)
         continue;
-      found.add(last = k);
+      found.push_back(last = k);
       ++taken;
     }
   }
-  return found;
 }
 
-SurfacePoint surface_point(const std::vector<Polar>& scan, std::size_t i, const Point2<Base>& sensor) {
+SurfacePoint surface_point(const std::vector<Polar>& scan, std::size_t i, const Point2<Base>& sensor,
+                           const Reach& reach, Neighbours& of) {
   SurfacePoint p{scan[i].point.x_m, scan[i].point.y_m};
-  const Neighbours of = neighbourhood(scan, i);
-  if (of.count >= 3 && fit_normal(scan, of, p)) {
+  find_neighbours(scan, i, reach, of);
+  if (of.size() >= 3 && fit_normal(scan, of, reach.across_m2, p)) {
     const double towards = (sensor.x_m - p.x_m) * p.normal_x + (sensor.y_m - p.y_m) * p.normal_y;
     if (towards < 0.0) {
       p.normal_x = -p.normal_x;
@@ -117,13 +121,14 @@ const SurfaceScan& SurfaceScanner::make(Stamp stamp, const Point2<Base>& sensor,
   scan_.sensor = sensor;
   scan_.points.clear();
   scan_.points.reserve(polar_.size());
+  const Reach reach(options.noise_m);
   const Point2<Base>* kept = nullptr;
   for (std::size_t i = 0; i < polar_.size(); ++i) {
     if (kept != nullptr && distance_m(*kept, polar_[i].point) < options.spacing_m) {
       continue;
     }
     kept = &polar_[i].point;
-    scan_.points.push_back(surface_point(polar_, i, sensor));
+    scan_.points.push_back(surface_point(polar_, i, sensor, reach, neighbours_));
   }
   return scan_;
 }

@@ -30,6 +30,7 @@ struct SurfaceScan {
 struct SurfaceScanOptions {
   double range_max_m = 30.0;  ///< farther returns are sparse and slanted: more harm than help
   double spacing_m = 0.04;    ///< of the points kept, so that near surfaces do not outweigh far ones
+  double noise_m = 0.0;       ///< of a point, sigma: beyond what lidars have, more of them tell a direction
 };
 
 /// Makes scans ready for matching, one after the other, in memory that it uses again.
@@ -50,6 +51,7 @@ class SurfaceScanner {
 
  private:
   std::vector<Polar> polar_;
+  std::vector<std::size_t> neighbours_;
   SurfaceScan scan_;
 };
 

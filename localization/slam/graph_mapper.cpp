@@ -155,7 +155,9 @@ bool GraphMapper::sees_through_newest(const SurfaceScan& scan) const {
 }
 
 PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
-  SurfaceScan scan = make_surface_scan(stamp, sensor, weighty_points(points), options_.scan);
+  SurfaceScanOptions how = options_.scan;
+  how.noise_m = noise_.after(points);
+  SurfaceScan scan = make_surface_scan(stamp, sensor, weighty_points(points), how);
   Memory& memory = map_.memory;
   if (memory.empty()) {
     if (scan.points.empty()) return estimate(stamp);

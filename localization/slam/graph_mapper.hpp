@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "localization/global/scan_noise.hpp"
 #include "localization/localizer/map_state.hpp"
 #include "localization/localizer/options.hpp"
 #include "localization/slam/joints.hpp"
@@ -52,7 +53,8 @@ class GraphMapper final : public Mapper {
 
   LocalizerOptions options_;
   ScanFollower follower_;
-  MapState map_;                  ///< without a drawing
+  MapState map_;  ///< without a drawing
+  LidarNoise noise_;
   Transform2<Map, Base> anchor_;  ///< the pose at the last scan
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   LocalizationState state_ = LocalizationState::Localized;

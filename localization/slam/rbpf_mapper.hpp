@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "localization/global/scan_noise.hpp"
 #include "localization/localizer/map_state.hpp"
 #include "localization/localizer/options.hpp"
 #include "localization/particle_filter/particles.hpp"
@@ -79,7 +80,8 @@ class RbpfMapper final : public Mapper {
 
   RbpfOptions options_;
   ScanFollower follower_;
-  MapState front_;                ///< recent keyframes as they were driven; drifts, no loop is closed in it
+  MapState front_;  ///< recent keyframes as they were driven; drifts, no loop is closed in it
+  LidarNoise noise_;
   Transform2<Map, Base> anchor_;  ///< the pose at the last scan, in the front's map
   bool is_lost_ = false;
   std::vector<Particle> particles_;

@@ -153,11 +153,14 @@ FinishedMap SlowLidarMapper::finish() {
   finished.lost_scans = lost_;
   map_ = GrowingMap(options_.map);
   const Eigen::Matrix3d information = Eigen::Vector3d(400.0, 400.0, 2500.0).asDiagonal();
+  LidarNoise noise;
+  SurfaceScanOptions how = options_.scan;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const auto& [stamp, sensor, path_m] = looks_[i];
     map_.add(scans_[i], poses_[i], sensor, scan_noise_m(scans_[i]));
-    finished.memory.add(make_surface_scan(stamp, sensor, weighty_points(scans_[i]), options_.scan), path_m,
-                        poses_[i], information);
+    how.noise_m = noise.after(scans_[i]);
+    finished.memory.add(make_surface_scan(stamp, sensor, weighty_points(scans_[i]), how), path_m, poses_[i],
+                        information);
     finished.scans.push_back({stamp, poses_[i]});
   }
   return finished;
