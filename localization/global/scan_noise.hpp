@@ -13,6 +13,7 @@ namespace madori::localization {
 class LidarNoise {
  public:
   double after(const ScanPoints& points);
+  [[nodiscard]] double least_m() const { return least_m_; }
 
  private:
   double least_m_ = 0.0;  ///< 0: not known yet

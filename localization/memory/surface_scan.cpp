@@ -33,11 +33,10 @@ using Neighbours = std::vector<std::size_t>;
 /// points, the more of them, and the further.
 struct Reach {
   explicit Reach(double noise_m) {
-    constexpr double kUsualM = 0.04;  // no lidar is noisier; all below is made for it
-    const double times = std::max(1.0, noise_m / kUsualM);
+    const double times = std::max(1.0, noise_m / kUsualNoiseM);
     gap_m *= times, reach_m *= times;
     to_each_side = static_cast<std::size_t>(static_cast<double>(to_each_side) * times * times);
-    across_m2 = 1.5 * std::max(0.0, noise_m * noise_m - kUsualM * kUsualM);
+    across_m2 = 1.5 * std::max(0.0, noise_m * noise_m - kUsualNoiseM * kUsualNoiseM);
   }
   double gap_m = 0.15, reach_m = 0.25;
   std::size_t to_each_side = 4;

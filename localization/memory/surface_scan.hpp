@@ -26,6 +26,9 @@ struct SurfaceScan {
   std::vector<SurfacePoint> points;
 };
 
+/// Sigma of a point, at most, of the lidars that there are.
+inline constexpr double kUsualNoiseM = 0.04;
+
 /// Limits of what a scan contributes.
 struct SurfaceScanOptions {
   double range_max_m = 30.0;  ///< farther returns are sparse and slanted: more harm than help

@@ -8,6 +8,7 @@
 #include "localization/localizer/pose_covariance.hpp"
 #include "localization/memory/fuse.hpp"
 #include "localization/memory/local_map.hpp"
+#include "localization/slam/surface_bundle.hpp"
 
 namespace madori::localization {
 namespace {
@@ -110,6 +111,26 @@ void fit_scans(const Memory& memory, const std::vector<std::size_t>& scan_of,
       if (match.converged && match.inlier_share > options.inlier_share) pose = match.map_from_base;
     }
   }
+}
+
+Memory bundle_noisy(const Memory& memory, const std::vector<std::size_t>& scan_of,
+                    const std::vector<std::shared_ptr<const SurfaceScan>>& scans, double noise_m,
+                    const MemoryOptions& memory_options, std::vector<MomentPose>& poses) {
+  const Eigen::Matrix3d information = Eigen::Matrix3d::Identity() / (noise_m * noise_m);
+  std::vector<ScanPoints> points(scans.size());
+  std::vector<Pose> at;
+  std::vector<RelativeFactor> motions;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    for (const SurfacePoint& p : scans[i]->points) points[i].add(p.x_m, p.y_m);
+    at.push_back(poses[i].map_from_base);
+    const auto n = static_cast<int>(i);
+    if (i > 0) motions.push_back({n - 1, n, at[i - 1].inverse() * at[i], information});
+  }
+  at = bundle_scans(points, std::move(at), motions, noise_m);
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].map_from_base = at[i];
+  std::vector<Pose> keyframes;
+  for (const std::size_t scan : scan_of) keyframes.push_back(at[scan]);
+  return {memory_options, memory.keyframes(), std::move(keyframes), memory.factors(), memory.loops()};
 }
 
 }  // namespace madori::localization

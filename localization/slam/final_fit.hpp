@@ -37,4 +37,12 @@ void fit_scans(const Memory& memory, const std::vector<std::size_t>& scan_of,
                const std::vector<std::shared_ptr<const SurfaceScan>>& scans, std::vector<MomentPose>& poses,
                const FinalFitOptions& options = {});
 
+/// The last look where the points are so noisy (`noise_m`, sigma) that the point nearest to another one tells
+/// little of a surface: all scans bundled by the surfaces that they saw together (surface_bundle), held to
+/// one another by what they are laid at, to the noise. The memory with its keyframes where their scans are.
+[[nodiscard]] Memory bundle_noisy(const Memory& memory, const std::vector<std::size_t>& scan_of,
+                                  const std::vector<std::shared_ptr<const SurfaceScan>>& scans,
+                                  double noise_m, const MemoryOptions& memory_options,
+                                  std::vector<MomentPose>& poses);
+
 }  // namespace madori::localization

@@ -275,6 +275,9 @@ FinishedMap GraphMapper::finish() {
   finished.memory = final_fit(map_.memory, options_.memory);
   finished.scans = laid_pieces(finished.memory);
   fit_scans(finished.memory, scan_of_, scans_, finished.scans);
+  if (noise_.least_m() > kUsualNoiseM)
+    finished.memory =
+        bundle_noisy(finished.memory, scan_of_, scans_, noise_.least_m(), options_.memory, finished.scans);
   return finished;
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "localization/slam/graph_mapper.hpp"
@@ -64,6 +65,37 @@ TEST(GraphMapper, MapsAHallWithBadWheels) {
     worst_m = std::max(worst_m, std::hypot(placed.x_m() - right.x_m(), placed.y_m() - right.y_m()));
   }
   EXPECT_LT(worst_m, 0.06);
+}
+
+TEST(GraphMapper, NoiseThatNoLidarHasDoesNotBendTheMap) {
+  constexpr double kSigmaM = 0.2;
+  std::mt19937 engine(9);
+  const auto moments = test::drive(test::laboratory_hall(), test::kTwoRounds, test::half_hertz(), engine);
+  GraphMapper mapper;
+  std::vector<Transform2<Map, Base>> truth, mapped;
+  for (const auto& moment : moments) {
+    (void)mapper.on_odometry(moment.odometry);
+    if (!moment.has_scan) continue;
+    (void)mapper.on_scan(moment.scan.stamp, test::noisy_points(moment.scan, kSigmaM, engine), {});
+    truth.push_back(moment.truth);
+  }
+  const FinishedMap finished = mapper.finish();
+  ASSERT_EQ(finished.scans.size(), truth.size());
+  for (const MomentPose& pose : finished.scans) mapped.push_back(pose.map_from_base);
+  const auto by = test::laid_on(mapped, truth);
+  double mean_m = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    mean_m += distance_m((by * mapped[i]).translation(), truth[i].translation()) /
+              static_cast<double>(truth.size());
+  EXPECT_LT(mean_m, 0.04);
+  // The keyframes, which become the walls, stand where their scans do.
+  const Memory& memory = finished.memory;
+  for (std::size_t k = 0; k < memory.size(); ++k) {
+    const auto scan =
+        std::ranges::find(finished.scans, memory.keyframes()[k].scan->stamp, &MomentPose::stamp);
+    ASSERT_NE(scan, finished.scans.end());
+    EXPECT_LT(distance_m(scan->map_from_base.translation(), memory.poses()[k].translation()), 1e-9);
+  }
 }
 
 TEST(GraphMapper, IsCausalAndRepeatsItself) {
