@@ -23,8 +23,7 @@ double scan_noise_m(const ScanPoints& points) {
   return median_of(off) / (kMedianOfRayleigh * std::sqrt(1.5));
 }
 
-double LidarNoise::after(const ScanPoints& points) {
-  const double noise_m = scan_noise_m(points);
+double LidarNoise::after(double noise_m) {
   if (noise_m > 0.0 && (least_m_ == 0.0 || noise_m < least_m_)) least_m_ = noise_m;
   return least_m_;
 }

@@ -12,7 +12,8 @@ namespace madori::localization {
 /// least counts.
 class LidarNoise {
  public:
-  double after(const ScanPoints& points);
+  /// Of a lidar after one more scan of so much noise (scan_noise_m).
+  double after(double noise_m);
   [[nodiscard]] double least_m() const { return least_m_; }
 
  private:

@@ -156,7 +156,7 @@ bool GraphMapper::sees_through_newest(const SurfaceScan& scan) const {
 
 PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
   SurfaceScanOptions how = options_.scan;
-  how.noise_m = noise_.after(points);
+  how.noise_m = noise_.after(scan_noise_m(points));
   SurfaceScan scan = make_surface_scan(stamp, sensor, weighty_points(points), how);
   Memory& memory = map_.memory;
   if (memory.empty()) {

@@ -211,7 +211,7 @@ void RbpfMapper::remember(const SurfaceScan& scan) {
 PoseEstimate RbpfMapper::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
   const LocalizerOptions& front = options_.front;
   SurfaceScanOptions how = front.scan;
-  how.noise_m = noise_.after(points);
+  how.noise_m = noise_.after(scan_noise_m(points));
   const SurfaceScan scan = make_surface_scan(stamp, sensor, weighty_points(points), how);
   const Memory& memory = front_.memory;
   if (memory.empty()) {

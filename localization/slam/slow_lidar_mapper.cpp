@@ -157,8 +157,9 @@ FinishedMap SlowLidarMapper::finish() {
   SurfaceScanOptions how = options_.scan;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const auto& [stamp, sensor, path_m] = looks_[i];
-    map_.add(scans_[i], poses_[i], sensor, scan_noise_m(scans_[i]));
-    how.noise_m = noise.after(scans_[i]);
+    const double noise_m = scan_noise_m(scans_[i]);
+    map_.add(scans_[i], poses_[i], sensor, noise_m);
+    how.noise_m = noise.after(noise_m);
     finished.memory.add(make_surface_scan(stamp, sensor, weighty_points(scans_[i]), how), path_m, poses_[i],
                         information);
     finished.scans.push_back({stamp, poses_[i]});
