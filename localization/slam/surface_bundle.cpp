@@ -1,9 +1,7 @@
 #include "localization/slam/surface_bundle.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -145,15 +143,15 @@ struct Saying {
   double squares_m2 = 0.0;  ///< of the distances from the line, and how many
   double points = 0.0;
 };
-using Sayings = std::vector<std::map<std::uint32_t, Saying>>;  ///< by piece, then by scan
+using Heard = std::vector<std::pair<std::uint32_t, Saying>>;  ///< of one piece, by the scans in their order
 
 /// Every point draws at the piece that it lies nearest to.
-Sayings listen(const std::vector<ScanPoints>& scans, const std::vector<Pose>& poses,
-               const std::vector<Piece>& pieces, double length_m, double scale_m) {
+std::vector<Heard> listen(const std::vector<ScanPoints>& scans, const std::vector<Pose>& poses,
+                          const std::vector<Piece>& pieces, double length_m, double scale_m) {
   const double reach_m = 2.0 * scale_m;
   Cells cells(std::max(reach_m, length_m));
   for (std::uint32_t k = 0; k < pieces.size(); ++k) cells.add(pieces[k].at, k);
-  Sayings sayings(pieces.size());
+  std::vector<Heard> heard(pieces.size());
   for (std::uint32_t s = 0; s < scans.size(); ++s)
     for (std::size_t i = 0; i < scans[s].size(); ++i) {
       const Point2<Map> p = poses[s] * scans[s].point(i);
@@ -172,7 +170,9 @@ Sayings listen(const std::vector<ScanPoints>& scans, const std::vector<Pose>& po
           nearest->normal_x, nearest->normal_y,
           nearest->normal_y * (p.x_m - poses[s].x_m()) - nearest->normal_x * (p.y_m - poses[s].y_m()));
       const Eigen::Vector2d l(-1.0, -nearest->along(p));
-      Saying& saying = sayings[static_cast<std::size_t>(nearest - pieces.data())][s];
+      Heard& of_piece = heard[static_cast<std::size_t>(nearest - pieces.data())];
+      if (of_piece.empty() || of_piece.back().first != s) of_piece.emplace_back(s, Saying{});
+      Saying& saying = of_piece.back().second;
       saying.squares_m2 += r * r, saying.points += 1.0;
       saying.pose += w * j * j.transpose();
       saying.both += w * j * l.transpose();
@@ -180,78 +180,133 @@ Sayings listen(const std::vector<ScanPoints>& scans, const std::vector<Pose>& po
       saying.pose_pull += w * r * j;
       saying.line_pull += w * r * l;
     }
-  return sayings;
+  return heard;
 }
 
 /// Points of a corner, or of two surfaces, spread wider than noise alone spreads them about a line. Such a
 /// piece leans to whichever of its surfaces a scan saw more of, which bends the map: 2 % of its size at 0.3
 /// m.
-bool is_one_line(const std::map<std::uint32_t, Saying>& scans, double most_m) {
+bool is_one_line(const Heard& scans, double most_m) {
   double squares_m2 = 0.0, points = 0.0;
   for (const auto& [s, saying] : scans) squares_m2 += saying.squares_m2, points += saying.points;
   return squares_m2 < points * most_m * most_m;
 }
 
-/// Normal equations of all poses.
-struct Equations {
-  explicit Equations(std::size_t poses) : pull(Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(poses))) {}
+/// Normal equations of all poses. What two scans say of a piece that both saw is a block of the matrix, and
+/// in a hall nearly all scans saw the same pieces: the matrix is full. So it is never made; conjugate
+/// gradients ask only what it makes of a step.
+class Equations {
+ public:
+  explicit Equations(std::size_t poses)
+      : own_(poses, Eigen::Matrix3d::Zero()),
+        near_(poses, Eigen::Matrix3d::Zero()),
+        pull_(Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(poses))) {}
 
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Eigen::Matrix3d> blocks;  ///< row not before column
-  Eigen::VectorXd pull;
-
-  Eigen::Matrix3d& block(std::uint32_t row, std::uint32_t column) {
-    return blocks.try_emplace({row, column}, Eigen::Matrix3d::Zero()).first->second;
+  void add_piece(const Heard& scans, double information);
+  void add_motion(const RelativeFactor& motion, const std::vector<Pose>& poses);
+  void hold(std::uint32_t pose, double information) {
+    own_[pose] += information * Eigen::Matrix3d::Identity();
+    near_[pose] += information * Eigen::Matrix3d::Identity();
   }
-  auto pull_of(std::uint32_t i) { return pull.segment<3>(3 * static_cast<Eigen::Index>(i)); }
+  /// The step of all poses: x, y, yaw of each.
   [[nodiscard]] Eigen::VectorXd solve() const;
+
+ private:
+  struct Tie {
+    std::uint32_t from, to;
+    Eigen::Matrix3d block;  ///< rows of `to`
+  };
+  struct Word {
+    std::uint32_t scan;
+    Eigen::Matrix<double, 3, 2> both, weighed;  ///< with the line; the same with the line's inverse
+  };
+  [[nodiscard]] static auto part(auto& all, std::uint32_t i) {
+    return all.template segment<3>(3 * static_cast<Eigen::Index>(i));
+  }
+  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& step) const;
+
+  std::vector<Eigen::Matrix3d> own_;   ///< on the diagonal, what the pieces leave not yet taken off
+  std::vector<Eigen::Matrix3d> near_;  ///< on the diagonal
+  std::vector<Tie> ties_;
+  std::vector<Word> words_;
+  std::vector<std::size_t> ends_;  ///< of each piece in `words_`
+  Eigen::VectorXd pull_;
 };
 
-Eigen::VectorXd Equations::solve() const {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(9 * blocks.size());
-  for (const auto& [at, m] : blocks)
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c)
-        entries.emplace_back(3 * static_cast<int>(at.first) + r, 3 * static_cast<int>(at.second) + c,
-                             m(r, c));
-  Eigen::SparseMatrix<double> lower(pull.size(), pull.size());
-  lower.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factors(lower);
-  if (factors.info() != Eigen::Success) return Eigen::VectorXd::Zero(pull.size());
-  return -factors.solve(pull);
-}
-
 /// The piece's own line is eliminated (Schur): what is left of what the scans say of it is about each other.
-void add_piece(const std::map<std::uint32_t, Saying>& scans, double information, Equations& equations) {
+void Equations::add_piece(const Heard& scans, double information) {
   if (scans.size() < 2) return;
   Eigen::Matrix2d line = 1e-3 * Eigen::Matrix2d::Identity();
   Eigen::Vector2d line_pull = Eigen::Vector2d::Zero();
   for (const auto& [s, saying] : scans) line += saying.line, line_pull += saying.line_pull;
   const Eigen::Matrix2d inverse = line.inverse();
-  for (auto a = scans.begin(); a != scans.end(); ++a) {
-    const Eigen::Matrix<double, 3, 2> left = a->second.both * inverse;
-    equations.block(a->first, a->first) += information * a->second.pose;
-    equations.pull_of(a->first) += information * (a->second.pose_pull - left * line_pull);
-    for (auto b = scans.begin(); b != std::next(a); ++b)
-      equations.block(a->first, b->first) -= information * left * b->second.both.transpose();
+  for (const auto& [s, saying] : scans) {
+    const Eigen::Matrix<double, 3, 2> weighed = information * saying.both * inverse;
+    own_[s] += information * saying.pose;
+    near_[s] += information * saying.pose - weighed * saying.both.transpose();
+    part(pull_, s) += information * saying.pose_pull - weighed * line_pull;
+    words_.push_back({s, saying.both, weighed});
   }
+  ends_.push_back(words_.size());
 }
 
-void add_motion(const RelativeFactor& motion, const std::vector<Pose>& poses, Equations& equations) {
+void Equations::add_motion(const RelativeFactor& motion, const std::vector<Pose>& poses) {
   const auto from = static_cast<std::uint32_t>(motion.from), to = static_cast<std::uint32_t>(motion.to);
   const Pose& a = poses[from];
   const Pose& b = poses[to];
   const Eigen::Vector3d error = relative_error(motion, a, b);
   const auto [by_from, by_to] = relative_jacobians(a.yaw_rad(), b.x_m() - a.x_m(), b.y_m() - a.y_m());
   const Eigen::Matrix3d& w = motion.information;
-  equations.block(from, from) += by_from.transpose() * w * by_from;
-  equations.block(to, to) += by_to.transpose() * w * by_to;
-  if (to > from)
-    equations.block(to, from) += by_to.transpose() * w * by_from;
-  else
-    equations.block(from, to) += by_from.transpose() * w * by_to;
-  equations.pull_of(from) += by_from.transpose() * w * error;
-  equations.pull_of(to) += by_to.transpose() * w * error;
+  for (auto* diagonal : {&own_, &near_}) {
+    (*diagonal)[from] += by_from.transpose() * w * by_from;
+    (*diagonal)[to] += by_to.transpose() * w * by_to;
+  }
+  ties_.push_back({from, to, by_to.transpose() * w * by_from});
+  part(pull_, from) += by_from.transpose() * w * error;
+  part(pull_, to) += by_to.transpose() * w * error;
+}
+
+Eigen::VectorXd Equations::times(const Eigen::VectorXd& step) const {
+  Eigen::VectorXd product(step.size());
+  for (std::uint32_t i = 0; i < own_.size(); ++i) part(product, i) = own_[i] * part(step, i);
+  for (const Tie& tie : ties_) {
+    part(product, tie.to) += tie.block * part(step, tie.from);
+    part(product, tie.from) += tie.block.transpose() * part(step, tie.to);
+  }
+  std::size_t first = 0;
+  for (const std::size_t end : ends_) {
+    Eigen::Vector2d line = Eigen::Vector2d::Zero();
+    for (std::size_t k = first; k < end; ++k) line += words_[k].both.transpose() * part(step, words_[k].scan);
+    for (std::size_t k = first; k < end; ++k) part(product, words_[k].scan) -= words_[k].weighed * line;
+    first = end;
+  }
+  return product;
+}
+
+Eigen::VectorXd Equations::solve() const {
+  constexpr double kLeast = 1e-8;  // of the residual that there was
+  std::vector<Eigen::Matrix3d> inverse;
+  for (const Eigen::Matrix3d& m : near_) inverse.push_back(m.inverse());
+  const auto nearly = [&](const Eigen::VectorXd& v) {
+    Eigen::VectorXd by(v.size());
+    for (std::uint32_t i = 0; i < inverse.size(); ++i) part(by, i) = inverse[i] * part(v, i);
+    return by;
+  };
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(pull_.size()), residual = -pull_;
+  Eigen::VectorXd way = nearly(residual);
+  double left = residual.dot(way);
+  const double enough = kLeast * kLeast * left;
+  for (Eigen::Index k = 0; k < pull_.size() && left > enough; ++k) {
+    const Eigen::VectorXd product = times(way);
+    const double by = left / way.dot(product);
+    step += by * way;
+    residual -= by * product;
+    const Eigen::VectorXd next = nearly(residual);
+    const double left_now = residual.dot(next);
+    way = next + (left_now / left) * way;
+    left = left_now;
+  }
+  return step;
 }
 
 /// A step leads no farther than the surfaces that it was worked out with were sought.
@@ -283,14 +338,12 @@ std::vector<Pose> bundle_scans(const std::vector<ScanPoints>& scans, std::vector
     const double width_m = std::max(noise, 0.4 * reach_m);
     const std::vector<Piece> pieces =
         ridges(blots(cloud_of(scans, poses), 0.1 * length_m), 0.5 * length_m, width_m, options.least_points);
-    const Sayings sayings = listen(scans, poses, pieces, 0.5 * length_m, reach_m);
     Equations equations(poses.size());
-    for (const auto& scans_of_piece : sayings)
+    for (const Heard& scans_of_piece : listen(scans, poses, pieces, 0.5 * length_m, reach_m))
       if (is_one_line(scans_of_piece, options.most_spread * noise * reach_m / last_m))
-        add_piece(scans_of_piece, options.beams_a_point / (noise * noise), equations);
-    for (const RelativeFactor& motion : wheels) add_motion(motion, poses, equations);
-    for (std::uint32_t i = 0; i < poses.size(); ++i)
-      equations.block(i, i) += (i == 0 ? 1e9 : 1e-3) * Eigen::Matrix3d::Identity();
+        equations.add_piece(scans_of_piece, options.beams_a_point / (noise * noise));
+    for (const RelativeFactor& motion : wheels) equations.add_motion(motion, poses);
+    for (std::uint32_t i = 0; i < poses.size(); ++i) equations.hold(i, i == 0 ? 1e9 : 1e-3);
     const Eigen::VectorXd step = equations.solve();
     for (std::size_t i = 0; i < poses.size(); ++i)
       poses[i] = stepped(poses[i], step.segment<3>(3 * static_cast<Eigen::Index>(i)), reach_m);
