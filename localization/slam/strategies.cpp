@@ -147,22 +147,48 @@ std::vector<RdnmResult> GlobalViews::ranked(const ScanPoints& scan, const RdnOpt
   return rdnm_ranked(scan, places_, views_, options);
 }
 
-double log_likelihood(const ScanPoints& scan, const PointMap& map, const Pose& pose,
-                      const LikelihoodOptions& options) {
+namespace {
+
+/// What the points say: how far each lies from the surface that the map's points around it make.
+double log_of_hits(const ScanPoints& scan, const PointMap& map, const Pose& pose,
+                   const LikelihoodOptions& options) {
   double sum = 0.0;
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    const double squared = map.nearest(pose * scan.point(i)).squared_distance_m2;
+    const Point2<Map> p = pose * scan.point(i);
+    const PointMap::Neighbour nearest = map.nearest(p);
+    // In a cloud that noise made thick some point is always near: what tells is how far its surface is.
+    const PointSurface& surface = map.surface(nearest.index);
+    const double across = (p.x_m - surface.x_m) * surface.normal_x + (p.y_m - surface.y_m) * surface.normal_y;
+    const double squared = std::max(nearest.squared_distance_m2, surface.flatness * across * across);
     const double hit = std::exp(-0.5 * squared / (options.sigma_m * options.sigma_m));
     sum += std::log(options.other + (1.0 - options.other) * hit);
   }
+  return sum;
+}
+
+/// Whether no point of the scan lies so near: a beam that grazes a wall ends far behind points of it.
+bool is_clear_of(const ScanPoints& scan, const Point2<Base>& p, double margin_m) {
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double dx = scan.x_m[i] - p.x_m, dy = scan.y_m[i] - p.y_m;
+    if (dx * dx + dy * dy < margin_m * margin_m) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double log_likelihood(const ScanPoints& scan, const PointMap& map, const Pose& pose,
+                      const LikelihoodOptions& options) {
+  const double sum = log_of_hits(scan, map, pose, options);
   const RangeRing ring(scan, {});
   std::vector<bool> passed(RangeRing::kSize, false);
   const Transform2<Base, Map> base_from_map = pose.inverse();
   for (const Point2<Map>& p : map.points()) {
     std::size_t direction = 0;
-    if (distance_m(p, pose.translation()) < options.view_m &&
-        ring.passes(base_from_map * p, options.margin_m, direction))
-      passed[direction] = true;
+    if (distance_m(p, pose.translation()) >= options.view_m) continue;
+    const Point2<Base> seen = base_from_map * p;
+    if (ring.passes(seen, options.margin_m, direction) && !passed[direction])
+      passed[direction] = is_clear_of(scan, seen, options.margin_m);
   }
   const auto directions = static_cast<double>(std::count(passed.begin(), passed.end(), true));
   const double beams = directions / RangeRing::kSize * static_cast<double>(scan.size()) * options.turn_share;

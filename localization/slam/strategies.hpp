@@ -40,7 +40,7 @@ struct StrategyOptions {
   std::size_t refined_exactly = 20;  ///< then the best of them to the end;
   std::size_t most_refined =
       3000;                      ///< the next so many where none of them explains the scan, up to this many:
-  double enough_a_point = -0.2;  ///< nats of likelihood a point that do explain it
+  double enough_a_point = -0.3;  ///< nats of likelihood a point that do explain it
   double view_radius_m = 30.0;   ///< the map's points within it make the candidates' views,
   double global_view_m = 15.0;  ///< the same for the candidates of Algorithm 2, of which there are thousands,
   double view_spacing_m = 0.15;  ///< thinned to this: a section averages over half a metre anyway

@@ -322,6 +322,34 @@ TEST(Strategies, AScanThatLooksThroughAWallIsUnlikely) {
   EXPECT_LT(log_likelihood(scan, PointMap(sample_walls(walls, 0.05)), here), likely - 20.0);
 }
 
+/// In a map that noise made thick some point is near to everything, and walls that a beam grazes have points
+/// far before its end: neither may hide which place it is.
+TEST(Strategies, NoiseHidesNoPlace) {
+  constexpr double kSigmaM = 0.3;
+  std::mt19937 engine(35);
+  std::normal_distribution<double> noise(0.0, kSigmaM);
+  const mapping::Walls walls = test::laboratory_hall();
+  NoisyPoints cloud;
+  cloud.noise_m = kSigmaM;
+  for (int k = 0; k < 6; ++k)
+    for (const Point2<Map>& p : sample_walls(walls, 0.05))
+      cloud.points.push_back({p.x_m + noise(engine), p.y_m + noise(engine)});
+  cloud.weights.assign(cloud.points.size(), 1.0);
+  const PointMap map(std::move(cloud), 2.0 * kSigmaM);
+  const mapping::DistanceField field(walls);
+  LikelihoodOptions options;
+  options.sigma_m = kSigmaM;
+  options.margin_m = 3.0 * std::sqrt(2.0) * kSigmaM;
+  for (int i = 0; i < 10; ++i) {
+    const Transform2<Map, Base> here = test::random_pose(walls, field, 0.5, 4.0, engine);
+    const ScanPoints scan = test::noisy_points(test::simulate_scan(walls, here, {}, engine), kSigmaM, engine);
+    const double likely = log_likelihood(scan, map, here, options);
+    EXPECT_GT(likely, -0.6 * static_cast<double>(scan.size())) << here.x_m() << " " << here.y_m();
+    const Transform2<Map, Base> beside(here.x_m() + 0.3, here.y_m() + 0.3, here.yaw_rad());
+    EXPECT_LT(log_likelihood(scan, map, beside, options), likely - 25.0) << here.x_m() << " " << here.y_m();
+  }
+}
+
 TEST(GraphMapper, HasNothingToFinishWithoutAScan) {
   GraphMapper mapper;
   (void)mapper.on_odometry({second(1.0), {}});
