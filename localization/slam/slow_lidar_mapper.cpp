@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -24,10 +23,6 @@ void lean_on_wheels(PointIcpOptions& icp, const Transform2<Map, Base>& assumed,
 
 /// Of a scan that was laid on the map: 5 cm and 1 degree.
 const Eigen::Matrix3d kFitted = Eigen::Vector3d(2.5e-3, 2.5e-3, 3e-4).asDiagonal();
-
-/// What noise alone costs a point in the mean, where it is all that keeps the point from its surface: the
-/// mean of log(0.1 + 0.9 exp(-z²/2)) over a standard normal z (LikelihoodOptions).
-constexpr double kScatteredNats = 0.40;
 
 /// Whether a pose that was found and what was believed may be one: chi-squared of three, of 1 in 10,000.
 bool agree(const Transform2<Map, Base>& found, const Belief& believed) {
@@ -70,14 +65,8 @@ double SlowLidarMapper::e_max_m(double noise_m) const {
 
 StrategyOptions SlowLidarMapper::strategies_for(const ScanPoints& points) const {
   const double noise = std::max(scan_noise_m(points), map_.noise_m());
-  StrategyOptions options = options_.strategies;
+  StrategyOptions options = with_noise(options_.strategies, noise);
   options.most_e_psr_m = e_max_m(noise);
-  options.icp.last_scale_m = std::max(options.icp.last_scale_m, 1.5 * noise);
-  options.icp.inlier_distance_m = std::max(options.icp.inlier_distance_m, noise);
-  const double scatter = std::max(options.likelihood.sigma_m, noise);
-  options.enough_a_point -= kScatteredNats * (1.0 - std::pow(options.likelihood.sigma_m / scatter, 2.0));
-  options.likelihood.sigma_m = scatter;
-  options.likelihood.margin_m = std::max(options.likelihood.margin_m, 3.0 * std::sqrt(2.0) * noise);
   return options;
 }
 

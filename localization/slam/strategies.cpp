@@ -99,6 +99,20 @@ std::vector<RegistrationResult> refined_exactly(const ScanPoints& scan, const Po
 
 }  // namespace
 
+StrategyOptions with_noise(StrategyOptions options, double noise_m) {
+  // What noise alone costs a point in the mean, where it is all that keeps the point from its surface: the
+  // mean of log(0.1 + 0.9 exp(-z²/2)) over a standard normal z (LikelihoodOptions).
+  constexpr double kScatteredNats = 0.40;
+  options.icp.last_scale_m = std::max(options.icp.last_scale_m, 1.5 * noise_m);
+  options.icp.inlier_distance_m = std::max(options.icp.inlier_distance_m, noise_m);
+  const double scatter_m = std::max(options.likelihood.sigma_m, noise_m);
+  options.enough_a_point -= kScatteredNats * (1.0 - std::pow(options.likelihood.sigma_m / scatter_m, 2.0));
+  options.likelihood.sigma_m = scatter_m;
+  // Of the map's point and of the beam's end alike.
+  options.likelihood.margin_m = std::max(options.likelihood.margin_m, 3.0 * std::sqrt(2.0) * noise_m);
+  return options;
+}
+
 const char* to_string(Strategy strategy) {
   switch (strategy) {
     case Strategy::Rdnm:

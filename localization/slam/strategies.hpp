@@ -52,6 +52,9 @@ struct StrategyOptions {
   LikelihoodOptions likelihood;
 };
 
+/// The same where the points of the scan and of the map scatter about their surfaces by `noise_m` (sigma).
+[[nodiscard]] StrategyOptions with_noise(StrategyOptions options, double noise_m);
+
 enum class Strategy { Rdnm, Cpd, Absolute };
 [[nodiscard]] const char* to_string(Strategy strategy);
 

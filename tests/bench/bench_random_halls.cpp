@@ -141,7 +141,7 @@ int found_places(const Drive& drive, const Mapped& mapped, const Transform2<Map,
     noise_m += scan_noise_m(scan) / static_cast<double>(drive.points.size());
   for (std::size_t i = 0; i < mapped.scan.size(); ++i)
     map.add(drive.points[mapped.scan[i]], mapped.poses[i], {}, noise_m);
-  StrategyOptions at;
+  StrategyOptions at = with_noise({}, noise_m);
   at.most_e_psr_m = std::clamp(noise_m, at.most_e_psr_m, 0.3);
   const GlobalViews views(map.points(), at);
   std::mt19937 engine(static_cast<unsigned>(drive.moments.size()));

@@ -337,9 +337,7 @@ TEST(Strategies, NoiseHidesNoPlace) {
   cloud.weights.assign(cloud.points.size(), 1.0);
   const PointMap map(std::move(cloud), 2.0 * kSigmaM);
   const mapping::DistanceField field(walls);
-  LikelihoodOptions options;
-  options.sigma_m = kSigmaM;
-  options.margin_m = 3.0 * std::sqrt(2.0) * kSigmaM;
+  const LikelihoodOptions options = with_noise({}, kSigmaM).likelihood;
   for (int i = 0; i < 10; ++i) {
     const Transform2<Map, Base> here = test::random_pose(walls, field, 0.5, 4.0, engine);
     const ScanPoints scan = test::noisy_points(test::simulate_scan(walls, here, {}, engine), kSigmaM, engine);
