@@ -193,7 +193,7 @@ bool is_one_line(const Heard& scans, double most_m) {
 }
 
 /// Normal equations of all poses. What two scans say of a piece that both saw is a block of the matrix, and
-/// in a hall nearly all scans saw the same pieces: the matrix is full. So it is never made; conjugate
+/// in a hall preconditioned all scans saw the same pieces: the matrix is full. So it is never made; conjugate
 /// gradients ask only what it makes of a step.
 class Equations {
  public:
@@ -283,17 +283,18 @@ Eigen::VectorXd Equations::times(const Eigen::VectorXd& step) const {
   return product;
 }
 
+/// Conjugate gradients, preconditioned by the blocks on the diagonal.
 Eigen::VectorXd Equations::solve() const {
-  constexpr double kLeast = 1e-8;  // of the residual that there was
+  constexpr double kLeast = 1e-8;  // of the residual that there was, as preconditioned
   std::vector<Eigen::Matrix3d> inverse;
   for (const Eigen::Matrix3d& m : near_) inverse.push_back(m.inverse());
-  const auto nearly = [&](const Eigen::VectorXd& v) {
+  const auto preconditioned = [&](const Eigen::VectorXd& v) {
     Eigen::VectorXd by(v.size());
     for (std::uint32_t i = 0; i < inverse.size(); ++i) part(by, i) = inverse[i] * part(v, i);
     return by;
   };
   Eigen::VectorXd step = Eigen::VectorXd::Zero(pull_.size()), residual = -pull_;
-  Eigen::VectorXd way = nearly(residual);
+  Eigen::VectorXd way = preconditioned(residual);
   double left = residual.dot(way);
   const double enough = kLeast * kLeast * left;
   for (Eigen::Index k = 0; k < pull_.size() && left > enough; ++k) {
@@ -301,7 +302,7 @@ Eigen::VectorXd Equations::solve() const {
     const double by = left / way.dot(product);
     step += by * way;
     residual -= by * product;
-    const Eigen::VectorXd next = nearly(residual);
+    const Eigen::VectorXd next = preconditioned(residual);
     const double left_now = residual.dot(next);
     way = next + (left_now / left) * way;
     left = left_now;
