@@ -193,20 +193,18 @@ bool is_one_line(const Heard& scans, double most_m) {
 }
 
 /// Normal equations of all poses. What two scans say of a piece that both saw is a block of the matrix, and
-/// in a hall preconditioned all scans saw the same pieces: the matrix is full. So it is never made; conjugate
+/// in a hall nearly all scans saw the same pieces: the matrix is full. So it is never made; conjugate
 /// gradients ask only what it makes of a step.
 class Equations {
  public:
   explicit Equations(std::size_t poses)
       : own_(poses, Eigen::Matrix3d::Zero()),
-        near_(poses, Eigen::Matrix3d::Zero()),
         pull_(Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(poses))) {}
 
   void add_piece(const Heard& scans, double information);
   void add_motion(const RelativeFactor& motion, const std::vector<Pose>& poses);
   void hold(std::uint32_t pose, double information) {
     own_[pose] += information * Eigen::Matrix3d::Identity();
-    near_[pose] += information * Eigen::Matrix3d::Identity();
   }
   /// The step of all poses: x, y, yaw of each.
   [[nodiscard]] Eigen::VectorXd solve() const;
@@ -225,8 +223,7 @@ class Equations {
   }
   [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& step) const;
 
-  std::vector<Eigen::Matrix3d> own_;   ///< on the diagonal, what the pieces leave not yet taken off
-  std::vector<Eigen::Matrix3d> near_;  ///< on the diagonal
+  std::vector<Eigen::Matrix3d> own_;  ///< on the diagonal, but for what is eliminated with the pieces
   std::vector<Tie> ties_;
   std::vector<Word> words_;
   std::vector<std::size_t> ends_;  ///< of each piece in `words_`
@@ -243,7 +240,6 @@ void Equations::add_piece(const Heard& scans, double information) {
   for (const auto& [s, saying] : scans) {
     const Eigen::Matrix<double, 3, 2> weighed = information * saying.both * inverse;
     own_[s] += information * saying.pose;
-    near_[s] += information * saying.pose - weighed * saying.both.transpose();
     part(pull_, s) += information * saying.pose_pull - weighed * line_pull;
     words_.push_back({s, saying.both, weighed});
   }
@@ -257,10 +253,8 @@ void Equations::add_motion(const RelativeFactor& motion, const std::vector<Pose>
   const Eigen::Vector3d error = relative_error(motion, a, b);
   const auto [by_from, by_to] = relative_jacobians(a.yaw_rad(), b.x_m() - a.x_m(), b.y_m() - a.y_m());
   const Eigen::Matrix3d& w = motion.information;
-  for (auto* diagonal : {&own_, &near_}) {
-    (*diagonal)[from] += by_from.transpose() * w * by_from;
-    (*diagonal)[to] += by_to.transpose() * w * by_to;
-  }
+  own_[from] += by_from.transpose() * w * by_from;
+  own_[to] += by_to.transpose() * w * by_to;
   ties_.push_back({from, to, by_to.transpose() * w * by_from});
   part(pull_, from) += by_from.transpose() * w * error;
   part(pull_, to) += by_to.transpose() * w * error;
@@ -286,8 +280,9 @@ Eigen::VectorXd Equations::times(const Eigen::VectorXd& step) const {
 /// Conjugate gradients, preconditioned by the blocks on the diagonal.
 Eigen::VectorXd Equations::solve() const {
   constexpr double kLeast = 1e-8;  // of the residual that there was, as preconditioned
-  std::vector<Eigen::Matrix3d> inverse;
-  for (const Eigen::Matrix3d& m : near_) inverse.push_back(m.inverse());
+  std::vector<Eigen::Matrix3d> inverse = own_;
+  for (const Word& word : words_) inverse[word.scan] -= word.weighed * word.both.transpose();
+  for (Eigen::Matrix3d& m : inverse) m = m.inverse().eval();
   const auto preconditioned = [&](const Eigen::VectorXd& v) {
     Eigen::VectorXd by(v.size());
     for (std::uint32_t i = 0; i < inverse.size(); ++i) part(by, i) = inverse[i] * part(v, i);
