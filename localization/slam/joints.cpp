@@ -38,15 +38,15 @@ double most_through(double agreement, double off_wheels, const JointOptions& o) 
   return between(o.doubted_agreement, o.fair_agreement, o.most_through_doubted, o.most_through);
 }
 
-/// The stretches on both sides of the joint laid on each other by the wheels' word.
-StretchMatch led_by_wheels(const Memory& memory, std::size_t k, const OdometryStep& wheels) {
-  StretchOptions options;
-  options.search_rad = 0.8;  // wheels slip
+/// The stretches on both sides of the joint laid on each other by the wheels' word and what both saw.
+StretchMatch led_by_wheels(const Memory& memory, std::size_t k, const OdometryStep& wheels,
+                           const StretchOptions& options) {
   Stretch before = stretch_around(memory.keyframes(), k - 1, options);
   Stretch after = stretch_around(memory.keyframes(), k, options);
   before.last = k - 1;
   after.first = k;
-  return lean_stretches(memory, before, after, wheels.motion, with_floor(wheels.covariance), options);
+  return lean_stretches(memory, before, after, wheels.motion, with_floor(wheels.covariance),
+                        memory.poses()[k - 1].inverse() * memory.poses()[k], options);
 }
 
 }  // namespace
@@ -56,17 +56,17 @@ JointVerdict judge_joint(const Memory& memory, std::size_t k, const OdometryStep
   const auto& keyframes = memory.keyframes();
   if (k == 0 || keyframes[k].cut || keyframes[k].agreement > options.least_agreement) return {};
   const double most = most_through(keyframes[k].agreement, off_wheels, options);
-  const auto is_explained = [&options](const SightCount& sights, double by) {
-    return sights.both() >= options.least_seen && sights.contradiction() < by;
-  };
   const SightCount sights = joint_sights(memory, k, options);
-  if (is_explained(sights, most)) return {};
-  if (sights.both() < options.least_seen && keyframes[k].agreement > options.no_agreement) return {};
+  const bool is_known = sights.both() >= options.least_seen;
+  if (is_known && sights.contradiction() < most) return {};
+  if (!is_known && keyframes[k].agreement > options.no_agreement) return {};
   const bool is_followed =
       k + 1 < memory.size() && !keyframes[k + 1].cut && keyframes[k + 1].agreement < options.least_agreement;
   if (is_followed && joint_sights(memory, k + 1, options).contradiction() > sights.contradiction()) return {};
-  const StretchMatch led = led_by_wheels(memory, k, wheels);
-  if (is_explained(led.sights, std::min(most, options.most_through_led)))
+  const StretchOptions stretch;
+  const StretchMatch led = led_by_wheels(memory, k, wheels, stretch);
+  if (led.sights.both() >= stretch.least_seen &&
+      led.sights.contradiction() < std::clamp(most, options.fair_through_led, options.most_through_led))
     return {Joint::Otherwise, led.factor};
   return {Joint::False, {}};
 }

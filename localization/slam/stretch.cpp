@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <unordered_set>
 
 #include "localization/localizer/pose_covariance.hpp"
@@ -50,6 +51,99 @@ std::vector<std::size_t> evenly(const Stretch& stretch, std::size_t most) {
   return some;
 }
 
+/// Some keyframes of two stretches, who are asked again and again what they say of each other.
+class Witnesses {
+ public:
+  Witnesses(const Memory& memory, const Stretch& from, const Stretch& to, std::size_t count)
+      : ours_(of(memory, from, count)), theirs_(of(memory, to, count)) {}
+
+  /// With `to`'s middle seen from `from`'s at `motion`.
+  [[nodiscard]] SightCount at(const Transform2<Base, Base>& motion) const {
+    SightCount sum;
+    for (const Witness& i : ours_) {
+      const auto middle_from_i = i.from_middle.inverse() * motion;
+      for (const Witness& j : theirs_) {
+        const auto j_from_i = middle_from_i * j.from_middle;
+        sum += i.ring.of(*j.scan, j_from_i);
+        sum += j.ring.of(*i.scan, j_from_i.inverse());
+      }
+    }
+    return sum;
+  }
+
+ private:
+  struct Witness {
+    const SurfaceScan* scan;
+    SightRing ring;
+    Transform2<Base, Base> from_middle;  ///< where it stands, axes of the stretch's middle
+  };
+  static std::vector<Witness> of(const Memory& memory, const Stretch& stretch, std::size_t count) {
+    std::vector<Witness> some;
+    const Pose& middle = memory.poses()[stretch.middle];
+    for (const std::size_t k : evenly(stretch, count)) {
+      const SurfaceScan& scan = *memory.keyframes()[k].scan;
+      some.push_back({&scan, SightRing(scan), middle.inverse() * memory.poses()[k]});
+    }
+    return some;
+  }
+
+  std::vector<Witness> ours_, theirs_;
+};
+
+/// What the witnesses and the wheels say of a motion; the less it costs, the likelier it is.
+class LeastContradicted {
+ public:
+  struct Place {
+    Transform2<Base, Base> motion;
+    SightCount sights;
+    double cost = std::numeric_limits<double>::infinity();  ///< nats
+  };
+
+  LeastContradicted(const Witnesses& witnesses, const Transform2<Base, Base>& wheels,
+                    const Eigen::Matrix3d& information)
+      : witnesses_(witnesses), wheels_(wheels), information_(information) {}
+
+  [[nodiscard]] Place at(const Transform2<Base, Base>& motion) const {
+    const Transform2<Base, Base>& w = wheels_;
+    const Eigen::Vector3d e(motion.x_m() - w.x_m(), motion.y_m() - w.y_m(),
+                            wrap_angle(motion.yaw_rad() - w.yaw_rad()));
+    const SightCount sights = witnesses_.at(motion);
+    return {motion, sights, kNats * sights.contradiction() + 0.5 * e.dot(information_ * e)};
+  }
+
+  /// The cheapest around `start`: along each axis, with steps that are halved where none is cheaper.
+  [[nodiscard]] Place around(const Transform2<Base, Base>& start) const {
+    Place here = at(start);
+    for (double step = kStepM; step > kFinestM;) {
+      Place next = here;
+      for (const double by : {-step, step})
+        for (const Place& beside :
+             {at(moved(here.motion, by, 0.0, 0.0)), at(moved(here.motion, 0.0, by, 0.0)),
+              at(moved(here.motion, 0.0, 0.0, by * kRadPerM))})
+          if (beside.cost < next.cost) next = beside;
+      if (next.cost < here.cost)
+        here = next;
+      else
+        step /= 2.0;
+    }
+    return here;
+  }
+
+ private:
+  static constexpr double kNats = 35.0;  // 12 ln 19: a scan's beams count as twelve, one in twenty is wrong
+  static constexpr double kStepM = 0.2;  // little more than what passes for the same surface
+  static constexpr double kFinestM = 0.02;
+  static constexpr double kRadPerM = 0.3;  // a surface three metres away moves as far by either
+
+  static Transform2<Base, Base> moved(const Transform2<Base, Base>& m, double x, double y, double yaw) {
+    return {m.x_m() + x, m.y_m() + y, m.yaw_rad() + yaw};
+  }
+
+  const Witnesses& witnesses_;
+  Transform2<Base, Base> wheels_;
+  Eigen::Matrix3d information_;
+};
+
 }  // namespace
 
 Stretch stretch_around(const std::vector<Keyframe>& keyframes, std::size_t middle,
@@ -85,23 +179,7 @@ SurfaceScan stretch_scan(const Memory& memory, const Stretch& stretch, double sp
 
 SightCount stretch_sights(const Memory& memory, const Stretch& from, const Stretch& to,
                           const Transform2<Base, Base>& motion, std::size_t witnesses) {
-  SightCount sum;
-  const auto& keyframes = memory.keyframes();
-  const auto& poses = memory.poses();
-  std::vector<SightRing> rings;
-  const std::vector<std::size_t> theirs = evenly(to, witnesses);
-  rings.reserve(theirs.size());
-  for (const std::size_t j : theirs) rings.emplace_back(*keyframes[j].scan);
-  for (const std::size_t i : evenly(from, witnesses)) {
-    const SightRing ring(*keyframes[i].scan);
-    const auto i_from_middle = poses[i].inverse() * poses[from.middle];
-    for (std::size_t k = 0; k < theirs.size(); ++k) {
-      const auto j_from_i = i_from_middle * motion * (poses[to.middle].inverse() * poses[theirs[k]]);
-      sum += ring.of(*keyframes[theirs[k]].scan, j_from_i);
-      sum += rings[k].of(*keyframes[i].scan, j_from_i.inverse());
-    }
-  }
-  return sum;
+  return Witnesses(memory, from, to, witnesses).at(motion);
 }
 
 bool is_seen_alike(const Memory& memory, const RelativeFactor& loop, double most_through,
@@ -113,26 +191,33 @@ bool is_seen_alike(const Memory& memory, const RelativeFactor& loop, double most
 }
 
 StretchMatch lean_stretches(const Memory& memory, const Stretch& from, const Stretch& to,
-                            const Transform2<Base, Base>& guess, const Eigen::Matrix3d& covariance,
-                            const StretchOptions& options) {
-  const LocalMap map = stretch_map(memory, from, guess, options);
-  const double sigma_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
-  const double sigma_rad = std::sqrt(covariance(2, 2));
-  const SearchWindow window{std::min(3.0 * sigma_m, options.search_m),
-                            std::min(3.0 * sigma_rad, options.search_rad), sigma_m, sigma_rad};
-  const SurfaceScan scan = stretch_scan(memory, to, options.spacing_m);
-  const MatchPrior prior{as_pose(guess), covariance.inverse()};
-  Pose pose = as_pose(guess);
-  MatchResult match;
-  if (!map.empty()) {
-    match = map.refine(scan, map.search(scan, pose, window).map_from_base, prior);
-    pose = match.map_from_base;
+                            const Transform2<Base, Base>& wheels, const Eigen::Matrix3d& covariance,
+                            const Transform2<Base, Base>& laid, const StretchOptions& options) {
+  constexpr double kSightM = 0.15, kSightRad = 0.03;  // what passes for the same surface (sights)
+  constexpr double kNoWorse = 1.5;                    // nats: half of chi-squared of three in the mean
+  const Eigen::Matrix3d known = covariance.inverse();
+  const Witnesses witnesses(memory, from, to, options.witnesses);
+  const LeastContradicted least(witnesses, wheels, known);
+  auto place = least.around(wheels);
+  if (const auto other = least.around(laid); other.cost < place.cost) place = other;
+  Eigen::Matrix3d information =
+      known +
+      Eigen::Matrix3d(Eigen::Vector3d(kSightM, kSightM, kSightRad).cwiseAbs2().cwiseInverse().asDiagonal());
+  double inlier_share = 0.0;
+  if (const LocalMap map = stretch_map(memory, from, place.motion, options); !map.empty()) {
+    const MatchResult match = map.refine(stretch_scan(memory, to, options.spacing_m), as_pose(place.motion),
+                                         {as_pose(wheels), known});
+    const auto fitted = least.at(as_motion(match.map_from_base));
+    inlier_share = match.inlier_share;
+    if (fitted.cost < place.cost + kNoWorse) {
+      place = fitted;
+      information = match.information + known;
+    }
   }
-  const Transform2<Base, Base> motion = as_motion(pose);
-  return {{static_cast<int>(from.middle), static_cast<int>(to.middle), motion,
-           limited(match.information + prior.information), false},
-          stretch_sights(memory, from, to, motion, options.witnesses),
-          match.inlier_share};
+  return {
+      {static_cast<int>(from.middle), static_cast<int>(to.middle), place.motion, limited(information), false},
+      place.sights,
+      inlier_share};
 }
 
 std::optional<StretchMatch> match_stretches(const Memory& memory, const Stretch& from, const Stretch& to,

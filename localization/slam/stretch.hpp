@@ -53,12 +53,14 @@ struct StretchMatch {
   double inlier_share = 0.0;
 };
 
-/// Lays one stretch on another, `guess` being the middle of `to` seen from the middle of `from`, and
-/// `covariance` what is known of that (x, y, yaw, axes of `from`'s middle): the likeliest by both, however
-/// little of the one lies on the other. The factor's information is that of both.
+/// Lays one stretch on another where the wheels led from the middle of `from` to the middle of `to`
+/// (`wheels` and its covariance: x, y, yaw, axes of `from`'s middle): where they contradict each other least
+/// and the wheels little, sought from there and from `laid`, and from that place by what they have in common,
+/// however little that is. The factor's information is that of both.
 [[nodiscard]] StretchMatch lean_stretches(const Memory& memory, const Stretch& from, const Stretch& to,
-                                          const Transform2<Base, Base>& guess,
+                                          const Transform2<Base, Base>& wheels,
                                           const Eigen::Matrix3d& covariance,
+                                          const Transform2<Base, Base>& laid,
                                           const StretchOptions& options = {});
 
 /// Lays one stretch on another, `guess` being the middle of `to` seen from the middle of `from`. Nothing
