@@ -18,11 +18,12 @@ void KeyframeMotion::add_unmatched(const Transform2<Base, Base>& motion, double 
   agreement_ = std::min(agreement_, agreement);
   motion_ = motion_ * motion;
   information_.setZero();
-  wheels_.covariance += Eigen::Vector3d(0.04, 0.04, 0.25).asDiagonal();
+  doubt_ += Eigen::Vector3d(0.04, 0.04, 0.25);
 }
 
 MeasuredMotion KeyframeMotion::measured(const Transform2<Map, Base>& map_from_keyframe) const {
-  const Eigen::Matrix3d wheels = with_floor(wheels_.covariance).inverse();
+  const Eigen::Matrix3d wheels =
+      with_floor(wheels_.covariance + Eigen::Matrix3d(doubt_.asDiagonal())).inverse();
   const Eigen::Matrix3d seen = in_map_axes(information_, -map_from_keyframe.yaw_rad());
   return {motion_, seen + wheels, agreement_};
 }

@@ -31,6 +31,7 @@ class KeyframeMotion {
 
  private:
   OdometryStep wheels_;
+  Eigen::Vector3d doubt_ = Eigen::Vector3d::Zero();        ///< of the motion where no scan confirmed it
   Transform2<Base, Base> motion_;                          ///< by the scans
   double agreement_ = 1.0;                                 ///< the least of the scans
   Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();  ///< of the last match, Map axes

@@ -1,6 +1,7 @@
 #include "localization/slam/joints.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "localization/localizer/pose_covariance.hpp"
 #include "localization/slam/stretch.hpp"
@@ -38,15 +39,36 @@ double most_through(double agreement, double off_wheels, const JointOptions& o) 
   return between(o.doubted_agreement, o.fair_agreement, o.most_through_doubted, o.most_through);
 }
 
-/// The stretches on both sides of the joint laid on each other by the wheels' word and what both saw.
-StretchMatch led_by_wheels(const Memory& memory, std::size_t k, const OdometryStep& wheels,
-                           const StretchOptions& options) {
-  Stretch before = stretch_around(memory.keyframes(), k - 1, options);
-  Stretch after = stretch_around(memory.keyframes(), k, options);
+/// What neighbours among the keyframes `first` to `last` say of each other: persons, glass, what moved.
+double contradiction_among(const Memory& memory, std::size_t first, std::size_t last) {
+  SightCount sum;
+  for (std::size_t i = first; i < last; ++i) {
+    const auto motion = memory.poses()[i].inverse() * memory.poses()[i + 1];
+    const SurfaceScan& here = *memory.keyframes()[i].scan;
+    const SurfaceScan& next = *memory.keyframes()[i + 1].scan;
+    sum += SightRing(here).of(next, motion);
+    sum += SightRing(next).of(here, motion.inverse());
+  }
+  return sum.contradiction();
+}
+
+/// The motion that explains the stretches on both sides of the joint by the wheels' word and what both saw,
+/// if one does.
+std::optional<RelativeFactor> led_by_wheels(const Memory& memory, std::size_t k, const OdometryStep& wheels,
+                                            const JointOptions& options) {
+  const StretchOptions stretch;
+  Stretch before = stretch_around(memory.keyframes(), k - 1, stretch);
+  Stretch after = stretch_around(memory.keyframes(), k, stretch);
   before.last = k - 1;
   after.first = k;
-  return lean_stretches(memory, before, after, wheels.motion, with_floor(wheels.covariance),
-                        memory.poses()[k - 1].inverse() * memory.poses()[k], options);
+  const StretchMatch led = lean_stretches(memory, before, after, wheels.motion, with_floor(wheels.covariance),
+                                          memory.poses()[k - 1].inverse() * memory.poses()[k], stretch);
+  const double usual = std::max(contradiction_among(memory, before.first, before.last),
+                                contradiction_among(memory, after.first, after.last));
+  if (led.sights.both() < stretch.least_seen ||
+      led.sights.contradiction() > std::min(usual + options.more_through, options.most_through))
+    return std::nullopt;
+  return led.factor;
 }
 
 }  // namespace
@@ -63,11 +85,7 @@ JointVerdict judge_joint(const Memory& memory, std::size_t k, const OdometryStep
   const bool is_followed =
       k + 1 < memory.size() && !keyframes[k + 1].cut && keyframes[k + 1].agreement < options.least_agreement;
   if (is_followed && joint_sights(memory, k + 1, options).contradiction() > sights.contradiction()) return {};
-  const StretchOptions stretch;
-  const StretchMatch led = led_by_wheels(memory, k, wheels, stretch);
-  if (led.sights.both() >= stretch.least_seen &&
-      led.sights.contradiction() < std::clamp(most, options.fair_through_led, options.most_through_led))
-    return {Joint::Otherwise, led.factor};
+  if (const auto led = led_by_wheels(memory, k, wheels, options)) return {Joint::Otherwise, *led};
   return {Joint::False, {}};
 }
 

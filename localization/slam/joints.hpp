@@ -20,8 +20,7 @@ struct JointOptions {
   double doubted_agreement = 0.3;
   double most_through_alone = 0.07;  ///< and where a scan lies on nothing
   double no_agreement = 0.15;        ///< no neighbour is near by chance alone, either
-  double fair_through_led = 0.1;     ///< where the wheels' word leads, at least so much may
-  double most_through_led = 0.2;     ///< and at most so much
+  double more_through = 0.1;         ///< where the wheels lead: than on either side among neighbours
   double off_wheels = 16.3;          ///< sigmas squared: chi-squared of three, one in a thousand,
   double least_agreement = 0.55;     ///< of the scan: no joint is doubted
 };
