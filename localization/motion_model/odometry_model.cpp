@@ -42,11 +42,10 @@ void OdometryModel::extend(OdometryStep& step, const Transform2<Base, Base>& raw
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
   const double along = square(noise_.distance_per_m) * path;
   const double across = square(noise_.sideways_per_m) * path;
-  const double aside = square(noise_.aside_per_rad) * std::abs(turn);
   const double cy = step.motion.cos_yaw();
   const double sy = step.motion.sin_yaw();
-  noise(0, 0) = cy * cy * along + sy * sy * across + aside;
-  noise(1, 1) = sy * sy * along + cy * cy * across + aside;
+  noise(0, 0) = cy * cy * along + sy * sy * across;
+  noise(1, 1) = sy * sy * along + cy * cy * across;
   noise(0, 1) = noise(1, 0) = cy * sy * (along - across);
   noise(2, 2) =
       square(noise_.heading_per_m) * path + square(noise_.heading_per_rad) * std::abs(turn) + unknown;

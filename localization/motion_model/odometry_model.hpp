@@ -14,7 +14,6 @@ struct OdometryNoise {
   double sideways_per_m = 0.04;        ///< sigma across the heading, share of the distance
   double heading_per_m = 0.04;         ///< rad a metre
   double heading_per_rad = 0.10;       ///< share of the turn
-  double aside_per_rad = 0.05;         ///< sigma of the place about which it turns, a root-radian
   double standing_m = 0.005;           ///< floor of a step
   double standing_rad = 0.005;         ///< floor of a step
   double prior_distance_scale = 0.05;  ///< sigma of the unknown wheel radius
@@ -29,7 +28,6 @@ struct OdometryNoise {
           .sideways_per_m = 0.005,
           .heading_per_m = 0.005,
           .heading_per_rad = 0.02,
-          .aside_per_rad = 0.0,
           .standing_m = 0.001,
           .standing_rad = 0.0005,
           .prior_distance_scale = 0.02,

@@ -13,10 +13,11 @@ namespace madori::localization {
 namespace {
 
 /// By how much a motion that was measured otherwise is off the wheels' word.
-double sigmas_squared(const OdometryStep& step, const Transform2<Base, Base>& motion) {
+double sigmas_squared(const OdometryStep& step, const Transform2<Base, Base>& motion,
+                      const JointOptions& options) {
   const Eigen::Vector3d e(motion.x_m() - step.motion.x_m(), motion.y_m() - step.motion.y_m(),
                           wrap_angle(motion.yaw_rad() - step.motion.yaw_rad()));
-  return e.dot(with_floor(step.covariance).inverse() * e);
+  return e.dot(wheels_covariance(step, options).inverse() * e);
 }
 
 }  // namespace
@@ -41,7 +42,7 @@ PoseEstimate GraphMapper::on_odometry(const OdometryReading& reading) {
 
 void GraphMapper::follow(const SurfaceScan& scan) {
   auto [place, found, motion, is_known, wheels] = follower_.follow(scan, anchor_, map_);
-  if (is_known) off_wheels_ = std::max(off_wheels_, sigmas_squared(wheels, motion));
+  if (is_known) off_wheels_ = std::max(off_wheels_, sigmas_squared(wheels, motion, joints_));
   if (!found) {
     place.map_from_base = anchor_ * wheels.motion;
     place.information.setZero();

@@ -61,8 +61,9 @@ std::optional<RelativeFactor> led_by_wheels(const Memory& memory, std::size_t k,
   Stretch after = stretch_around(memory.keyframes(), k, stretch);
   before.last = k - 1;
   after.first = k;
-  const StretchMatch led = lean_stretches(memory, before, after, wheels.motion, with_floor(wheels.covariance),
-                                          memory.poses()[k - 1].inverse() * memory.poses()[k], stretch);
+  const StretchMatch led =
+      lean_stretches(memory, before, after, wheels.motion, wheels_covariance(wheels, options),
+                     memory.poses()[k - 1].inverse() * memory.poses()[k], stretch);
   const double usual = std::max(contradiction_among(memory, before.first, before.last),
                                 contradiction_among(memory, after.first, after.last));
   if (led.sights.both() < stretch.least_seen ||
@@ -72,6 +73,12 @@ std::optional<RelativeFactor> led_by_wheels(const Memory& memory, std::size_t k,
 }
 
 }  // namespace
+
+Eigen::Matrix3d wheels_covariance(const OdometryStep& wheels, const JointOptions& options) {
+  Eigen::Matrix3d covariance = with_floor(wheels.covariance);
+  covariance.diagonal().head<2>().array() += options.aside_m * options.aside_m * wheels.turned_rad;
+  return covariance;
+}
 
 JointVerdict judge_joint(const Memory& memory, std::size_t k, const OdometryStep& wheels, double off_wheels,
                          const JointOptions& options) {

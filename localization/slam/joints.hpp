@@ -21,6 +21,7 @@ struct JointOptions {
   double most_through_alone = 0.07;  ///< and where a scan lies on nothing
   double no_agreement = 0.15;        ///< no neighbour is near by chance alone, either
   double more_through = 0.1;         ///< where the wheels lead: than on either side among neighbours
+  double aside_m = 0.05;             ///< sigma of the place about which it turns, a root-radian
   double off_wheels = 16.3;          ///< sigmas squared: chi-squared of three, one in a thousand,
   double least_agreement = 0.55;     ///< of the scan: no joint is doubted
 };
@@ -35,6 +36,10 @@ struct JointVerdict {
   Joint joint = Joint::Holds;
   RelativeFactor motion;  ///< that explains it, where it is another
 };
+
+/// Of the wheels' word at a joint (x, y, yaw, axes of its start): more than the odometry's own, for no
+/// vehicle turns about exactly the place that is its Base.
+[[nodiscard]] Eigen::Matrix3d wheels_covariance(const OdometryStep& wheels, const JointOptions& options);
 
 /// Was the vehicle carried away before keyframe `k`? It was where the scans on both sides, laid on each other
 /// as well as they could be, see through each other's walls, and do so, too, where the wheels lead and what
