@@ -50,12 +50,20 @@ TEST(Sights, SayNothingOfWhatIsHidden) {
 }
 
 /// Two keyframes before a joint and two behind it, laid where wheels lead that are wrong by `off`.
-Memory joined(const std::vector<Pose>& truth, const Transform2<Base, Base>& off) {
+/// Each scan meets so many persons, none of whom stands there any more when the next is made.
+Memory joined(const std::vector<Pose>& truth, const Transform2<Base, Base>& off, int persons = 0) {
   std::mt19937 engine(5);
-  const mapping::Walls walls = test::laboratory_hall();
+  std::uniform_real_distribution<double> away_m(1.5, 4.0), bearing_rad(-kPi, kPi);
   Memory memory;
   Pose at = truth.front();
   for (std::size_t k = 0; k < truth.size(); ++k) {
+    mapping::Walls walls = test::laboratory_hall();
+    for (int i = 0; i < persons; ++i) {
+      const double away = away_m(engine), bearing = bearing_rad(engine);
+      const double x = truth[k].x_m() + away * std::cos(bearing),
+                   y = truth[k].y_m() + away * std::sin(bearing);
+      test::add_box(walls, x - 0.2, y - 0.2, x + 0.2, y + 0.2);
+    }
     auto motion = k > 0 ? from_to(truth[k - 1], truth[k]) : Transform2<Base, Base>();
     if (k == 2) motion = motion * off;
     if (k > 0) at = at * motion;
@@ -87,6 +95,21 @@ TEST(Joints, AreLaidAnewWhereTheWheelsAreOnlyWrong) {
 TEST(Joints, AreFalseWhereTheVehicleWasCarried) {
   const std::vector<Pose> truth{{5.0, 1.2, 0.0}, {6.0, 1.2, 0.1}, {13.5, 7.6, 2.4}, {13.0, 8.2, 2.6}};
   const Memory carried = joined(truth, from_to(truth[1], truth[2]).inverse());  // the wheels stood still
+  EXPECT_EQ(judge_joint(carried, 2, wheels_to(carried, 2), 0.0).joint, Joint::False);
+}
+
+/// Persons contradict before the joint and behind it as they do at it.
+TEST(Joints, MayContradictAsTheirNeighboursDo) {
+  constexpr int kPersons = 10;
+  const std::vector<Pose> truth{{5.0, 1.2, 0.0}, {6.0, 1.2, 0.1}, {9.0, 1.3, 0.4}, {10.0, 1.6, 0.3}};
+  const Memory crowded = joined(truth, {-0.1, 0.1, 0.05}, kPersons);
+  const JointVerdict verdict = judge_joint(crowded, 2, wheels_to(crowded, 2), 0.0);
+  ASSERT_EQ(verdict.joint, Joint::Otherwise);
+  const Transform2<Base, Base> off = verdict.motion.motion.inverse() * from_to(truth[1], truth[2]);
+  EXPECT_LT(std::hypot(off.x_m(), off.y_m()), 0.05);
+  EXPECT_LT(std::abs(off.yaw_rad()), to_rad(1.0));
+  const std::vector<Pose> there{{5.0, 1.2, 0.0}, {6.0, 1.2, 0.1}, {13.5, 7.6, 2.4}, {13.0, 8.2, 2.6}};
+  const Memory carried = joined(there, from_to(there[1], there[2]).inverse(), kPersons);
   EXPECT_EQ(judge_joint(carried, 2, wheels_to(carried, 2), 0.0).joint, Joint::False);
 }
 
