@@ -10,9 +10,6 @@ namespace {
 
 constexpr double kGapRad = 0.045;  // beams this near to each other leave no gap between them,
 constexpr double kGapM = 0.15;     // nor do points of one surface
-constexpr double kMarginM = 0.15;  // a surface is passed by this much nearer or farther,
-constexpr double kMarginShare =
-    0.03;  // and by this share of its distance: slanted walls, the heading's error
 
 double turn_of(double dx, double dy) {
   const double turn = std::atan2(dy, dx) / (2.0 * kPi);
@@ -20,7 +17,7 @@ double turn_of(double dx, double dy) {
 }
 
 double margin_m(double distance_m) {
-  return kMarginM + kMarginShare * distance_m;
+  return kSightMarginM + kSightMarginShare * distance_m;
 }
 
 }  // namespace
@@ -80,6 +77,13 @@ SightCount SightRing::of(const SurfaceScan& other, const Transform2<Base, Base>&
     }
   }
   return count;
+}
+
+SightCount sights_of_each_other(const SurfaceScan& here, const SurfaceScan& there,
+                                const Transform2<Base, Base>& here_from_there) {
+  SightCount sights = SightRing(here).of(there, here_from_there);
+  sights += SightRing(there).of(here, here_from_there.inverse());
+  return sights;
 }
 
 Look SightRing::at(const Point2<Base>& place) const {

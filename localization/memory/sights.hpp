@@ -26,6 +26,11 @@ struct SightCount {
   }
 };
 
+/// A surface is passed by so much nearer or farther, and by this share of its distance: slanted walls, the
+/// heading's error.
+inline constexpr double kSightMarginM = 0.15;
+inline constexpr double kSightMarginShare = 0.03;
+
 /// What a scan says of a place.
 enum class Look {
   Nothing,  ///< hidden, out of view, or between what it saw at several distances in that direction
@@ -59,5 +64,9 @@ class SightRing {
   double reach_m_ = 0.0;
   std::vector<Bin> bins_;
 };
+
+/// What two scans say of each other.
+[[nodiscard]] SightCount sights_of_each_other(const SurfaceScan& here, const SurfaceScan& there,
+                                              const Transform2<Base, Base>& here_from_there);
 
 }  // namespace madori::localization

@@ -149,9 +149,7 @@ void GraphMapper::tie(const std::vector<RelativeFactor>& loops) {
 /// Does the scan, where it was matched, contradict what was seen last?
 bool GraphMapper::sees_through_newest(const SurfaceScan& scan) const {
   const Transform2<Base, Base> motion = anchor_.inverse() * map_.memory.poses().back();
-  const SurfaceScan& newest = *map_.memory.keyframes().back().scan;
-  SightCount sights = SightRing(scan).of(newest, motion);
-  sights += SightRing(newest).of(scan, motion.inverse());
+  const SightCount sights = sights_of_each_other(scan, *map_.memory.keyframes().back().scan, motion);
   return sights.both() >= joints_.least_seen && sights.contradiction() > joints_.most_through;
 }
 

@@ -42,13 +42,9 @@ double most_through(double agreement, double off_wheels, const JointOptions& o) 
 /// What neighbours among the keyframes `first` to `last` say of each other: persons, glass, what moved.
 double contradiction_among(const Memory& memory, std::size_t first, std::size_t last) {
   SightCount sum;
-  for (std::size_t i = first; i < last; ++i) {
-    const auto motion = memory.poses()[i].inverse() * memory.poses()[i + 1];
-    const SurfaceScan& here = *memory.keyframes()[i].scan;
-    const SurfaceScan& next = *memory.keyframes()[i + 1].scan;
-    sum += SightRing(here).of(next, motion);
-    sum += SightRing(next).of(here, motion.inverse());
-  }
+  for (std::size_t i = first; i < last; ++i)
+    sum += sights_of_each_other(*memory.keyframes()[i].scan, *memory.keyframes()[i + 1].scan,
+                                memory.poses()[i].inverse() * memory.poses()[i + 1]);
   return sum.contradiction();
 }
 

@@ -11,6 +11,7 @@
 #include "localization/localizer/pose_covariance.hpp"
 #include "localization/memory/fuse.hpp"
 #include "localization/memory/local_map.hpp"
+#include "localization/slam/grid_match.hpp"
 
 namespace madori::localization {
 namespace {
@@ -104,9 +105,7 @@ class LeastContradicted {
       : witnesses_(witnesses), wheels_(wheels), information_(information) {}
 
   [[nodiscard]] Place at(const Transform2<Base, Base>& motion) const {
-    const Transform2<Base, Base>& w = wheels_;
-    const Eigen::Vector3d e(motion.x_m() - w.x_m(), motion.y_m() - w.y_m(),
-                            wrap_angle(motion.yaw_rad() - w.yaw_rad()));
+    const Eigen::Vector3d e = pose_difference(as_pose(motion), as_pose(wheels_));
     const SightCount sights = witnesses_.at(motion);
     return {motion, sights, kNats * sights.contradiction() + 0.5 * e.dot(information_ * e)};
   }
@@ -193,22 +192,21 @@ bool is_seen_alike(const Memory& memory, const RelativeFactor& loop, double most
 StretchMatch lean_stretches(const Memory& memory, const Stretch& from, const Stretch& to,
                             const Transform2<Base, Base>& wheels, const Eigen::Matrix3d& covariance,
                             const Transform2<Base, Base>& laid, const StretchOptions& options) {
-  constexpr double kSightM = 0.15, kSightRad = 0.03;  // what passes for the same surface (sights)
-  constexpr double kNoWorse = 1.5;                    // nats: half of chi-squared of three in the mean
+  constexpr double kNoWorse = 1.5;  // nats: half of chi-squared of three in the mean
   const Eigen::Matrix3d known = covariance.inverse();
   const Witnesses witnesses(memory, from, to, options.witnesses);
   const LeastContradicted least(witnesses, wheels, known);
   auto place = least.around(wheels);
   if (const auto other = least.around(laid); other.cost < place.cost) place = other;
   Eigen::Matrix3d information =
-      known +
-      Eigen::Matrix3d(Eigen::Vector3d(kSightM, kSightM, kSightRad).cwiseAbs2().cwiseInverse().asDiagonal());
-  double inlier_share = 0.0;
+      known + Eigen::Matrix3d(Eigen::Vector3d(kSightMarginM, kSightMarginM, kSightMarginShare)
+                                  .cwiseAbs2()
+                                  .cwiseInverse()
+                                  .asDiagonal());
   if (const LocalMap map = stretch_map(memory, from, place.motion, options); !map.empty()) {
     const MatchResult match = map.refine(stretch_scan(memory, to, options.spacing_m), as_pose(place.motion),
                                          {as_pose(wheels), known});
     const auto fitted = least.at(as_motion(match.map_from_base));
-    inlier_share = match.inlier_share;
     if (fitted.cost < place.cost + kNoWorse) {
       place = fitted;
       information = match.information + known;
@@ -216,8 +214,7 @@ StretchMatch lean_stretches(const Memory& memory, const Stretch& from, const Str
   }
   return {
       {static_cast<int>(from.middle), static_cast<int>(to.middle), place.motion, limited(information), false},
-      place.sights,
-      inlier_share};
+      place.sights};
 }
 
 std::optional<StretchMatch> match_stretches(const Memory& memory, const Stretch& from, const Stretch& to,
@@ -238,8 +235,7 @@ std::optional<StretchMatch> match_stretches(const Memory& memory, const Stretch&
   if (sights.both() < options.least_seen || sights.contradiction() > options.most_through)
     return std::nullopt;
   return StretchMatch{{static_cast<int>(from.middle), static_cast<int>(to.middle), motion, information, true},
-                      sights,
-                      match.inlier_share};
+                      sights};
 }
 
 }  // namespace madori::localization

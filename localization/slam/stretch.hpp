@@ -50,7 +50,6 @@ struct Stretch {
 struct StretchMatch {
   RelativeFactor factor;  ///< from the middle of the one to the middle of the other
   SightCount sights;
-  double inlier_share = 0.0;
 };
 
 /// Lays one stretch on another where the wheels led from the middle of `from` to the middle of `to`
