@@ -44,10 +44,9 @@ RdnDescriptor rdn(const ScanPoints& points, const RdnOptions& options) {
 }
 
 double rdn_difference(const RdnDescriptor& scan, const RdnDescriptor& map, int shift,
-                      const RdnOptions& options, double most) {
+                      const RdnOptions& options) {
   const std::size_t n = scan.size();
   const bool published = options.norm == RdnNorm::Published;
-  const double most_sum = static_cast<double>(n) * (published ? most * most : most);
   double sum = 0.0;
   std::size_t compared = 0;
   for (std::size_t i = 0, k = static_cast<std::size_t>(shift) % n; i < n; ++i, k = k + 1 == n ? 0 : k + 1) {
@@ -56,13 +55,34 @@ double rdn_difference(const RdnDescriptor& scan, const RdnDescriptor& map, int s
     if (a == kEmptySection || b == kEmptySection) continue;
     const double off = std::abs(a - b);
     sum += published ? off * off : std::min(off, options.unlike_m);
-    if (sum > most_sum) return INFINITY;
     ++compared;
   }
   if (4 * compared < n) return INFINITY;
   const double mean = sum / static_cast<double>(compared);
   return published ? std::sqrt(mean) : mean;
 }
+
+namespace {
+
+/// Differences of all turns that are looked at; infinite for the others.
+std::vector<double> by_turn(const RdnDescriptor& scan, const RdnDescriptor& view, const RdnOptions& options,
+                            const TurnLimit& turns) {
+  const double alpha = 2.0 * kPi / options.sections;
+  std::vector<double> differences(scan.size(), INFINITY);
+  for (int shift = 0; shift < options.sections; ++shift)
+    if (std::abs(wrap_angle(shift * alpha - turns.heading_rad)) <= turns.most_rad)
+      differences[static_cast<std::size_t>(shift)] = rdn_difference(scan, view, shift, options);
+  return differences;
+}
+
+/// No greater than on either side; of equal neighbours the first.
+bool is_least_here(const std::vector<double>& differences, std::size_t i) {
+  const std::size_t n = differences.size();
+  const double here = differences[i], before = differences[(i + n - 1) % n], after = differences[(i + 1) % n];
+  return here < INFINITY && here <= after && (i == 0 ? here <= before : here < before);
+}
+
+}  // namespace
 
 std::vector<RdnmResult> rdnm_ranked(const ScanPoints& scan, std::span<const Point2<Map>> candidates,
                                     std::span<const RdnDescriptor> views, const RdnOptions& options,
@@ -72,14 +92,11 @@ std::vector<RdnmResult> rdnm_ranked(const ScanPoints& scan, std::span<const Poin
   const RdnDescriptor seen = rdn(scan, options);
   const double alpha = 2.0 * kPi / options.sections;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    RdnmResult best{{}, INFINITY};
-    for (int shift = 0; shift < options.sections; ++shift) {
-      if (std::abs(wrap_angle(shift * alpha - turns.heading_rad)) > turns.most_rad) continue;
-      const double difference = rdn_difference(seen, views[i], shift, options, best.difference_m);
-      if (difference < best.difference_m)
-        best = {{candidates[i].x_m, candidates[i].y_m, shift * alpha}, difference};
-    }
-    if (best.difference_m < INFINITY) ranked.push_back(best);
+    const std::vector<double> differences = by_turn(seen, views[i], options, turns);
+    for (std::size_t shift = 0; shift < differences.size(); ++shift)
+      if (is_least_here(differences, shift))
+        ranked.push_back(
+            {{candidates[i].x_m, candidates[i].y_m, static_cast<double>(shift) * alpha}, differences[shift]});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.difference_m < b.difference_m; });

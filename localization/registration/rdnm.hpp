@@ -38,10 +38,9 @@ template <class F>
 [[nodiscard]] RdnDescriptor rdn(const ScanPoints& points, const RdnOptions& options);
 
 /// Difference of two descriptors, the second seen turned: section i of `scan` beside section i + shift of
-/// `map`. Over the sections that neither leaves empty; infinite when these are fewer than a quarter,
-/// and where it is found to exceed `most`.
+/// `map`. Over the sections that neither leaves empty; infinite when these are fewer than a quarter.
 [[nodiscard]] double rdn_difference(const RdnDescriptor& scan, const RdnDescriptor& map, int shift,
-                                    const RdnOptions& options = {}, double most = INFINITY);
+                                    const RdnOptions& options = {});
 
 struct RdnmResult {
   Transform2<Map, Base> map_from_base;  ///< R(shift * alpha) x + p: the shift is taken times alpha
@@ -53,8 +52,10 @@ struct TurnLimit {
   double heading_rad = 0.0;
   double most_rad = kPi;
 };
-/// The best turn of every candidate position, most like the scan first; candidates whose view has too little
-/// in common with the scan are left out.
+/// Of every candidate position the turns that are more like the scan than those beside them, the most like it
+/// first: a corridor looks the same both ways, and from half a metre beside the right place the wrong way may
+/// look more like it. The paper keeps the best turn alone. A view that has too little in common with the
+/// scan is left out.
 [[nodiscard]] std::vector<RdnmResult> rdnm_ranked(const ScanPoints& scan, std::span<const Point2<Map>> map,
                                                   std::span<const Point2<Map>> candidates,
                                                   const RdnOptions& options = {},

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "localization/registration/point_map.hpp"
@@ -91,6 +92,43 @@ TEST_F(Rdnm, FindsTheCandidateAndTheTurn) {
   EXPECT_GE(right, 14) << "of " << candidates.size();
   EXPECT_FALSE(rdnm({}, map, candidates));
   EXPECT_FALSE(rdnm(scan_from({6.0, 5.5, 0.0}), map, {}));
+}
+
+// A corridor with one niche, seen from 0.6 m beside the candidate: the wrong way is in the ranking, and so is
+// the right one.
+TEST(RdnmRanked, KeepsBothWaysOfACorridor) {
+  std::vector<Point2<Map>> map;
+  const auto wall = [&](double x0, double y0, double x1, double y1) {
+    for (int i = 0; i <= 200; ++i) map.push_back({x0 + (x1 - x0) * i / 200.0, y0 + (y1 - y0) * i / 200.0});
+  };
+  wall(-10, -1, 10, -1), wall(-10, 1, 3, 1), wall(4, 1, 10, 1), wall(3, 1, 3, 1.6), wall(3, 1.6, 4, 1.6),
+      wall(4, 1.6, 4, 1);
+  ScanPoints scan;
+  const Pose truth(0.6, 0.0, 0.3);
+  for (const Point2<Map>& p : map) {
+    const Point2<Base> seen = truth.inverse() * p;
+    scan.add(seen.x_m, seen.y_m);
+  }
+  const std::vector<Point2<Map>> candidates{{0.0, 0.0}};
+  const std::vector<RdnDescriptor> views{rdn<Map>(map, candidates[0], {})};
+  const std::vector<RdnmResult> ranked = rdnm_ranked(scan, candidates, views);
+  ASSERT_GE(ranked.size(), 2U);
+  const auto ways = [&](double yaw_rad) {
+    return std::count_if(ranked.begin(), ranked.end(), [&](const RdnmResult& r) {
+      return std::abs(wrap_angle(r.map_from_base.yaw_rad() - yaw_rad)) < to_rad(8.0);
+    });
+  };
+  EXPECT_EQ(ways(0.3), 1);
+  EXPECT_EQ(ways(0.3 + kPi), 1);
+  // By brute force: the first is the best of all turns, and each is better than those on either side.
+  const RdnDescriptor seen = rdn(scan, {});
+  const auto difference = [&](int shift) { return rdn_difference(seen, views[0], (shift + 72) % 72); };
+  for (const RdnmResult& r : ranked) {
+    const int shift = static_cast<int>(std::lround(r.map_from_base.yaw_rad() / (2.0 * kPi / 72)));
+    EXPECT_LE(difference(shift), difference(shift - 1));
+    EXPECT_LE(difference(shift), difference(shift + 1));
+  }
+  for (int shift = 0; shift < 72; ++shift) EXPECT_LE(ranked.front().difference_m, difference(shift));
 }
 
 }  // namespace
