@@ -1,13 +1,16 @@
 # Warnings, sanitizers, ccache and clang-tidy for every target of this project.
 find_program(MADORI_CCACHE ccache)
 if(MADORI_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${MADORI_CCACHE})
+  # What ccache asks for before it keeps what was compiled with headers read ahead (its manual, "Precompiled headers").
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${MADORI_CCACHE})
+  add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
   set(CMAKE_C_COMPILER_LAUNCHER ${MADORI_CCACHE})
 endif()
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
+add_compile_options(-pthread)  # some libraries ask for it; headers read ahead are of use to all with it or to all without
 
 add_library(madori_options INTERFACE)
 target_include_directories(madori_options INTERFACE ${PROJECT_SOURCE_DIR})

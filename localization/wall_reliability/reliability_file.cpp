@@ -53,7 +53,8 @@ bool is_possible(const Row& row) {
 }  // namespace
 
 std::string reliability_csv(const WallReliability& reliability) {
-  std::string text = std::string(kHeader) + "\n";
+  std::string text(kHeader);
+  text += '\n';
   for (std::size_t i = 0; i < reliability.cells().size(); ++i) {
     const WallCell& c = reliability.cells().all()[i];
     const WallBelief& b = reliability.beliefs()[i];

@@ -117,7 +117,8 @@ std::optional<WarpFit> read_fit(Lines& lines, std::size_t walls) {
 }  // namespace
 
 std::string warp_text(const WarpFit& fit, const mapping::Walls& drawn) {
-  std::string text = std::string(kHeader) + "\nwalls " + mapping::walls_fingerprint(drawn) + '\n';
+  std::string text(kHeader);
+  text += "\nwalls " + mapping::walls_fingerprint(drawn) + '\n';
   const WarpSimilarity& s = fit.warp.similarity();
   const WarpStatistics& t = fit.warp.statistics();
   const WarpField& f = fit.warp.field();
