@@ -94,10 +94,24 @@ const LocalMap::Entry* LocalMap::nearest(double x_m, double y_m, double normal_x
   const double v = (y_m - origin_.y_m) / kCellM;
   const double reach = reach_m / kCellM;
   if (!(u >= -reach && u <= width_ + reach && v >= -reach && v <= height_ + reach)) return nullptr;
-  const int row = static_cast<int>(std::floor(v));
+  const int row = static_cast<int>(std::floor(v)), column = static_cast<int>(std::floor(u));
   const bool directed = normal_x != 0.0 || normal_y != 0.0;
   const Entry* best = nullptr;
   double best_sq = reach_m * reach_m;
+  const auto look_through = [&](int y, int x_low, int x_high) {
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+    for (std::uint32_t i = cell_begin_[first + x_low]; i < cell_begin_[first + x_high + 1]; ++i) {
+      const SurfacePoint& q = points_[i].point;
+      const double sq = (q.x_m - x_m) * (q.x_m - x_m) + (q.y_m - y_m) * (q.y_m - y_m);
+      if (sq < best_sq && q.has_normal() &&
+          (!directed || q.normal_x * normal_x + q.normal_y * normal_y > kSameDirection)) {
+        best_sq = sq;
+        best = &points_[i];
+      }
+    }
+  };
+  const bool inside = row >= 0 && row < height_ && column >= 0 && column < width_;
+  if (inside) look_through(row, column, column);  // most are near: little else need be looked through then
   /// False where the row, and those behind it, are too far.
   const auto look = [&](int y) {
     const double beside_m =
@@ -109,15 +123,11 @@ const LocalMap::Entry* LocalMap::nearest(double x_m, double y_m, double normal_x
     const int x_low = std::max(0, static_cast<int>(std::floor(u - half)));
     const int x_high = std::min(width_ - 1, static_cast<int>(std::floor(u + half)));
     if (x_low > x_high) return true;
-    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-    for (std::uint32_t i = cell_begin_[first + x_low]; i < cell_begin_[first + x_high + 1]; ++i) {
-      const SurfacePoint& q = points_[i].point;
-      const double sq = (q.x_m - x_m) * (q.x_m - x_m) + (q.y_m - y_m) * (q.y_m - y_m);
-      if (sq < best_sq && q.has_normal() &&
-          (!directed || q.normal_x * normal_x + q.normal_y * normal_y > kSameDirection)) {
-        best_sq = sq;
-        best = &points_[i];
-      }
+    if (y == row && inside) {
+      if (x_low < column) look_through(y, x_low, column - 1);
+      if (x_high > column) look_through(y, column + 1, x_high);
+    } else {
+      look_through(y, x_low, x_high);
     }
     return true;
   };
