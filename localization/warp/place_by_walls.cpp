@@ -19,12 +19,11 @@ constexpr double kNearestM = 0.3;  ///< nearer walls count no more
 /// What holds the place where the warp puts it, in beams of a wall a metre away.
 constexpr double kHold = 0.05;
 
-/// A wall seen from the place: its distance, its normal and what it stands beside its place by, there.
+/// A wall seen from the place: its distance, its normal and what it stands beside its place by.
 struct Seen {
   double distance_m = std::numeric_limits<double>::infinity();
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< the wall's left one
   const WallSide* side = nullptr;
-  double along_wall_m = 0.0;
 };
 
 /// Keeps the wall in `nearest` where the beam meets it before what it met so far.
@@ -39,7 +38,7 @@ void meet(const Segment2<Map>& wall, const WallDeviation& deviation, const Point
   if (along_m <= 0.0 || along_m >= nearest.distance_m || share < 0.0 || share > 1.0) return;
   const double length_m = std::hypot(ex, ey);
   const bool from_left = ex * -ay - ey * -ax > 0.0;
-  nearest = {along_m, {-ey / length_m, ex / length_m}, &deviation.sides[from_left ? 0 : 1], share * length_m};
+  nearest = {along_m, {-ey / length_m, ex / length_m}, &deviation.sides[from_left ? 0 : 1]};
 }
 
 }  // namespace
@@ -59,7 +58,7 @@ Point2<Map> place_by_walls(const mapping::Walls& drawn, const WarpFit& fit, cons
     // By 1 / distance two walls opposite each other divide what the room is wider by as it is drawn.
     const double weight = 1.0 / std::max(kNearestM, seen.distance_m);
     h += weight * seen.normal * seen.normal.transpose();
-    g += weight * seen.side->offset_at(seen.along_wall_m) * seen.normal;
+    g += weight * seen.side->offset_m * seen.normal;
   }
   const Eigen::Vector2d beside = Eigen::Rotation2Dd(fit.warp.turn_rad(place)) * h.ldlt().solve(g);
   const Point2<Building> carried = fit.warp.building(place);

@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <sstream>
-#include <vector>
 
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
@@ -14,10 +13,8 @@
 namespace madori::localization {
 namespace {
 
-constexpr const char* kHeader = "madori-warp 2";
-constexpr const char* kWithoutPieces = "madori-warp 1";  ///< as it was before walls had pieces
+constexpr const char* kHeader = "madori-warp 1";
 constexpr int kMostControls = 4'000'000;
-constexpr std::array<const char*, 2> kSides{"left", "right"};
 
 void append(std::string& text, const char* word, std::span<const double> values) {
   text += word;
@@ -36,23 +33,6 @@ class Lines {
 
   [[nodiscard]] int number() const { return number_; }
   bool is(const std::string& expected) { return next() && line_ == expected; }
-  /// The one of the two that the next line is.
-  std::optional<bool> is_first_of(const std::string& first, const std::string& second) {
-    if (!next() || (line_ != first && line_ != second)) return std::nullopt;
-    return line_ == first;
-  }
-  /// A line of any number of values.
-  std::optional<std::vector<double>> series(const char* word) {
-    if (!next()) return std::nullopt;
-    std::istringstream line(line_);
-    std::string found;
-    std::vector<double> values;
-    line >> found;
-    for (double value = 0.0; line >> value; values.push_back(value))
-      if (!std::isfinite(value)) return std::nullopt;
-    if (found != word || !line.eof()) return std::nullopt;
-    return values;
-  }
   template <std::size_t N>
   std::optional<std::array<double, N>> values(const char* word) {
     if (!next()) return std::nullopt;
@@ -111,7 +91,7 @@ std::optional<WarpField> read_field(Lines& lines) {
   return field;
 }
 
-std::optional<WarpFit> read_fit(Lines& lines, std::size_t walls, bool with_pieces) {
+std::optional<WarpFit> read_fit(Lines& lines, std::size_t walls) {
   const auto similarity = lines.values<4>("similarity");
   if (!similarity || (*similarity)[0] <= 0.0) return std::nullopt;
   const auto s = lines.values<5>("statistics");
@@ -130,12 +110,6 @@ std::optional<WarpFit> read_fit(Lines& lines, std::size_t walls, bool with_piece
     const auto w = lines.values<8>("wall");
     if (!w || (*w)[1] < 0.0 || (*w)[2] < 0.0 || (*w)[5] < 0.0 || (*w)[6] < 0.0) return std::nullopt;
     fit.walls.push_back({{{{(*w)[0], (*w)[1], (*w)[2], (*w)[3]}, {(*w)[4], (*w)[5], (*w)[6], (*w)[7]}}}});
-    if (!with_pieces) continue;
-    for (std::size_t side = 0; side < 2; ++side) {
-      auto pieces = lines.series(kSides[side]);
-      if (!pieces) return std::nullopt;
-      fit.walls.back().sides[side].pieces_m = std::move(*pieces);
-    }
   }
   return fit;
 }
@@ -157,13 +131,10 @@ std::string warp_text(const WarpFit& fit, const mapping::Walls& drawn) {
   for (std::size_t p = 0; p < f.sigma_m.size(); ++p)
     append(text, "control", std::array{f.control_m[2 * p], f.control_m[2 * p + 1], f.sigma_m[p]});
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const WallDeviation wall = i < fit.walls.size() ? fit.walls[i] : WallDeviation{};
-    const auto& [a, b] = wall.sides;
+    const auto& [a, b] = i < fit.walls.size() ? fit.walls[i].sides : WallDeviation{}.sides;
     append(
         text, "wall",
         std::array{a.offset_m, a.sigma_m, a.seen_m, a.inliers, b.offset_m, b.sigma_m, b.seen_m, b.inliers});
-    append(text, kSides[0], a.pieces_m);
-    append(text, kSides[1], b.pieces_m);
   }
   return text + "end\n";
 }
@@ -175,11 +146,10 @@ std::string load_warp(const std::filesystem::path& file, const mapping::Walls& d
   const auto damaged = [&] {
     return file.string() + ":" + std::to_string(lines.number()) + ": is damaged" + anew;
   };
-  const auto with_pieces = lines.is_first_of(kHeader, kWithoutPieces);
-  if (!with_pieces) return damaged();
+  if (!lines.is(kHeader)) return damaged();
   if (!lines.is("walls " + mapping::walls_fingerprint(drawn)))
     return file.string() + ": the walls have changed since" + anew;
-  std::optional<WarpFit> found = read_fit(lines, drawn.size(), *with_pieces);
+  std::optional<WarpFit> found = read_fit(lines, drawn.size());
   if (!found || !lines.is("end")) return damaged();
   fit = std::move(*found);
   return "";

@@ -108,9 +108,6 @@ class Explanation {
   [[nodiscard]] WarpFit result() const;
 
  private:
-  /// How far a surface lies beside where the warp carries the wall.
-  [[nodiscard]] double beside_m(const Pair& pair) const;
-  void tell_pieces(WarpFit& fit) const;
   [[nodiscard]] static std::size_t stretches(const WallSides::Line& line) {
     return static_cast<std::size_t>(std::max(1.0, std::round(line.length_m / kStretchM)));
   }
@@ -392,10 +389,17 @@ void Explanation::learn_statistics() {
   for (const Pair& pair : pairs_) {
     const double w = pair.weight * pair.share;
     const double offset = units_[static_cast<std::size_t>(unit_of_key_[pair.unit])].offset_m;
-    const double r = beside_m(pair) - offset;
+    const Point2<Map> foot = sides_.foot(pair.wall, pair.along_m);
+    const Point2<Building> at = warp_.building(foot);
+    const WallSides::Line& line = sides_.lines()[pair.wall];
+    const CloudSurface& s = cloud_[pair.surface];
+    const double turn = warp_.turn_rad(foot);
+    const double nx = -line.uy * std::cos(turn) - line.ux * std::sin(turn);
+    const double ny = -line.uy * std::sin(turn) + line.ux * std::cos(turn);
+    const double r = nx * (s.x_m - at.x_m) + ny * (s.y_m - at.y_m) - offset;
     squares += w * r * r;
     seen += w;
-    belonging += kShareOfObservation * cloud_[pair.surface].weight * pair.share;
+    belonging += kShareOfObservation * s.weight * pair.share;
   }
   for (const CloudSurface& s : cloud_) all += kShareOfObservation * s.weight;
   const double left = std::max(0.2 * seen, seen - posterior_->freedom());
@@ -466,44 +470,6 @@ double Explanation::nats() const {
   return nats;
 }
 
-double Explanation::beside_m(const Pair& pair) const {
-  const Point2<Map> foot = sides_.foot(pair.wall, pair.along_m);
-  const Point2<Building> at = warp_.building(foot);
-  const WallSides::Line& line = sides_.lines()[pair.wall];
-  const CloudSurface& s = cloud_[pair.surface];
-  const double turn = warp_.turn_rad(foot);
-  const double nx = -line.uy * std::cos(turn) - line.ux * std::sin(turn);
-  const double ny = -line.uy * std::sin(turn) + line.ux * std::cos(turn);
-  return nx * (s.x_m - at.x_m) + ny * (s.y_m - at.y_m);
-}
-
-/// The mean of a piece's surfaces; its stretch as a whole counts as one of them.
-void Explanation::tell_pieces(WarpFit& fit) const {
-  std::vector<std::array<std::vector<double>, 2>> counts(fit.walls.size());
-  const auto piece_of = [](const std::vector<double>& pieces, double along_m) {
-    return std::min(static_cast<std::size_t>(along_m / kWallPieceM), pieces.size() - 1);
-  };
-  for (std::size_t i = 0; i < fit.walls.size(); ++i)
-    for (std::size_t side = 0; side < 2; ++side) {
-      const double length = sides_.lines()[i].length_m;
-      const auto pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(length / kWallPieceM)));
-      fit.walls[i].sides[side].pieces_m.assign(pieces, fit.walls[i].sides[side].offset_m);
-      counts[i][side].assign(pieces, 0.0);
-    }
-  for (const Pair& pair : pairs_) {
-    const auto side = static_cast<std::size_t>(pair.side);
-    std::vector<double>& pieces = fit.walls[pair.wall].sides[side].pieces_m;
-    const std::size_t at = piece_of(pieces, pair.along_m);
-    double& count = counts[pair.wall][side][at];
-    if (count == 0.0) {
-      pieces[at] = units_[static_cast<std::size_t>(unit_of_key_[pair.unit])].offset_m;
-      count = 1.0;
-    }
-    count += pair.share;
-    pieces[at] += pair.share / count * (beside_m(pair) - pieces[at]);
-  }
-}
-
 WarpFit Explanation::result() const {
   WarpFit fit;
   fit.warp = warp_;
@@ -539,7 +505,6 @@ WarpFit Explanation::result() const {
       found.inliers = near[i][side] > 0.0 ? std::min(1.0, found.seen_m / near[i][side]) : 0.0;
     }
   }
-  tell_pieces(fit);
   fit.residual_m =
       std::sqrt(statistics_.residual_m * statistics_.residual_m + (all > 0.0 ? squares / all : 0.0));
   return fit;
@@ -554,12 +519,6 @@ std::vector<double> log_odds(const std::vector<Explanation>& ends, double nats_h
 }
 
 }  // namespace
-
-double WallSide::offset_at(double along_m) const {
-  if (pieces_m.empty()) return offset_m;
-  return pieces_m[static_cast<std::size_t>(
-      std::clamp(along_m / kWallPieceM, 0.0, static_cast<double>(pieces_m.size() - 1)))];
-}
 
 double WallDeviation::offset_m() const {
   const double seen = seen_m();

@@ -10,9 +10,6 @@
 
 namespace madori::localization {
 
-/// Walls are not straight where they are drawn straight: what stands beside them tells of each metre.
-inline constexpr double kWallPieceM = 1.0;
-
 /// What was seen of a drawn wall from one of its sides. The wall stands `offset_m` beside where the warp
 /// carries it, along its normal (positive to the left of a -> b).
 struct WallSide {
@@ -20,10 +17,6 @@ struct WallSide {
   double sigma_m = 0.0;  ///< of the offset; of a wall not seen, what such walls are off by
   double seen_m = 0.0;   ///< length of surface that belongs to it
   double inliers = 0.0;  ///< share of the drawn length, where looked at, that has such a surface, 0..1
-  std::vector<double> pieces_m = {};  ///< offsets of each kWallPieceM from a on; none: that of the whole
-
-  /// The offset so far from a.
-  [[nodiscard]] double offset_at(double along_m) const;
 };
 
 /// Of one drawn wall: seen from its left, and from its right, where the normal is the left one.

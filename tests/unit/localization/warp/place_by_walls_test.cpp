@@ -46,15 +46,6 @@ TEST(PlaceByWalls, AWiderRoomIsDividedAsItIsDrawn) {
   EXPECT_NEAR(place.y_m, -0.4 + 1.1, 0.05);
 }
 
-TEST(PlaceByWalls, AWallThatBendsCountsWhereItIsBesideThePlace) {
-  WarpFit fit = seen({});
-  // The lower wall bends outwards from 4 m on, the upper one (drawn from right to left) stands where it is
-  // drawn.
-  fit.walls[0].sides[0].pieces_m = {0.0, 0.0, 0.0, 0.0, -0.4, -0.4};
-  EXPECT_NEAR(place_by_walls(kRoom, fit, {1.0, 1.0}).y_m, 1.0, 0.05);
-  EXPECT_NEAR(place_by_walls(kRoom, fit, {5.2, 1.0}).y_m, -0.4 + 1.1, 0.07);
-}
-
 TEST(PlaceByWalls, WhatWasNotSeenMovesNothing) {
   WarpFit fit = seen({0.0, -0.3, 0.0, 0.3});
   for (auto& wall : fit.walls) wall.sides[0].seen_m = 0.1;

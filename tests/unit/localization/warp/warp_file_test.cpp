@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include <sstream>
 
 #include "mapping/site/atomic_file.hpp"
 #include "tests/support/made_up_buildings.hpp"
@@ -30,8 +29,7 @@ WarpFit made_up_fit(std::size_t walls) {
   fit.evidence_nats = 123.4;
   fit.walls_seen = 56.0;
   for (std::size_t i = 0; i < walls; ++i)
-    fit.walls.push_back(
-        {{{{any(engine), 0.02, 1.5, 0.8, {any(engine), any(engine)}}, {any(engine), 0.03, 0.0, 0.0}}}});
+    fit.walls.push_back({{{{any(engine), 0.02, 1.5, 0.8}, {any(engine), 0.03, 0.0, 0.0}}}});
   return fit;
 }
 
@@ -45,23 +43,6 @@ TEST(WarpFile, ComesBackToTheBit) {
   EXPECT_TRUE(back.warp == fit.warp);
   EXPECT_EQ(warp_text(back, walls), warp_text(fit, walls));
   EXPECT_EQ(back.walls[3].sides[0].offset_m, fit.walls[3].sides[0].offset_m);
-  EXPECT_EQ(back.walls[3].sides[0].pieces_m, fit.walls[3].sides[0].pieces_m);
-}
-
-TEST(WarpFile, OneOfBeforeWallsHadPiecesIsTaken) {
-  const test::TemporaryFolder folder;
-  const mapping::Walls walls = test::laboratory_hall();
-  const WarpFit fit = made_up_fit(walls.size());
-  std::istringstream lines(warp_text(fit, walls));
-  std::string old = "madori-warp 1\n", line;
-  std::getline(lines, line);
-  while (std::getline(lines, line))
-    if (!line.starts_with("left") && !line.starts_with("right")) old += line + '\n';
-  mapping::write_file_atomically(folder.path() / "warp.txt", old);
-  WarpFit back;
-  EXPECT_EQ(load_warp(folder.path() / "warp.txt", walls, back), "");
-  EXPECT_EQ(back.walls[3].sides[0].offset_m, fit.walls[3].sides[0].offset_m);
-  EXPECT_TRUE(back.walls[3].sides[0].pieces_m.empty());
 }
 
 TEST(WarpFile, OfOtherWallsOrDamagedIsNotTakenAndSaysWhy) {
