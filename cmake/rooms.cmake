@@ -51,13 +51,13 @@ endfunction()
 # What a test measures is compiled in its room; the tests themselves are a quarter faster to build so.
 set(MADORI_TEST_FLAGS $<$<CONFIG:Release>:-Og>)
 
-# madori_test(NAME SOURCES x_test.cpp ... USES madori::mapping ... [LABELS unit])
+# madori_test(NAME SOURCES x_test.cpp ... USES madori::mapping ... [LABELS unit] [LONG]); the long ones begin first.
 # One GoogleTest executable, one ctest entry, which gives way to the tests in real time. Tests find real recordings at
 # MADORI_SHARED_DATA and skip without them.
 function(madori_test name)
-  cmake_parse_arguments(TEST "" "TIMEOUT" "SOURCES;USES;LABELS;INCLUDES" ${ARGN})
+  cmake_parse_arguments(TEST "LONG" "TIMEOUT" "SOURCES;USES;LABELS;INCLUDES" ${ARGN})
   if(NOT TEST_TIMEOUT)
-    set(TEST_TIMEOUT 600)
+    set(TEST_TIMEOUT 1200)
   endif()
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE madori_options ${TEST_USES} GTest::gmock GTest::gtest_main)
@@ -68,6 +68,9 @@ function(madori_test name)
     MADORI_SOURCE_DIR="${PROJECT_SOURCE_DIR}" MADORI_BINARY_DIR="${PROJECT_BINARY_DIR}"
     MADORI_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
   add_test(NAME ${name} COMMAND nice -n 19 $<TARGET_FILE:${name}>)
+  if(TEST_LONG)
+    set_tests_properties(${name} PROPERTIES COST 500)
+  endif()
   set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT ${TEST_TIMEOUT}
     ENVIRONMENT_MODIFICATION "LSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/tests/leaks_elsewhere.txt:print_suppressions=0")
 endfunction()
