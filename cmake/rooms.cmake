@@ -20,7 +20,7 @@ function(madori_read_together target headers)
   endforeach()
 endfunction()
 
-# madori_headers(NAME FLAG... HEADERS <a> ... USES Eigen3::Eigen ...): read before all else by who names it.
+# madori_headers(NAME [FLAGS -Og ...] HEADERS <a> ... USES Eigen3::Eigen ...): read before all else by who names it.
 function(madori_headers name)
   cmake_parse_arguments(READ "" "" "FLAGS;HEADERS;USES" ${ARGN})
   if(NOT MADORI_UNITY OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
