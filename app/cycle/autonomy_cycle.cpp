@@ -15,6 +15,10 @@ CycleState::CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> so
       obstacles(config.field),
       movers(config.lidars.size(), MoverWatch{{}, planning::MovingObjects(config.movers), {}}) {
   pose.health = {LocalizationState::Lost, "no scan yet"};
+  std::vector<Point2<Map>> stations;
+  for (const std::size_t node : config.routes.stations())
+    stations.push_back(config.routes.nodes()[node].position);
+  if (localization) localization->set_stations(stations);
 }
 
 namespace {

@@ -33,7 +33,8 @@ class SiteInBuilding {
   [[nodiscard]] Point2<Map> on_drawing(const Point2<Map>& in_building) const;
   [[nodiscard]] Transform2<Map, Base> on_drawing(const Transform2<Map, Base>& in_building) const;
   [[nodiscard]] Transform2<Map, Base> in_building(const Transform2<Map, Base>& on_drawing) const;
-  /// A path of this site, on `other`: it stays where it was on the drawing.
+  /// A path of this site, on `other`: it stays where it was on the drawing, and ends at the station at which
+  /// it ended.
   [[nodiscard]] Path carry_to(const SiteInBuilding& other, Path path) const;
 
  private:

@@ -1,6 +1,7 @@
 #include "localization/warp/bent_drawing.hpp"
 
 #include "localization/warp/other_ways.hpp"
+#include "localization/warp/place_by_clearances.hpp"
 #include "localization/warp/place_by_walls.hpp"
 
 namespace madori::localization {
@@ -34,7 +35,9 @@ double BentDrawing::share_within(const Transform2<Map, Base>& in_building, doubl
   return near / all;
 }
 
-Point2<Map> BentDrawing::by_walls(const Point2<Map>& on_drawing) const {
+Point2<Map> BentDrawing::place(const Point2<Map>& on_drawing) const {
+  for (const Station& station : stations)
+    if (station.drawn == on_drawing) return station.stands;
   return place_by_walls(*drawn, fit, on_drawing);
 }
 
@@ -52,7 +55,7 @@ SharedError BendingDrawing::shared_error() const {
   return {known.amplitude_m, known.range_m};
 }
 
-void BendingDrawing::take(const WarpFit& fit) {
+void BendingDrawing::take(const WarpFit& fit, const MemoryCloud& cloud) {
   start_ = fit.warp;
   if (fit.warp.is_identity()) {
     bent_ = nullptr;
@@ -61,14 +64,21 @@ void BendingDrawing::take(const WarpFit& fit) {
   }
   BuildingWalls stands = walls_in_building(drawn_.index().walls(), fit);
   standing_ = DrawingFit(stands.walls, stands.sigma_m, standing_.model());
-  bent_ = std::make_shared<const BentDrawing>(BentDrawing{walls_, fit, std::move(stands)});
+  BentDrawing bent{walls_, fit, std::move(stands), {}};
+  for (const Point2<Map>& station : stations_) {
+    const Point2<Building> carried = fit.warp.building(station);
+    bent.stations.push_back(
+        {station, place_by_clearances(*walls_, cloud, station, {carried.x_m, carried.y_m})});
+  }
+  bent_ = std::make_shared<const BentDrawing>(std::move(bent));
 }
 
 void BendingDrawing::bend(const MemoryCloud& cloud, const Point2<Map>& at) {
   const double walls = DrawingFit::walls_seen(cloud);
   if (walls < next_walls_) return;
   next_walls_ = std::max(walls + kMoreWalls, kGrowth * walls);
-  take(fit_warp(drawn_.index(), cloud, start_, other_ways(drawn_.index(), cloud, start_, {at.x_m, at.y_m})));
+  take(fit_warp(drawn_.index(), cloud, start_, other_ways(drawn_.index(), cloud, start_, {at.x_m, at.y_m})),
+       cloud);
 }
 
 void BendingDrawing::straighten() {

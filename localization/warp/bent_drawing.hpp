@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "localization/drawing_fit/drawing_fit.hpp"
 #include "localization/warp/warp_fit.hpp"
@@ -12,9 +13,15 @@ struct BentDrawing {
   std::shared_ptr<const mapping::Walls> drawn;
   WarpFit fit;           ///< of the drawn walls
   BuildingWalls stands;  ///< the walls where they stand, Building metres
+  /// Where a station is drawn, and where it lies between what was seen around it: place_by_clearances().
+  struct Station {
+    Point2<Map> drawn;
+    Point2<Map> stands;
+  };
+  std::vector<Station> stations;
 
-  /// A place of a room, by the walls around it: place_by_walls().
-  [[nodiscard]] Point2<Map> by_walls(const Point2<Map>& on_drawing) const;
+  /// A place of a room: a station where it stands, another by the walls around it, place_by_walls().
+  [[nodiscard]] Point2<Map> place(const Point2<Map>& on_drawing) const;
   /// A pose carried over; both typed Map, the building's metres being laid rigidly on the drawing.
   [[nodiscard]] Transform2<Map, Base> in_building(const Transform2<Map, Base>& on_drawing) const;
   [[nodiscard]] Transform2<Map, Base> on_drawing(const Transform2<Map, Base>& in_building) const;
@@ -33,6 +40,8 @@ class BendingDrawing {
         walls_(std::make_shared<const mapping::Walls>(drawn_.index().walls())),
         standing_(drawn_) {}
 
+  /// Before it is bent.
+  void set_stations(const std::vector<Point2<Map>>& drawn) { stations_ = drawn; }
   [[nodiscard]] const DrawingFit& drawn() const { return drawn_; }
   [[nodiscard]] const DrawingFit& standing() const { return standing_; }
   /// What neighbouring walls are off by together: the field of the warp.
@@ -51,10 +60,11 @@ class BendingDrawing {
   void learn(const MemoryCloud& cloud);
 
  private:
-  void take(const WarpFit& fit);
+  void take(const WarpFit& fit, const MemoryCloud& cloud);
 
   DrawingFit drawn_;
   std::shared_ptr<const mapping::Walls> walls_;  ///< in the order that a fit tells of them
+  std::vector<Point2<Map>> stations_;            ///< on the drawing
   DrawingFit standing_;
   std::shared_ptr<const BentDrawing> bent_;
   DrawingWarp start_;        ///< where the next fit's association begins; the statistics learned

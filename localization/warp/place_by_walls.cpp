@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/angle.hpp"
+#include "core/beam_to_segment.hpp"
 #include "core/segment_distance.hpp"
 
 namespace madori::localization {
@@ -29,15 +30,11 @@ struct Seen {
 /// Keeps the wall in `nearest` where the beam meets it before what it met so far.
 void meet(const Segment2<Map>& wall, const WallDeviation& deviation, const Point2<Map>& from, double dx,
           double dy, Seen& nearest) {
+  const double along_m = beam_meets_m(wall, from, dx, dy);
+  if (along_m >= nearest.distance_m) return;
   const double ex = wall.b.x_m - wall.a.x_m, ey = wall.b.y_m - wall.a.y_m;
-  const double det = dx * ey - dy * ex;
-  if (std::abs(det) < 1e-9) return;
-  const double ax = wall.a.x_m - from.x_m, ay = wall.a.y_m - from.y_m;
-  const double along_m = (ax * ey - ay * ex) / det;
-  const double share = (ax * dy - ay * dx) / det;
-  if (along_m <= 0.0 || along_m >= nearest.distance_m || share < 0.0 || share > 1.0) return;
   const double length_m = std::hypot(ex, ey);
-  const bool from_left = ex * -ay - ey * -ax > 0.0;
+  const bool from_left = side_of(wall.a, wall.b, from) > 0.0;
   nearest = {along_m, {-ey / length_m, ex / length_m}, &deviation.sides[from_left ? 0 : 1]};
 }
 

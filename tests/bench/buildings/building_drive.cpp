@@ -126,7 +126,10 @@ void BuildingDrive::note_visit(int station, int lap, double after_s) {
   const auto drawn = clearances(drawn_, drawn_at);
   StationVisit visit{.station = station, .lap = lap, .after_s = after_s};
   visit.from_drawn_m = distance_m(truth.map_from_base.translation(), drawn_at);
-  visit.fit = compare(drawn, clearances(walls, truth.building_from_base.translation(), turn));
+  visit.drawn = drawn;
+  visit.at = truth.building_from_base.translation();
+  visit.in_truth = clearances(walls, visit.at, turn);
+  visit.fit = compare(drawn, visit.in_truth);
   visit.possible = can_hold(drawn, walls, building_from_map * drawn_at, turn);
   figures_.visits.push_back(visit);
 }

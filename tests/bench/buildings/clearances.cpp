@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/beam_to_segment.hpp"
+
 namespace madori::bench {
 namespace {
 
@@ -15,17 +17,10 @@ constexpr double kUnknown = -1.0;
 
 template <class Frame>
 double cast(const std::vector<Segment2<Frame>>& walls, const Point2<Frame>& from, double direction_rad) {
-  const double dx = std::cos(direction_rad), dy = std::sin(direction_rad);
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (const auto& [a, b] : walls) {
-    const double ex = b.x_m - a.x_m, ey = b.y_m - a.y_m;
-    const double det = dx * ey - dy * ex;
-    if (std::abs(det) < 1e-12) continue;
-    const double ax = a.x_m - from.x_m, ay = a.y_m - from.y_m;
-    const double along_m = (ax * ey - ay * ex) / det;
-    const double share = (ax * dy - ay * dx) / det;
-    if (along_m > 0.0 && share >= 0.0 && share <= 1.0) nearest_m = std::min(nearest_m, along_m);
-  }
+  for (const auto& wall : walls)
+    nearest_m =
+        std::min(nearest_m, beam_meets_m(wall, from, std::cos(direction_rad), std::sin(direction_rad)));
   return nearest_m;
 }
 

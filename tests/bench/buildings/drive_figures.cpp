@@ -54,7 +54,9 @@ nlohmann::json to_json(const StationVisit& v) {
   return {{"station", v.station},       {"lap", v.lap},
           {"after_s", v.after_s},       {"from_drawn_m", v.from_drawn_m},
           {"compared", v.fit.compared}, {"held", v.fit.held},
-          {"worst_m", v.fit.worst_m},   {"possible", v.possible}};
+          {"worst_m", v.fit.worst_m},   {"possible", v.possible},
+          {"drawn", v.drawn},           {"in_truth", v.in_truth},
+          {"at", {v.at.x_m, v.at.y_m}}};
 }
 
 nlohmann::json station_figures(const DriveFigures& f) {

@@ -36,6 +36,9 @@ struct PoseSample {
 
 /// A delivery that was reported done.
 struct StationVisit {
+  Clearances drawn{}, in_truth{};  ///< by direction
+  Point2<simulation::Building> at{};
+
   int station = 0;
   int lap = 0;
   double after_s = 0.0;

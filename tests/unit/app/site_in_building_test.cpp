@@ -28,7 +28,7 @@ std::shared_ptr<const localization::BentDrawing> bent(double x_m = 0.3) {
   fit.warp = localization::DrawingWarp({1.01, to_rad(1.0), x_m, -0.1}, {}, {});
   fit.walls.resize(kWalls.size());
   return std::make_shared<const localization::BentDrawing>(localization::BentDrawing{
-      std::make_shared<const mapping::Walls>(kWalls), fit, localization::walls_in_building(kWalls, fit)});
+      std::make_shared<const mapping::Walls>(kWalls), fit, localization::walls_in_building(kWalls, fit), {}});
 }
 
 TEST(SiteInBuilding, IsAsDrawnToTheBitUntilSomethingElseIsBelieved) {
@@ -77,6 +77,34 @@ TEST(SiteInBuilding, APathStaysOnTheDrawingWhereItWas) {
   for (std::size_t i = 0; i < path.points.size(); ++i)
     EXPECT_LT(distance_m(after.on_drawing(moved.points[i].position), {2.0 + static_cast<double>(i), 2.0}),
               2e-4);
+}
+
+TEST(SiteInBuilding, APathEndsAtItsStationWhereverThatIsThought) {
+  std::vector<planning::RouteNode> nodes(2);
+  nodes[1] = {.id = 1, .position = {18.0, 3.0}, .station = true};
+  nodes[0].position = {2.0, 3.0};
+  const SiteInBuilding drawn(planning::RouteGraph(nodes, {{0, 1, 0.0, 1}}), as_drawn().walls());
+  localization::WarpFit fit;
+  fit.walls.resize(kWalls.size());
+  const auto site = drawn.carried(std::make_shared<const localization::BentDrawing>(
+      localization::BentDrawing{std::make_shared<const mapping::Walls>(kWalls),
+                                fit,
+                                localization::walls_in_building(kWalls, fit),
+                                {{{18.0, 3.0}, {18.1, 2.6}}}}));
+  EXPECT_TRUE(drawn.differs(site.bent()));
+  const Point2<Map> station = site.routes().nodes()[1].position;
+  EXPECT_EQ(station.y_m, 2.6);
+  Path path;
+  for (int i = 0; i <= 160; ++i) path.points.push_back({{2.0 + 0.1 * i, 3.0}, 0.0, 0.0});
+  const Path led = drawn.carry_to(site, path);
+  EXPECT_LT(distance_m(led.points.back().position, station), 1e-9);
+  for (std::size_t i = 0; i < 125; ++i) EXPECT_EQ(led.points[i].position.y_m, 3.0);
+  for (std::size_t i = 1; i < led.points.size(); ++i) {
+    const Point2<Map>& a = led.points[i - 1].position;
+    const Point2<Map>& b = led.points[i].position;
+    EXPECT_NEAR(led.points[i - 1].heading_rad, std::atan2(b.y_m - a.y_m, b.x_m - a.x_m), 0.02);
+    EXPECT_LT(std::abs(led.points[i].heading_rad), 0.25);
+  }
 }
 
 }  // namespace

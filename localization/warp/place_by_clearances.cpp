@@ -1,0 +1,200 @@
+#include "localization/warp/place_by_clearances.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/angle.hpp"
+#include "core/beam_to_segment.hpp"
+#include "core/segment_distance.hpp"
+
+namespace madori::localization {
+namespace {
+
+constexpr double kToldM = 4.0;  ///< walls farther away say nothing of the place in the room
+constexpr int kAxes = 8;        ///< directions come in pairs
+constexpr double kBesideRad = to_rad(3.0);
+constexpr double kEdgeM = 0.5;  ///< beams so much beside that differ by more look past an edge
+constexpr double kReachM = 1.0;
+constexpr double kGridM = 0.05;
+constexpr double kExpectedM = 0.3;  ///< standard deviation of the place about where it is expected
+constexpr double kExactM = 0.1;     ///< ... of a distance, as drawn and as the memory has it (half a voxel)
+/// That a beam meets what is drawn against anything else within 2.4 m (7 in 10), where it fits exactly.
+constexpr double kPeak = 20.0;
+constexpr double kObservation = 0.5;  ///< of a beam: its neighbour mostly meets the same wall
+constexpr double kNearer =
+    0.2;  ///< standard deviation of the nearest clearance's logarithm, where it is less
+constexpr double kUnknown = -1.0;
+
+constexpr int kToRim = static_cast<int>(kReachM / kGridM);
+constexpr int kAcross = 2 * kToRim + 1;
+
+/// Both ways along an axis.
+using Both = std::array<double, 2>;
+struct Axis {
+  explicit Axis(int k) : x(std::cos(kPi * k / kAxes)), y(std::sin(kPi * k / kAxes)) {}
+  [[nodiscard]] double along(double px, double py) const { return x * px + y * py; }
+  [[nodiscard]] double across(double px, double py) const { return -y * px + x * py; }
+  double x, y;
+};
+
+double cast(const mapping::Walls& walls, const Point2<Map>& from, double direction_rad) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const mapping::Wall& wall : walls)
+    nearest_m = std::min(nearest_m,
+                         beam_meets_m(wall.segment, from, std::cos(direction_rad), std::sin(direction_rad)));
+  return nearest_m;
+}
+
+double drawn_clearance(const mapping::Walls& walls, const Point2<Map>& from, double direction_rad) {
+  const double ahead_m = cast(walls, from, direction_rad);
+  const double left_m = cast(walls, from, direction_rad + kBesideRad);
+  const double right_m = cast(walls, from, direction_rad - kBesideRad);
+  const auto [least, most] = std::minmax({ahead_m, left_m, right_m});
+  return most <= kToldM + kEdgeM && most - least <= kEdgeM && ahead_m <= kToldM ? ahead_m : kUnknown;
+}
+
+/// What was seen about a place, by an axis: where a line beside the place meets it. Metres from the place.
+class Crossings {
+ public:
+  Crossings(const Axis& axis, const MemoryCloud& about) {
+    constexpr double kHalfM = 0.55 * kVoxelM;  // neighbours touch
+    for (const CloudSurface& s : about) {
+      const double dx = -s.normal_y * kHalfM, dy = s.normal_x * kHalfM;
+      const double from = axis.across(s.x_m - dx, s.y_m - dy), to = axis.across(s.x_m + dx, s.y_m + dy);
+      const double along = axis.along(s.x_m, s.y_m), slope = axis.along(dx, dy);
+      const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+      for (int k = std::max(0, line(std::min(from, to)) + 1);
+           k <= std::min(kLines - 1, line(std::max(from, to))); ++k) {
+        const double share = std::abs(half) > 1e-9 ? std::clamp((beside(k) - middle) / half, -1.0, 1.0) : 0.0;
+        met_[static_cast<std::size_t>(k)].push_back(along + share * slope);
+      }
+    }
+    for (auto& met : met_) std::sort(met.begin(), met.end());
+  }
+
+  /// Ahead and behind; infinite where nothing was seen.
+  [[nodiscard]] Both nearest(double along_m, double across_m) const {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const auto k = static_cast<std::size_t>(
+        std::clamp(static_cast<int>(std::lround(across_m / kFineM)) + kMiddle, 0, kLines - 1));
+    const auto& met = met_[k];
+    const auto next = std::lower_bound(met.begin(), met.end(), along_m);
+    return {next != met.end() ? *next - along_m : kNone,
+            next != met.begin() ? along_m - *std::prev(next) : kNone};
+  }
+
+ private:
+  static constexpr double kFineM = 0.025;
+  static constexpr int kMiddle = static_cast<int>(1.5 * kReachM / kFineM);
+  static constexpr int kLines = 2 * kMiddle + 1;
+  [[nodiscard]] static int line(double across_m) {
+    return static_cast<int>(std::floor(across_m / kFineM)) + kMiddle;
+  }
+  [[nodiscard]] static double beside(int line) { return (line - kMiddle) * kFineM; }
+
+  std::array<std::vector<double>, kLines> met_;
+};
+
+/// What a beam so far off says for a place.
+double nats(double off_m) {
+  constexpr double kBinM = 0.005;
+  static const auto table = [] {
+    std::array<double, 100> made{};
+    for (std::size_t k = 0; k < made.size(); ++k) {
+      const double z = static_cast<double>(k) * kBinM / kExactM;
+      made[k] = kObservation * std::log1p(kPeak * std::exp(-0.5 * z * z));
+    }
+    return made;
+  }();
+  const double bin = off_m / kBinM + 0.5;
+  return bin < static_cast<double>(table.size()) ? table[static_cast<std::size_t>(bin)] : 0.0;
+}
+
+/// How well the distances both ways are those that are drawn, in nats.
+double nats(const Both& drawn_m, const Both& seen_m) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (drawn_m[i] == kUnknown || !std::isfinite(seen_m[i])) continue;
+    double off_m = std::abs(seen_m[i] - drawn_m[i]);
+    if (drawn_m[1 - i] != kUnknown && std::isfinite(seen_m[1 - i]))
+      off_m = std::min(
+          off_m, std::abs(seen_m[i] - (seen_m[0] + seen_m[1]) * drawn_m[i] / (drawn_m[0] + drawn_m[1])));
+    sum += nats(off_m);
+  }
+  return sum;
+}
+
+/// Whoever loads there stands between the vehicle and the nearest wall: nearer than drawn counts by its
+/// share.
+double nearest_nats(double drawn_m, double seen_m) {
+  if (seen_m >= drawn_m) return 0.0;
+  const double z = std::log(std::max(0.01, seen_m / drawn_m)) / kNearer;
+  return -0.5 * z * z;
+}
+
+/// Row by row of places about the expected one.
+using Grid = std::array<double, static_cast<std::size_t>(kAcross) * kAcross>;
+
+/// Where the i-th of them lies beside the expected one, metres.
+std::array<double, 2> beside(std::size_t i) {
+  const auto k = static_cast<int>(i);
+  return {(k % kAcross - kToRim) * kGridM, (k / kAcross - kToRim) * kGridM};
+}
+
+double expected_nats(double x_m, double y_m) {
+  return -0.5 * (x_m * x_m + y_m * y_m) / (kExpectedM * kExpectedM);
+}
+
+Point2<Map> highest(const Grid& grid, const Point2<Map>& expected) {
+  const auto best = static_cast<int>(std::max_element(grid.begin(), grid.end()) - grid.begin());
+  const int u = best % kAcross, v = best / kAcross;
+  const auto [x_m, y_m] = beside(static_cast<std::size_t>(best));
+  // Between the steps, by a parabola: the place does not jump as the memory grows.
+  const auto between = [&](int step, int k) {
+    if (k == 0 || k == kAcross - 1) return 0.0;
+    const auto at = [&](int i) { return grid[static_cast<std::size_t>(best + i * step)]; };
+    const double bend = at(-1) - 2.0 * at(0) + at(1);
+    return bend < -1e-9 ? std::clamp(0.5 * (at(-1) - at(1)) / bend, -0.5, 0.5) : 0.0;
+  };
+  return {expected.x_m + x_m + between(1, u) * kGridM, expected.y_m + y_m + between(kAcross, v) * kGridM};
+}
+
+}  // namespace
+
+Point2<Map> place_by_clearances(const mapping::Walls& drawn, const MemoryCloud& seen,
+                                const Point2<Map>& place, const Point2<Map>& expected) {
+  mapping::Walls walls;
+  for (const mapping::Wall& wall : drawn)
+    if (distance_m(wall.segment, place) < kToldM + kEdgeM) walls.push_back(wall);
+  MemoryCloud about;
+  for (CloudSurface s : seen) {
+    s.x_m -= expected.x_m, s.y_m -= expected.y_m;
+    if (std::hypot(s.x_m, s.y_m) < kToldM + 2.0 * kReachM) about.push_back(s);
+  }
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Grid grid, nearest_m;
+  nearest_m.fill(kFar);
+  double drawn_nearest_m = kToldM;
+  for (int k = 0; k < kAxes; ++k) {
+    const double direction = kPi * k / kAxes;
+    const Both drawn_m{drawn_clearance(walls, place, direction),
+                       drawn_clearance(walls, place, direction + kPi)};
+    for (const double m : drawn_m)
+      if (m != kUnknown) drawn_nearest_m = std::min(drawn_nearest_m, m);
+    const Axis axis(k);
+    const Crossings crossings(axis, about);
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      const auto [x, y] = beside(i);
+      const Both seen_m = crossings.nearest(axis.along(x, y), axis.across(x, y));
+      nearest_m[i] = std::min({nearest_m[i], seen_m[0], seen_m[1]});
+      grid[i] = (k == 0 ? expected_nats(x, y) : grid[i]) + nats(drawn_m, seen_m);
+    }
+  }
+  for (std::size_t i = 0; i < grid.size(); ++i) grid[i] += nearest_nats(drawn_nearest_m, nearest_m[i]);
+  return highest(grid, expected);
+}
+
+}  // namespace madori::localization
