@@ -15,10 +15,9 @@ CycleState::CycleState(const CycleConfig& config, std::unique_ptr<PoseSource> so
       obstacles(config.field),
       movers(config.lidars.size(), MoverWatch{{}, planning::MovingObjects(config.movers), {}}) {
   pose.health = {LocalizationState::Lost, "no scan yet"};
-  std::vector<Point2<Map>> stations;
-  for (const std::size_t node : config.routes.stations())
-    stations.push_back(config.routes.nodes()[node].position);
-  if (localization) localization->set_stations(stations);
+  std::vector<Point2<Map>> places;
+  for (const auto& node : config.routes.nodes()) places.push_back(node.position);
+  if (localization) localization->set_places(places);
 }
 
 namespace {

@@ -25,9 +25,9 @@ class PoseSource {
   PoseSource& operator=(const PoseSource&) = delete;
   virtual ~PoseSource() = default;
 
-  /// Before all else: where orders end, on the drawing. Where these places lie in the building is told with
-  /// how the drawing lies there.
-  virtual void set_stations(const std::vector<Point2<Map>>& /*drawn*/) {}
+  /// Before all else: the places of the routes, on the drawing. Where they lie in the building is told with how
+  /// the drawing lies there.
+  virtual void set_places(const std::vector<Point2<Map>>& /*drawn*/) {}
   /// The pose at a reading of the wheels.
   virtual PoseEstimate on_odometry(const OdometryReading& reading) = 0;
   /// One revolution, Base frame at its stamp, already compensated for the motion during it; `odom_from_base`

@@ -28,7 +28,7 @@ class LocalizerPose final : public PoseSource {
   LocalizerPose(const mapping::Walls& walls, std::vector<LidarModel> lidars,
                 const LocalizerPoseOptions& options = {});
 
-  void set_stations(const std::vector<Point2<Map>>& drawn) override { localizer_.set_stations(drawn); }
+  void set_places(const std::vector<Point2<Map>>& drawn) override { localizer_.set_places(drawn); }
   PoseEstimate on_odometry(const OdometryReading& reading) override {
     return localizer_.on_odometry(reading);
   }

@@ -33,8 +33,8 @@ class Localizer {
             const LocalizerOptions& options = {});
 
   /// Before the first scan: places of the drawing, of which bent() tells where they lie.
-  void set_stations(const std::vector<Point2<Map>>& drawn) {
-    if (map_.drawing) map_.drawing->walls.set_stations(drawn);
+  void set_places(const std::vector<Point2<Map>>& drawn) {
+    if (map_.drawing) map_.drawing->walls.set_places(drawn);
   }
   /// A person says that the vehicle stands there on the drawing at the newest reading, so exactly: what is
   /// seen from here on is laid there, and weighed against it.

@@ -2,7 +2,6 @@
 
 #include "localization/warp/other_ways.hpp"
 #include "localization/warp/place_by_clearances.hpp"
-#include "localization/warp/place_by_walls.hpp"
 
 namespace madori::localization {
 namespace {
@@ -36,9 +35,9 @@ double BentDrawing::share_within(const Transform2<Map, Base>& in_building, doubl
 }
 
 Point2<Map> BentDrawing::place(const Point2<Map>& on_drawing) const {
-  for (const Station& station : stations)
-    if (station.drawn == on_drawing) return station.stands;
-  return place_by_walls(*drawn, fit, on_drawing);
+  for (const Place& place : places)
+    if (place.drawn == on_drawing) return place.stands;
+  return in_building({on_drawing.x_m, on_drawing.y_m, 0.0}).translation();
 }
 
 Transform2<Map, Base> BendingDrawing::in_building(const Transform2<Map, Base>& on_drawing) const {
@@ -65,10 +64,9 @@ void BendingDrawing::take(const WarpFit& fit, const MemoryCloud& cloud) {
   BuildingWalls stands = walls_in_building(drawn_.index().walls(), fit);
   standing_ = DrawingFit(stands.walls, stands.sigma_m, standing_.model());
   BentDrawing bent{walls_, fit, std::move(stands), {}};
-  for (const Point2<Map>& station : stations_) {
-    const Point2<Building> carried = fit.warp.building(station);
-    bent.stations.push_back(
-        {station, place_by_clearances(*walls_, cloud, station, {carried.x_m, carried.y_m})});
+  for (const Point2<Map>& drawn : places_) {
+    const Point2<Building> carried = fit.warp.building(drawn);
+    bent.places.push_back({drawn, place_by_clearances(*walls_, cloud, drawn, {carried.x_m, carried.y_m})});
   }
   bent_ = std::make_shared<const BentDrawing>(std::move(bent));
 }

@@ -13,14 +13,14 @@ struct BentDrawing {
   std::shared_ptr<const mapping::Walls> drawn;
   WarpFit fit;           ///< of the drawn walls
   BuildingWalls stands;  ///< the walls where they stand, Building metres
-  /// Where a station is drawn, and where it lies between what was seen around it: place_by_clearances().
-  struct Station {
+  /// Where a place is drawn, and where it lies between what was seen around it: place_by_clearances().
+  struct Place {
     Point2<Map> drawn;
     Point2<Map> stands;
   };
-  std::vector<Station> stations;
+  std::vector<Place> places;
 
-  /// A place of a room: a station where it stands, another by the walls around it, place_by_walls().
+  /// One of the places where it stands, any other where the warp carries it.
   [[nodiscard]] Point2<Map> place(const Point2<Map>& on_drawing) const;
   /// A pose carried over; both typed Map, the building's metres being laid rigidly on the drawing.
   [[nodiscard]] Transform2<Map, Base> in_building(const Transform2<Map, Base>& on_drawing) const;
@@ -41,7 +41,7 @@ class BendingDrawing {
         standing_(drawn_) {}
 
   /// Before it is bent.
-  void set_stations(const std::vector<Point2<Map>>& drawn) { stations_ = drawn; }
+  void set_places(const std::vector<Point2<Map>>& drawn) { places_ = drawn; }
   [[nodiscard]] const DrawingFit& drawn() const { return drawn_; }
   [[nodiscard]] const DrawingFit& standing() const { return standing_; }
   /// What neighbouring walls are off by together: the field of the warp.
@@ -64,7 +64,7 @@ class BendingDrawing {
 
   DrawingFit drawn_;
   std::shared_ptr<const mapping::Walls> walls_;  ///< in the order that a fit tells of them
-  std::vector<Point2<Map>> stations_;            ///< on the drawing
+  std::vector<Point2<Map>> places_;              ///< on the drawing
   DrawingFit standing_;
   std::shared_ptr<const BentDrawing> bent_;
   DrawingWarp start_;        ///< where the next fit's association begins; the statistics learned

@@ -13,8 +13,8 @@
 namespace madori::localization {
 namespace {
 
-constexpr double kToldM = 4.0;  ///< walls farther away say nothing of the place in the room
-constexpr int kAxes = 8;        ///< directions come in pairs
+constexpr double kNearbyM = 4.0;  ///< walls farther away say nothing of the place in the room
+constexpr int kAxes = 8;          ///< directions come in pairs
 constexpr double kBesideRad = to_rad(3.0);
 constexpr double kEdgeM = 0.5;  ///< beams so much beside that differ by more look past an edge
 constexpr double kReachM = 1.0;
@@ -53,7 +53,7 @@ double drawn_clearance(const mapping::Walls& walls, const Point2<Map>& from, dou
   const double left_m = cast(walls, from, direction_rad + kBesideRad);
   const double right_m = cast(walls, from, direction_rad - kBesideRad);
   const auto [least, most] = std::minmax({ahead_m, left_m, right_m});
-  return most <= kToldM + kEdgeM && most - least <= kEdgeM && ahead_m <= kToldM ? ahead_m : kUnknown;
+  return most <= kNearbyM + kEdgeM && most - least <= kEdgeM && ahead_m <= kNearbyM ? ahead_m : kUnknown;
 }
 
 /// What was seen about a place, by an axis: where a line beside the place meets it. Metres from the place.
@@ -168,16 +168,16 @@ Point2<Map> place_by_clearances(const mapping::Walls& drawn, const MemoryCloud& 
                                 const Point2<Map>& place, const Point2<Map>& expected) {
   mapping::Walls walls;
   for (const mapping::Wall& wall : drawn)
-    if (distance_m(wall.segment, place) < kToldM + kEdgeM) walls.push_back(wall);
+    if (distance_m(wall.segment, place) < kNearbyM + kEdgeM) walls.push_back(wall);
   MemoryCloud about;
   for (CloudSurface s : seen) {
     s.x_m -= expected.x_m, s.y_m -= expected.y_m;
-    if (std::hypot(s.x_m, s.y_m) < kToldM + 2.0 * kReachM) about.push_back(s);
+    if (std::hypot(s.x_m, s.y_m) < kNearbyM + 2.0 * kReachM) about.push_back(s);
   }
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Grid grid, nearest_m;
   nearest_m.fill(kFar);
-  double drawn_nearest_m = kToldM;
+  double drawn_nearest_m = kNearbyM;
   for (int k = 0; k < kAxes; ++k) {
     const double direction = kPi * k / kAxes;
     const Both drawn_m{drawn_clearance(walls, place, direction),

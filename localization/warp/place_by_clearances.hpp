@@ -9,7 +9,7 @@ namespace madori::localization {
 /// typed Map). In sixteen directions of the drawing it is to be as far from the first surface seen as it is
 /// drawn from the first wall, or to divide the room's width as it does on the drawing; a direction in which
 /// something else stands says nothing (a mixture). `expected` is where it would be without that. For a person
-/// a station is a place between walls, whichever of the walls the warp takes a surface for.
+/// a place of a route is one between walls, whichever of them the warp takes a surface for.
 [[nodiscard]] Point2<Map> place_by_clearances(const mapping::Walls& drawn, const MemoryCloud& seen,
                                               const Point2<Map>& place, const Point2<Map>& expected);
 

@@ -20,7 +20,7 @@ class ChosenSource final : public app::PoseSource {
         factory_(factory),
         scanner_(site.walls.size()) {}
 
-  void set_stations(const std::vector<Point2<Map>>& drawn) override { localizer_->set_stations(drawn); }
+  void set_places(const std::vector<Point2<Map>>& drawn) override { localizer_->set_places(drawn); }
   PoseEstimate on_odometry(const OdometryReading& reading) override {
     const PoseEstimate pose = localizer_->on_odometry(reading);
     if (!scans_ || factory_.now() <= seen_) return pose;

@@ -13,7 +13,7 @@ class LocalizerTrial final : public TrialLocalizer {
   explicit LocalizerTrial(const mapping::Walls& drawing)
       : localizer_(drawing, std::nullopt, localization::driving_options()) {}
 
-  void set_stations(const std::vector<Point2<Map>>& drawn) override { localizer_.set_stations(drawn); }
+  void set_places(const std::vector<Point2<Map>>& drawn) override { localizer_.set_places(drawn); }
   PoseEstimate on_odometry(const OdometryReading& reading) override {
     return localizer_.on_odometry(reading);
   }

@@ -22,7 +22,7 @@ class TrialLocalizer {
   virtual ~TrialLocalizer() = default;
 
   /// As app::PoseSource.
-  virtual void set_stations(const std::vector<Point2<Map>>& drawn) = 0;
+  virtual void set_places(const std::vector<Point2<Map>>& drawn) = 0;
   virtual PoseEstimate on_odometry(const OdometryReading& reading) = 0;
   virtual void on_scan(Stamp stamp, const localization::ScanPoints& points, const Point2<Base>& sensor) = 0;
   virtual void set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) = 0;

@@ -20,7 +20,7 @@ class ListeningPose final : public app::PoseSource {
   ListeningPose(std::unique_ptr<app::PoseSource> inner, std::vector<HeardSweep>& heard)
       : inner_(std::move(inner)), heard_(heard) {}
 
-  void set_stations(const std::vector<Point2<Map>>& drawn) override { inner_->set_stations(drawn); }
+  void set_places(const std::vector<Point2<Map>>& drawn) override { inner_->set_places(drawn); }
   PoseEstimate on_odometry(const OdometryReading& reading) override { return inner_->on_odometry(reading); }
   void on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base) override {
     heard_.push_back({cloud, odom_from_base});

@@ -55,7 +55,7 @@ class WatchedPose final : public app::PoseSource {
  public:
   WatchedPose(const app::SiteForDriving& site, Tally& tally)
       : pose_(site.walls, site.config.lidars), tally_(tally) {}
-  void set_stations(const std::vector<Point2<Map>>& drawn) override { pose_.set_stations(drawn); }
+  void set_places(const std::vector<Point2<Map>>& drawn) override { pose_.set_places(drawn); }
   PoseEstimate on_odometry(const OdometryReading& reading) override { return pose_.on_odometry(reading); }
   void on_cloud(const PointCloud<Base>& cloud, const Transform2<Odom, Base>& odom_from_base) override {
     tally_.looked = true;

@@ -81,7 +81,7 @@ TEST(SiteInBuilding, APathStaysOnTheDrawingWhereItWas) {
 
 TEST(SiteInBuilding, APathEndsAtItsStationWhereverThatIsThought) {
   std::vector<planning::RouteNode> nodes(2);
-  nodes[1] = {.id = 1, .position = {18.0, 3.0}, .station = true};
+  nodes[1].id = 1, nodes[1].position = {18.0, 3.0}, nodes[1].station = true;
   nodes[0].position = {2.0, 3.0};
   const SiteInBuilding drawn(planning::RouteGraph(nodes, {{0, 1, 0.0, 1}}), as_drawn().walls());
   localization::WarpFit fit;
