@@ -25,8 +25,8 @@ class PoseSource {
   PoseSource& operator=(const PoseSource&) = delete;
   virtual ~PoseSource() = default;
 
-  /// Before all else: the places of the routes, on the drawing. Where they lie in the building is told with how
-  /// the drawing lies there.
+  /// Before all else: the places of the routes, on the drawing. Where they lie in the building is told with
+  /// how the drawing lies there.
   virtual void set_places(const std::vector<Point2<Map>>& /*drawn*/) {}
   /// The pose at a reading of the wheels.
   virtual PoseEstimate on_odometry(const OdometryReading& reading) = 0;
