@@ -24,8 +24,8 @@ constexpr double kExactM = 0.1;     ///< ... of a distance, as drawn and as the 
 /// That a beam meets what is drawn against anything else within 2.4 m (7 in 10), where it fits exactly.
 constexpr double kPeak = 20.0;
 constexpr double kObservation = 0.5;  ///< of a beam: its neighbour mostly meets the same wall
-constexpr double kNearer =
-    0.2;  ///< standard deviation of the nearest clearance's logarithm, where it is less
+/// Standard deviation of the nearest clearance's logarithm, where it is less than it should be at least.
+constexpr double kNearer = 0.2;
 constexpr double kUnknown = -1.0;
 
 constexpr int kToRim = static_cast<int>(kReachM / kGridM);
@@ -127,11 +127,11 @@ double nats(const Both& drawn_m, const Both& seen_m) {
   return sum;
 }
 
-/// Whoever loads there stands between the vehicle and the nearest wall: nearer than drawn counts by its
-/// share.
-double nearest_nats(double drawn_m, double seen_m) {
-  if (seen_m >= drawn_m) return 0.0;
-  const double z = std::log(std::max(0.01, seen_m / drawn_m)) / kNearer;
+/// Whoever loads there stands between the vehicle and the nearest wall: what is nearer than it should be at
+/// least counts by its share.
+double nearest_nats(double least_m, double seen_m) {
+  if (seen_m >= least_m) return 0.0;
+  const double z = std::log(std::max(0.01, seen_m / least_m)) / kNearer;
   return -0.5 * z * z;
 }
 
@@ -193,7 +193,9 @@ Point2<Map> place_by_clearances(const mapping::Walls& drawn, const MemoryCloud& 
       grid[i] = (k == 0 ? expected_nats(x, y) : grid[i]) + nats(drawn_m, seen_m);
     }
   }
-  for (std::size_t i = 0; i < grid.size(); ++i) grid[i] += nearest_nats(drawn_nearest_m, nearest_m[i]);
+  // What is not drawn pushes nobody away from where it stood beside the expected place already.
+  const double least_m = std::min(drawn_nearest_m, nearest_m[kToRim * kAcross + kToRim]);
+  for (std::size_t i = 0; i < grid.size(); ++i) grid[i] += nearest_nats(least_m, nearest_m[i]);
   return highest(grid, expected);
 }
 

@@ -67,5 +67,14 @@ TEST(PlaceByClearances, WhatStandsBeforeAWallSaysNothing) {
   expect_place(place_by_clearances(kHall, cloud, kPlace, {2.1, 1.1}), kPlace);
 }
 
+TEST(PlaceByClearances, WhatIsNotDrawnPushesNothingAwayInAnOpenHall) {
+  const mapping::Walls far{{0, {{-20.0, -20.0}, {20.0, -20.0}}}};
+  MemoryCloud cloud;
+  see(cloud, {3.0, 0.4}, {3.0, 1.6});
+  const Point2<Map> place = place_by_clearances(far, cloud, kPlace, kPlace);
+  EXPECT_NEAR(place.x_m, kPlace.x_m, 0.02);
+  EXPECT_NEAR(place.y_m, kPlace.y_m, 0.02);
+}
+
 }  // namespace
 }  // namespace madori::localization
