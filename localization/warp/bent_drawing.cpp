@@ -61,12 +61,13 @@ void BendingDrawing::take(const WarpFit& fit, const MemoryCloud& cloud) {
     standing_ = drawn_;
     return;
   }
-  BuildingWalls stands = walls_in_building(drawn_.index().walls(), fit);
+  const mapping::Walls& walls = drawn_.index().walls();
+  BuildingWalls stands = walls_in_building(walls, fit);
   standing_ = DrawingFit(stands.walls, stands.sigma_m, standing_.model());
-  BentDrawing bent{walls_, fit, std::move(stands), {}};
+  BentDrawing bent{fit, std::move(stands), {}};
   for (const Point2<Map>& drawn : places_) {
     const Point2<Building> carried = fit.warp.building(drawn);
-    bent.places.push_back({drawn, place_by_clearances(*walls_, cloud, drawn, {carried.x_m, carried.y_m})});
+    bent.places.push_back({drawn, place_by_clearances(walls, cloud, drawn, {carried.x_m, carried.y_m})});
   }
   bent_ = std::make_shared<const BentDrawing>(std::move(bent));
 }

@@ -10,7 +10,6 @@ namespace madori::localization {
 
 /// The drawing as it is believed to stand. Immutable, shared.
 struct BentDrawing {
-  std::shared_ptr<const mapping::Walls> drawn;
   WarpFit fit;           ///< of the drawn walls
   BuildingWalls stands;  ///< the walls where they stand, Building metres
   /// Where a place is drawn, and where it lies between what was seen around it: place_by_clearances().
@@ -35,10 +34,7 @@ struct BentDrawing {
 /// says otherwise. A copy is cheap.
 class BendingDrawing {
  public:
-  explicit BendingDrawing(const mapping::Walls& walls)
-      : drawn_(walls),
-        walls_(std::make_shared<const mapping::Walls>(drawn_.index().walls())),
-        standing_(drawn_) {}
+  explicit BendingDrawing(const mapping::Walls& walls) : drawn_(walls), standing_(drawn_) {}
 
   /// Before it is bent.
   void set_places(const std::vector<Point2<Map>>& drawn) { places_ = drawn; }
@@ -63,8 +59,7 @@ class BendingDrawing {
   void take(const WarpFit& fit, const MemoryCloud& cloud);
 
   DrawingFit drawn_;
-  std::shared_ptr<const mapping::Walls> walls_;  ///< in the order that a fit tells of them
-  std::vector<Point2<Map>> places_;              ///< on the drawing
+  std::vector<Point2<Map>> places_;  ///< on the drawing
   DrawingFit standing_;
   std::shared_ptr<const BentDrawing> bent_;
   DrawingWarp start_;        ///< where the next fit's association begins; the statistics learned

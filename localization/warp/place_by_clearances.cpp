@@ -41,10 +41,10 @@ struct Axis {
 };
 
 double cast(const mapping::Walls& walls, const Point2<Map>& from, double direction_rad) {
+  const double dx = std::cos(direction_rad), dy = std::sin(direction_rad);
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const mapping::Wall& wall : walls)
-    nearest_m = std::min(nearest_m,
-                         beam_meets_m(wall.segment, from, std::cos(direction_rad), std::sin(direction_rad)));
+    nearest_m = std::min(nearest_m, beam_meets_m(wall.segment, from, dx, dy));
   return nearest_m;
 }
 
@@ -144,10 +144,6 @@ std::array<double, 2> beside(std::size_t i) {
   return {(k % kAcross - kToRim) * kGridM, (k / kAcross - kToRim) * kGridM};
 }
 
-double expected_nats(double x_m, double y_m) {
-  return -0.5 * (x_m * x_m + y_m * y_m) / (kExpectedM * kExpectedM);
-}
-
 Point2<Map> highest(const Grid& grid, const Point2<Map>& expected) {
   const auto best = static_cast<int>(std::max_element(grid.begin(), grid.end()) - grid.begin());
   const int u = best % kAcross, v = best / kAcross;
@@ -174,9 +170,12 @@ Point2<Map> place_by_clearances(const mapping::Walls& drawn, const MemoryCloud& 
     s.x_m -= expected.x_m, s.y_m -= expected.y_m;
     if (std::hypot(s.x_m, s.y_m) < kNearbyM + 2.0 * kReachM) about.push_back(s);
   }
-  constexpr double kFar = std::numeric_limits<double>::infinity();
   Grid grid, nearest_m;
-  nearest_m.fill(kFar);
+  nearest_m.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const auto [x, y] = beside(i);
+    grid[i] = -0.5 * (x * x + y * y) / (kExpectedM * kExpectedM);
+  }
   double drawn_nearest_m = kNearbyM;
   for (int k = 0; k < kAxes; ++k) {
     const double direction = kPi * k / kAxes;
@@ -190,7 +189,7 @@ Point2<Map> place_by_clearances(const mapping::Walls& drawn, const MemoryCloud& 
       const auto [x, y] = beside(i);
       const Both seen_m = crossings.nearest(axis.along(x, y), axis.across(x, y));
       nearest_m[i] = std::min({nearest_m[i], seen_m[0], seen_m[1]});
-      grid[i] = (k == 0 ? expected_nats(x, y) : grid[i]) + nats(drawn_m, seen_m);
+      grid[i] += nats(drawn_m, seen_m);
     }
   }
   // What is not drawn pushes nobody away from where it stood beside the expected place already.

@@ -17,10 +17,9 @@ constexpr double kUnknown = -1.0;
 
 template <class Frame>
 double cast(const std::vector<Segment2<Frame>>& walls, const Point2<Frame>& from, double direction_rad) {
+  const double dx = std::cos(direction_rad), dy = std::sin(direction_rad);
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (const auto& wall : walls)
-    nearest_m =
-        std::min(nearest_m, beam_meets_m(wall, from, std::cos(direction_rad), std::sin(direction_rad)));
+  for (const auto& wall : walls) nearest_m = std::min(nearest_m, beam_meets_m(wall, from, dx, dy));
   return nearest_m;
 }
 

@@ -36,15 +36,14 @@ struct PoseSample {
 
 /// A delivery that was reported done.
 struct StationVisit {
-  Clearances drawn{}, in_truth{};  ///< by direction
-  Point2<simulation::Building> at{};
-
   int station = 0;
   int lap = 0;
   double after_s = 0.0;
   double from_drawn_m = 0.0;  ///< of the vehicle from where the station is drawn
   StationFit fit{};
   bool possible = false;  ///< some place near by holds every clearance
+  Clearances drawn{}, in_truth{};
+  Point2<simulation::Building> at{};  ///< where the vehicle stood
 };
 
 /// What one start in one building came to.

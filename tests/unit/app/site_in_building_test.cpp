@@ -27,8 +27,8 @@ std::shared_ptr<const localization::BentDrawing> bent(double x_m = 0.3) {
   localization::WarpFit fit;
   fit.warp = localization::DrawingWarp({1.01, to_rad(1.0), x_m, -0.1}, {}, {});
   fit.walls.resize(kWalls.size());
-  return std::make_shared<const localization::BentDrawing>(localization::BentDrawing{
-      std::make_shared<const mapping::Walls>(kWalls), fit, localization::walls_in_building(kWalls, fit), {}});
+  return std::make_shared<const localization::BentDrawing>(
+      localization::BentDrawing{fit, localization::walls_in_building(kWalls, fit), {}});
 }
 
 TEST(SiteInBuilding, IsAsDrawnToTheBitUntilSomethingElseIsBelieved) {
@@ -86,11 +86,8 @@ TEST(SiteInBuilding, APathEndsAtItsStationWhereverThatIsThought) {
   const SiteInBuilding drawn(planning::RouteGraph(nodes, {{0, 1, 0.0, 1}}), as_drawn().walls());
   localization::WarpFit fit;
   fit.walls.resize(kWalls.size());
-  const auto site = drawn.carried(std::make_shared<const localization::BentDrawing>(
-      localization::BentDrawing{std::make_shared<const mapping::Walls>(kWalls),
-                                fit,
-                                localization::walls_in_building(kWalls, fit),
-                                {{{18.0, 3.0}, {18.1, 2.6}}}}));
+  const auto site = drawn.carried(std::make_shared<const localization::BentDrawing>(localization::BentDrawing{
+      fit, localization::walls_in_building(kWalls, fit), {{{18.0, 3.0}, {18.1, 2.6}}}}));
   EXPECT_TRUE(drawn.differs(site.bent()));
   const Point2<Map> station = site.routes().nodes()[1].position;
   EXPECT_EQ(station.y_m, 2.6);
