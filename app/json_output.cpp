@@ -7,12 +7,22 @@
 
 namespace madori::app {
 
+void expect_json(const std::string& file, const std::filesystem::path& made) {
+  if (file.empty() || file == "-") return;
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path());
+  const bool is_made = !made.empty() && folder == fs::weakly_canonical(fs::absolute(made));
+  if (is_made && !fs::exists(folder)) return;
+  mapping::expect_writable(file);
+}
+
 void write_json(const std::string& file, const nlohmann::json& value) {
   if (file.empty()) return;
+  const std::string text = value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (file == "-")
-    std::cout << value.dump(2) << '\n';
+    std::cout << text;
   else
-    mapping::write_file_atomically(file, value.dump(2) + "\n");
+    mapping::write_file_atomically(file, text);
 }
 
 }  // namespace madori::app

@@ -57,7 +57,10 @@ std::vector<BrakingStop> run_braking_test(const BrakingRunOptions& options,
   const BrakingPlan plan{options.speed_mps > 0.0 ? options.speed_mps : site.vehicle.max_speed_mps,
                          options.stops};
   drive_series(vehicle, desk, plan, false, interrupted);
-  if (options.load && options.load()) drive_series(vehicle, desk, plan, true, interrupted);
+  if (options.load && !options.load())
+    throw Error("the braking test", "nobody said that the load is on",
+                "load the vehicle, and start it again");
+  if (options.load) drive_series(vehicle, desk, plan, true, interrupted);
   return desk.view().stops;
 }
 

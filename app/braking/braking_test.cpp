@@ -87,7 +87,7 @@ BrakingTest::Words BrakingTest::fail(BrakingTrouble why, std::map<std::string, s
 
 BrakingTest::Words BrakingTest::begin(const CycleInput& input, const CycleState& state,
                                       const CycleConfig& config) {
-  if (state.mode == Mode::EmergencyStop || state.mode == Mode::Fault) return fail(BrakingTrouble::Ended);
+  if (is_to_be_confirmed(state.mode)) return fail(BrakingTrouble::Ended);
   if (is_silent(state.lidar_heard, input.now, config.lidar_silent_s)) return fail(BrakingTrouble::NoLidar);
   const double needs_m = braking_test_way_m(plan_.speed_mps, config);
   const double free_m = std::min(free_straight_m(state, config, true), config.field.reach_m);
@@ -157,6 +157,10 @@ BrakingTest::Words BrakingTest::go_back(const CycleState& state, const CycleConf
 BrakingTest::Words BrakingTest::after_step(const CycleInput& input, const CycleState& state,
                                            const CycleConfig& config) {
   if (phase_ == Phase::Ended || state.track.empty()) return {};
+  const auto stops = [](const OperatorCommand& c) {
+    return c.word == OperatorWord::Stop || c.word == OperatorWord::Halt || c.word == OperatorWord::Pause;
+  };
+  if (std::ranges::any_of(input.commands, stops)) return fail(BrakingTrouble::Ended);
   if (phase_ == Phase::Begins) return begin(input, state, config);
   record(state);
   const bool brakes_badly = phase_ != Phase::Drives && state.mode == Mode::Fault && state.disobedient &&

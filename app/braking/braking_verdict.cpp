@@ -37,6 +37,7 @@ std::optional<BrakingVerdict> verdict_of(const std::vector<BrakingStop>& stops, 
     slowest = std::max(slowest, stop.latency_s);
   }
   BrakingVerdict verdict;
+  verdict.loaded = std::ranges::any_of(stops, &BrakingStop::loaded);
   verdict.deceleration_mps2 = rounded_down(weakest);
   verdict.reaction_s = rounded_up(slowest + kCyclePeriodS);
   planning::BrakingModel braking;
@@ -58,8 +59,11 @@ mapping::VehicleRecord with_measured(mapping::VehicleRecord record, const Brakin
                     two_decimals(verdict.sees_m) + " m",
                 "lower max_speed_mps to " + two_decimals(verdict.allowed_mps) +
                     ", or mount a lidar with a finer step");
-  record.max_deceleration_mps2 = verdict.deceleration_mps2;
-  record.reaction_s = verdict.reaction_s;
+  // The record is of the loaded vehicle: brakes that were tried empty can only be worse than it says.
+  record.max_deceleration_mps2 = verdict.loaded
+                                     ? verdict.deceleration_mps2
+                                     : std::min(verdict.deceleration_mps2, record.max_deceleration_mps2);
+  record.reaction_s = verdict.loaded ? verdict.reaction_s : std::max(verdict.reaction_s, record.reaction_s);
   if (outruns(verdict, record.max_speed_mps)) record.max_speed_mps = verdict.allowed_mps;
   return record;
 }

@@ -18,6 +18,7 @@ struct BrakingStop {
 
 /// What the stops say that the site's record should hold: the worst of them, rounded to the safe side.
 struct BrakingVerdict {
+  bool loaded = false;  ///< some of the stops were
   double deceleration_mps2 = 0.0;
   double reaction_s = 0.0;   ///< latency, and the cycle's period that what is seen waits for its step
   double needs_m = 0.0;      ///< to stand from the site's top speed, from when something could be seen
@@ -43,8 +44,8 @@ struct BrakingSite {
   return top_speed_mps > verdict.allowed_mps;
 }
 
-/// The record with the measured values. Throws Error, which names the speed, where its top speed would outrun
-/// the lidar and may not be lowered (`lower_speed`).
+/// The record with the measured values; the better ones of an empty vehicle are not taken. Throws Error,
+/// which names the speed, where its top speed would outrun the lidar and may not be lowered (`lower_speed`).
 [[nodiscard]] mapping::VehicleRecord with_measured(mapping::VehicleRecord record,
                                                    const BrakingVerdict& verdict, bool lower_speed);
 

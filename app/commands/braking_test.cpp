@@ -7,6 +7,7 @@
 
 #include "app/braking/braking_run.hpp"
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/cycle/site_config.hpp"
 #include "app/json_output.hpp"
 #include "app/runner/interruption.hpp"
@@ -55,6 +56,7 @@ nlohmann::json report(const std::vector<BrakingStop>& stops, const BrakingVerdic
 }
 
 void run(BrakingArguments& arguments) {
+  expect_json(arguments.json_file);
   const auto& folder = arguments.run.site;
   const SiteForDriving loaded = load_for_driving(folder);
   const mapping::VehicleRecord& record = loaded.site.vehicle;
@@ -65,7 +67,7 @@ void run(BrakingArguments& arguments) {
       std::string line;
       return static_cast<bool>(std::getline(std::cin, line));
     };
-  const auto stops = run_braking_test(arguments.run, interrupted_by({SIGINT, SIGTERM}));
+  const auto stops = run_braking_test(arguments.run, interrupted_by({SIGINT, SIGTERM, SIGHUP}));
   const auto verdict = verdict_of(stops, braking_site(loaded.config));
   if (!verdict) return;
   print(stops, *verdict, record, stream);
@@ -93,9 +95,9 @@ void add_braking_test(CLI::App& app) {
   command->add_option("DIR", arguments->run.site, "site folder")->required();
   add_device_options(*command, arguments->run.devices);
   command->add_option("--speed", arguments->run.speed_mps, "m/s (default: the site's top speed)")
-      ->check(CLI::Range(0.1, 5.0));
+      ->check(within(0.1, 5.0));
   command->add_option("--stops", arguments->run.stops, "of each series")
-      ->check(CLI::Range(1, 20))
+      ->check(within(1, 20))
       ->capture_default_str();
   command->add_flag("--with-load", arguments->with_load,
                     "a second series with the load on: it is waited for (Enter)");

@@ -139,6 +139,7 @@ nlohmann::json deliveries_json(const DemoResult& result) {
 }
 
 void run(const DemoArguments& arguments) {
+  expect_json(arguments.json_file, arguments.site);
   const fs::path data(arguments.data);
   const auto report = import_sample(arguments, data / "sample_factory");
   if (arguments.json_file != "-") print_import_summary(report, arguments.site);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/import_report.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
@@ -54,11 +55,12 @@ void add_diff(CLI::App& app) {
   command->add_flag("--apply", arguments->apply,
                     "the new drawing becomes the site's, its routes stay in place");
   command->add_option("--dpi", o.plan.dpi, "resolution a PDF or SVG is rendered at")
-      ->check(CLI::Range(1.0, 10000.0));
-  command->add_option("--page", o.plan.page, "page of a PDF, from 1");
+      ->check(within(1.0, 10000.0));
+  command->add_option("--page", o.plan.page, "page of a PDF, from 1")->check(within(1, 1'000'000));
   command->add_option("--layers", o.plan.layers, "layers of a DXF that hold walls")->delimiter(',');
   command->add_option("--json", arguments->json_file, "write the figures to a file; - for stdout");
   command->callback([arguments] {
+    expect_json(arguments->json_file);
     arguments->options.date = iso_time_utc();
     const mapping::Progress progress = terminal_progress();
     const bool apply = arguments->apply;

@@ -130,6 +130,7 @@ void apply(const std::string& folder, const std::vector<MountingFinding>& findin
 
 void calibrate_mountings(const std::string& folder, const SocketOptions& devices,
                          const MountingArguments& arguments) {
+  expect_json(arguments.json_file);
   const mapping::Site site = mapping::load_site(folder);
   const CycleConfig vehicle = vehicle_config(site.vehicle, lidars_of(site, folder));
   if (arguments.log.empty() && !arguments.yes) ask_person();

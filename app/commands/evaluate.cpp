@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/json_output.hpp"
 #include "app/map_comparison.hpp"
 #include "app/pose_argument.hpp"
@@ -26,9 +28,12 @@ struct EvaluateArguments {
 };
 
 void evaluate_map(const EvaluateArguments& arguments) {
+  constexpr double kFarthestM = 1e6;
   MapComparisonOptions options = arguments.comparison;
   if (!arguments.start.empty()) {
     const auto start = parse_pose("--start", arguments.start);
+    if (std::hypot(start.x_m(), start.y_m()) > kFarthestM)
+      throw CLI::ValidationError("--start", "'" + arguments.start + "' lies more than 1000 km away");
     options.start = {start.x_m(), start.y_m(), start.yaw_rad()};
   }
   const nlohmann::json found = compare_maps(occupied_places(arguments.map, options.cell_m),
@@ -65,7 +70,7 @@ void add_map_options(CLI::App& command, EvaluateArguments& arguments, CLI::Optio
                                           "where the map's frame lies in the building's, \"x y yaw_deg\"");
   CLI::Option* cell =
       command.add_option("--cell", arguments.comparison.cell_m, "side of a compared cell, metres");
-  cell->check(CLI::Range(0.01, 1.0));
+  cell->check(within(0.01, 1.0));
   map->check(CLI::ExistingPath)->needs(building)->excludes(&trajectory);
   building->check(CLI::ExistingPath)->needs(map);
   for (CLI::Option* option : {align, start, cell}) option->needs(map);

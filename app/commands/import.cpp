@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/import_report.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
@@ -51,7 +52,7 @@ void add_detection_options(CLI::App& command, mapping::DetectionOptions& d) {
       .add_option(
           "--strictness", d.strictness,
           "what a wrong wall weighs against a missed one: 0 keeps all lines, 3 the sure ones (default 1)")
-      ->check(CLI::Range(0.0, 1000.0));
+      ->check(within(0.0, 1000.0));
   command.add_flag("!--no-straighten", d.straighten, "leave walls as they are drawn");
 }
 
@@ -79,6 +80,7 @@ void add_retired_options(CLI::App& command) {
 void restore(const ImportArguments& arguments) {
   const auto& [drawing, given] = std::tie(arguments.options.drawing, arguments.options.site);
   const std::filesystem::path site = given.empty() ? drawing.stem() : given;
+  expect_json(arguments.json_file, site);
   const std::size_t files = hmi::read_backup(drawing, site, arguments.options.force);
   if (arguments.json_file != "-")
     std::printf("%s: %zu files of a backup, as they were\n", site.c_str(), files);
@@ -96,25 +98,23 @@ void add_import(CLI::App& app) {
   command->add_option("--site", o.site,
                       "the site folder to make (of a backup, default: its file's name without ending)");
   command->add_option("--name", o.name, "name of the site (default: the drawing's)");
-  command->add_option("--scale", o.m_per_px, "metres a pixel, where it is known")
-      ->check(CLI::Range(1e-9, 1e6));
+  command->add_option("--scale", o.m_per_px, "metres a pixel, where it is known")->check(within(1e-9, 1e6));
   command
       ->add_option("--paper-scale", o.paper_scale,
                    "N where the drawing is printed 1:N (needs its resolution)")
-      ->check(CLI::Range(1.0, 1e5));
+      ->check(within(1.0, 1e5));
   command
       ->add_option("--dpi", o.plan.dpi,
                    "resolution a PDF or SVG is rendered at, or of a scan that does not state it")
-      ->check(CLI::Range(1.0, 10000.0));
-  command->add_option("--page", o.plan.page, "page of a PDF, from 1");
+      ->check(within(1.0, 10000.0));
+  command->add_option("--page", o.plan.page, "page of a PDF, from 1")->check(within(1, 1'000'000));
   command->add_option("--layers", o.plan.layers, "layers of a DXF that hold walls")->delimiter(',');
   command->add_option("--unit", o.plan.unit, "unit of a DXF (default: by the file's evidence)")
       ->check(CLI::IsMember({"mm", "cm", "dm", "m", "in", "ft"}));
   command->add_option("--point-spacing", o.point_spacing_m, "step of the wall points, metres")
-      ->check(CLI::Range(1e-4, 100.0));
-  command->add_option("--voxel", o.voxel_m, "voxel of the wall points, metres")
-      ->check(CLI::Range(1e-4, 100.0));
-  command->add_option("--cell", o.cell_m, "cell of map.pgm, metres")->check(CLI::Range(1e-3, 100.0));
+      ->check(within(1e-4, 100.0));
+  command->add_option("--voxel", o.voxel_m, "voxel of the wall points, metres")->check(within(1e-4, 100.0));
+  command->add_option("--cell", o.cell_m, "cell of map.pgm, metres")->check(within(1e-3, 100.0));
   command->add_flag("--force", o.force, "replace the drawing of an existing site; routes and tiles stay");
   command->add_flag("--debug-images", o.debug_images, "one picture a stage in DIR/debug");
   command->add_option("--json", arguments->json_file, "write the figures to a file; - for stdout");
@@ -124,6 +124,7 @@ void add_import(CLI::App& app) {
   command->callback([arguments] {
     if (hmi::is_backup(arguments->options.drawing)) return restore(*arguments);
     if (arguments->options.site.empty()) throw CLI::RequiredError("--site");
+    expect_json(arguments->json_file, arguments->options.site);
     arguments->options.date = iso_time_utc();
     auto& touches = arguments->options.detection.touches;
     for (const std::string& place : arguments->like) touches.push_back(touch_at(place, true));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/json_output.hpp"
 #include "app/landmarks/corridor_files.hpp"
 #include "app/landmarks/landmark_files.hpp"
@@ -165,14 +166,13 @@ void add_landmarks(CLI::App& app) {
   initial->needs(site);
   command->add_flag("--wheels-only", arguments->wheels, "no scan matching between landmarks")->needs(log);
   command->add_option("--most", arguments->most, "landmarks at most")
-      ->check(CLI::Range(1, 63))
+      ->check(within(1, 63))
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "of the first run")->needs(scenario);
-  command->add_option("--runs", arguments->runs, "seeds to run")
-      ->check(CLI::Range(1, 100000))
-      ->needs(scenario);
+  command->add_option("--runs", arguments->runs, "seeds to run")->check(within(1, 100000))->needs(scenario);
   command->add_option("--json", arguments->json_file, "figures; - for stdout");
   command->callback([arguments] {
+    expect_json(arguments->json_file, arguments->out);
     if (arguments->log.empty() && arguments->simulate.empty())
       throw CLI::RequiredError("--log or --simulate");
     if (arguments->simulate.empty()) {

@@ -209,6 +209,7 @@ void add_localize(CLI::App& app) {
     if (!arguments->global && arguments->initial.empty()) {
       throw CLI::RequiredError("--initial or --global");
     }
+    expect_json(arguments->json_file);
     localize(*arguments);
   });
 }

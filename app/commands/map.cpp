@@ -61,6 +61,7 @@ std::vector<std::uint8_t> final_plot(const MappingRun& run, const MappedSite& ma
 }
 
 void map_log(const MapArguments& arguments) {
+  expect_json(arguments.json_file, arguments.out);
   if (!arguments.force && std::filesystem::exists(arguments.out / "site.yaml")) {
     throw Error(arguments.out.string(), "is a site already",
                 "choose another --out, or give --force to replace it");

@@ -3,10 +3,12 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/json_output.hpp"
 #include "app/orders/order_store.hpp"
 #include "core/clock.hpp"
@@ -81,6 +83,7 @@ void print_order(const Order& order) {
 }
 
 void run(const OrderArguments& arguments) {
+  expect_json(arguments.json_file);
   const fs::path folder(arguments.site);
   if (!fs::exists(folder / "site.yaml"))
     throw Error(arguments.site, "is no site folder (no site.yaml)",
@@ -121,9 +124,10 @@ void add_order(CLI::App& app) {
                    "stops: ID or name, each with :load, :unload or :wait=SECONDS if asked")
       ->delimiter(',');
   command->add_option("--repeat", arguments->repeat, "how often the whole run is done")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(within(1, 1'000'000))
       ->capture_default_str();
-  command->add_option("--cancel", arguments->cancel, "ID of an order to cancel")->check(CLI::PositiveNumber);
+  command->add_option("--cancel", arguments->cancel, "ID of an order to cancel")
+      ->check(within<std::int64_t>(1, std::numeric_limits<std::int64_t>::max()));
   command->add_flag("--list", arguments->list, "finished orders too");
   command->add_option("--json", arguments->json_file, "the orders as JSON, - for stdout");
   command->callback([arguments] { run(*arguments); });

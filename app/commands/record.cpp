@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/runner/device_run.hpp"
 
 namespace madori::app {
@@ -13,7 +14,7 @@ void add_record(CLI::App& app) {
   command->add_option("DIR", options->site, "site folder; the bags go below DIR/runs")->required();
   add_device_options(*command, options->devices);
   command->add_option("--duration", options->duration_s, "seconds; 0: until interrupted")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(within(0.0, 1e6))
       ->capture_default_str();
   command->callback([options] {
     const auto folder = run_on_devices(*options);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -6,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/json_output.hpp"
 #include "app/learned/learned_drawing.hpp"
 #include "app/plot/localizability_plot.hpp"
@@ -18,6 +21,7 @@
 #include "planning/route_graph/route_csv.hpp"
 #include "planning/route_graph/route_search.hpp"
 #include "planning/route_graph/vehicle_fit.hpp"
+#include "planning/waypoints/waypoints.hpp"
 
 namespace madori::app {
 namespace {
@@ -124,6 +128,15 @@ bool site_wants_shortest(const fs::path& folder) {
   return fs::exists(folder / "site.yaml") && mapping::load_site(folder).shortest_routes;
 }
 
+/// A place of the forecast takes about 0.1 ms and a row of the JSON.
+void expect_few(const RouteArguments& arguments, double length_m) {
+  constexpr double kMostPlaces = 2e5;
+  const double most = arguments.localizability.empty() ? planning::kMostWaypoints : kMostPlaces;
+  if (!(length_m / arguments.spacing_m <= most))
+    throw Error(arguments.site, fmt::format("the way needs more than {:.0f} waypoints", most),
+                "choose a wider --spacing, or check the places of the nodes");
+}
+
 void search(const RouteArguments& arguments, const planning::RouteGraph& graph) {
   const std::size_t from = node_named(graph, arguments.from);
   const std::size_t to = node_named(graph, arguments.to);
@@ -141,6 +154,7 @@ void search(const RouteArguments& arguments, const planning::RouteGraph& graph) 
   }
   planning::WaypointOptions options;
   options.spacing_m = arguments.spacing_m;
+  expect_few(arguments, route.value().length_m);
   const auto path = route_path(graph, route.value(), options);
   if (!path && from != to) throw Error(arguments.site, path.reason(), "move the nodes apart");
   std::string names;
@@ -165,6 +179,7 @@ void search(const RouteArguments& arguments, const planning::RouteGraph& graph) 
 }
 
 void run(const RouteArguments& arguments) {
+  expect_json(arguments.json_file);
   const auto routes = planning::read_routes(fs::path(arguments.site) / "routes");
   if (arguments.check) return check(arguments, routes);
   print_findings(routes.findings);
@@ -189,7 +204,7 @@ void add_route(CLI::App& app) {
                    "hops: fewest legs; metres: shortest way; default: the site's route_metric")
       ->check(CLI::IsMember({"hops", "metres"}));
   command->add_option("--spacing", arguments->spacing_m, "metres between waypoints")
-      ->check(CLI::Range(0.01, 10.0))
+      ->check(within(0.01, 10.0))
       ->capture_default_str();
   command->add_option("--out", arguments->out, "waypoints as CSV (ID,x,y)");
   command->add_option(

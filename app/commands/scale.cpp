@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
 #include "app/learned/calibration_file.hpp"
@@ -57,6 +58,7 @@ ScaleInputs inputs_of(const ScaleArguments& arguments, const mapping::Site& site
 }
 
 void run(const ScaleArguments& arguments) {
+  expect_json(arguments.json_file);
   const mapping::Site site = mapping::load_site(arguments.site);
   std::FILE* stream = arguments.json_file == "-" ? stderr : stdout;
   const ScaleFindings found = find_scale(inputs_of(arguments, site, stream), site);
@@ -99,7 +101,7 @@ void add_scale(CLI::App& app) {
                       "zoom=Z,lat=..,lon=..,layout=ZM,photo=ZP: laid over a photograph");
   command->add_option("--paper", inputs.paper, "1:200, the scale printed on the drawing");
   command->add_option("--dpi", inputs.dpi, "resolution for --paper (default: the drawing's)")
-      ->check(CLI::Range(1.0, 100000.0));
+      ->check(within(1.0, 100000.0));
   command->add_flag("--self-calibration", arguments->self_calibration,
                     "the scale that was measured while driving");
   command->add_flag("--apply", arguments->apply, "give the site this scale, in one atomic step");

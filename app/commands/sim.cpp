@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/json_output.hpp"
 #include "app/runner/interruption.hpp"
 #include "app/simulated/camera_stream.hpp"
@@ -95,6 +96,7 @@ void simulate(SimArguments arguments) {
   const simulation::FactorySetup setup = setup_of(arguments);
   const fs::path folder =
       arguments.devices.empty() ? fs::path(arguments.site) / "devices" : fs::path(arguments.devices);
+  expect_json(arguments.json_file, folder);
   fs::create_directories(folder);
   arguments.hub.folder = folder;
   if (arguments.live.duration_s <= 0.0) arguments.live.duration_s = setup.scenario.duration_s;
@@ -134,15 +136,15 @@ void add_sim(CLI::App& app) {
   sim->add_option("site", arguments->site, "site folder")->required();
   sim->add_option("--scenario", arguments->scenario, "scenario file (default: scenario.yaml of the site)");
   sim->add_option("--speed", arguments->live.speed, "simulated seconds a second")
-      ->check(CLI::Range(0.01, 1000.0));
+      ->check(within(0.01, 1000.0));
   sim->add_option("--duration", arguments->live.duration_s, "simulated seconds, then stop")
-      ->check(CLI::Range(0.0, 1e7));
+      ->check(within(0.0, 1e7));
   sim->add_option("--truth", arguments->truth_file, "write the ground truth as TUM");
   sim->add_option("--truth-port", arguments->truth_port, "WebSocket port of the ground truth (0: any)");
   sim->add_option("--camera-port", arguments->camera_port,
                   "serve a camera at the vehicle's front as Motion JPEG on this port (0: any)");
   sim->add_option("--lidar-port", arguments->hub.vlp16_port, "UDP port that the VLP-16 sends to")
-      ->check(CLI::Range(1, 65535));
+      ->check(within(1, 65535));
   sim->add_option("--lms-port", arguments->hub.lms_port, "TCP port of the LMS1xx (0: any)");
   sim->add_option("--devices", arguments->devices, "folder for the serial ports (default: SITE/devices)");
   sim->add_option("--seed", arguments->seed, "instead of the scenario's");

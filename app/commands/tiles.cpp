@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/json_output.hpp"
 #include "core/result.hpp"
 #include "mapping/georeference/mosaic.hpp"
@@ -59,6 +60,7 @@ void report(const TilesArguments& a, const mapping::DownloadReport& done, std::s
 }
 
 void run(const TilesArguments& a) {
+  expect_json(a.json_file, std::filesystem::path(a.site) / "tiles");
   (void)mapping::load_site(a.site);
   const mapping::TileSource source = mapping::find_tile_source(a.source, a.attribution);
   check_zoom(source, a.zoom);
@@ -87,19 +89,19 @@ void add_tiles(CLI::App& app) {
   command->add_option("site", a->site, "the site folder")->required();
   command->add_option("--lat", a->place.latitude_deg, "latitude, degrees")->required();
   command->add_option("--lon", a->place.longitude_deg, "longitude, degrees")->required();
-  command->add_option("--zoom", a->zoom, "zoom level")->required()->check(CLI::Range(0, mapping::kMaxZoom));
+  command->add_option("--zoom", a->zoom, "zoom level")->required()->check(within(0, mapping::kMaxZoom));
   command->add_option("--radius-m", a->radius_m, "around the place, metres")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(within(0.0, 1e6));
   command->add_option("--source", a->source, "seamlessphoto, ort, std, pale, or a URL with {z} {x} {y}")
       ->capture_default_str();
   command->add_option("--attribution", a->attribution, "whom to name on pictures, for a URL");
   command->add_option("--timeout", a->timeout_s, "seconds a request may take")
       ->capture_default_str()
-      ->check(CLI::Range(0.05, 600.0));
+      ->check(within(0.05, 600.0));
   command->add_option("--attempts", a->download.attempts, "attempts a tile")
       ->capture_default_str()
-      ->check(CLI::Range(1, 20));
+      ->check(within(1, 20));
   command->add_option("--json", a->json_file, "write the figures to a file; - for stdout");
   command->callback([a] { run(*a); });
 }

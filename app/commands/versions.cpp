@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/commands/within.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
 #include "hmi/server/site_compare.hpp"
@@ -49,9 +50,10 @@ void add_versions(CLI::App& app) {
       command->add_option("--compare", arguments->compare, "what differs between two saves")->expected(2);
   command->add_option("--restore", arguments->restore, "make the site what it was; that is a save too")
       ->excludes(compared)
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(within(1, 1'000'000));
   command->add_option("--json", arguments->json_file, "write the figures to a file; - for stdout");
   command->callback([arguments] {
+    expect_json(arguments->json_file);
     if (arguments->restore > 0) mapping::restore_version(arguments->site, arguments->restore);
     if (arguments->compare.empty())
       list(*arguments);

@@ -54,13 +54,20 @@ VelocityCommand wanted_command(CycleState& state, const CycleInput& input, const
   return pursued.command;
 }
 
+/// By hand as far as is seen to be free; who drives without a lidar looks himself, and creeps.
+double by_hand_mps(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  return std::max(config.out_of_field_mps,
+                  config.check.braking.speed_within(sure_range_m(state, input.now, config)));
+}
+
 /// No point of the vehicle faster than it may be: by itself for the sake of whom it does not see, by hand
-/// while it is driven out of a protective field.
+/// while it is driven out of a protective field, or as far as is seen.
 VelocityCommand slowed(const CycleState& state, const VelocityCommand& wanted, const CycleInput& input,
                        const CycleConfig& config) {
   double most_mps = planning::PathCheck::kFree;
   if (drives(state.mode)) most_mps = unseen_bodies_mps(state, input.now, config);
-  if (state.mode == Mode::Manual && input.protective_stop) most_mps = config.out_of_field_mps;
+  if (state.mode == Mode::Manual)
+    most_mps = input.protective_stop ? config.out_of_field_mps : by_hand_mps(state, input, config);
   const double fastest_mps = outline_mps(config.check.vehicle, wanted);
   const double share = fastest_mps > most_mps ? most_mps / fastest_mps : 1.0;
   return {wanted.linear_mps * share, wanted.angular_radps * share};
@@ -71,17 +78,17 @@ void command_drive(CycleState& state, const VelocityCommand& wanted, const Cycle
                    const CycleConfig& config, CycleOutput& output) {
   const bool by_hand = state.mode == Mode::Manual;
   const bool may_move = (drives(state.mode) || by_hand) && !forbidding_rule(state, input, config, by_hand);
-  const double cap_mps = drives(state.mode)
-                             ? allowed_mps(state, input, config)
-                             : config.check.braking.speed_within(sure_range_m(state, input.now, config));
+  const double cap_mps =
+      drives(state.mode) ? allowed_mps(state, input, config) : by_hand_mps(state, input, config);
+  output.enable = enables(state, may_move);
+  // Wheels that do not turn yet gain no speed meanwhile.
+  const bool obeys = output.enable && state.drive.state == control::wire::DriveState::Running;
   const auto limited = control::limit(
-      state.limits, {.requested = wanted, .may_move = may_move, .speed_cap_mps = cap_mps, .step_s = step_s},
+      state.limits, {.requested = wanted, .may_move = obeys, .speed_cap_mps = cap_mps, .step_s = step_s},
       config.limits);
   state.limits = limited.state;
   output.command = limited.command;
-  output.enable = enables(state, may_move);
-  const bool obeys = output.enable && state.drive.state == control::wire::DriveState::Running;
-  state.sent.add(input.now, obeys ? output.command : VelocityCommand{}, config.response);
+  state.sent.add(input.now, output.command, config.response);
 }
 
 /// Why it stands, where it does; said once. Nobody reads faster than five times a

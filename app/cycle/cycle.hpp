@@ -59,7 +59,11 @@ struct CycleConfig {
   std::vector<LidarModel> lidars;  ///< clouds and scans name theirs by its place here
   planning::RouteMetric metric = planning::RouteMetric::Hops;
   std::vector<SafetyRule> safety_rules = standard_safety_rules();
-  double look_ahead_m = 7.0;           ///< of the path, checked for obstacles
+  double look_ahead_m = 7.0;  ///< of the path, checked for obstacles
+  /// Before the vehicle's front, whatever the lidars see.
+  [[nodiscard]] double looked_at_m() const {
+    return std::min(look_ahead_m, field.reach_m - check.vehicle.front_m);
+  }
   double care_speed_mps = 0.4;         ///< beside something near
   double narrow_speed_mps = 0.2;       ///< with less than the ordinary margins
   double degraded_speed_mps = 0.4;     ///< while localization is degraded
@@ -212,7 +216,9 @@ struct CycleState {
   std::optional<Stamp> drive_heard;
   sensors::DeviceClock drive_clock;
   std::int64_t drive_us = 0;          ///< the controller's clock, unwrapped
-  bool drive_restarted = false;       ///< in this step: it was without power
+  bool drive_stopped = false;         ///< by a status of this step: by hand, bumper or loss of power
+  bool drive_faulty = false;          ///< by a status of this step
+  std::optional<Stamp> drive_deaf;    ///< since when it tells that it hears no commands
   std::vector<Hearing> lidars_heard;  ///< each
   std::optional<Stamp> lidar_heard;   ///< since when something that driving needs is missing
   std::optional<Stamp> previous;

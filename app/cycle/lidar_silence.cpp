@@ -95,7 +95,7 @@ std::string silent_lidars(const CycleState& state, Stamp now, const CycleConfig&
 
 double sure_range_m(const CycleState& state, Stamp now, const CycleConfig& config) {
   return of_those_heard(state, now, config, config.sure_range_m, [&](const LidarModel& lidar) {
-    return planning::sure_ahead_m(lidar, config.check.vehicle.front_m);
+    return std::min(planning::sure_ahead_m(lidar, config.check.vehicle.front_m), config.looked_at_m());
   });
 }
 

@@ -12,13 +12,28 @@ namespace {
 constexpr double kTrackS = 3.0;  ///< revolutions may have waited so long on a busy computer
 
 /// Whether the drive was switched off and on between two statuses: its clock, which starts at power-up and
-/// wraps after 71.6 min, went back, or ran ahead of ours. Statuses that have waited in a buffer, come twice,
-/// or were lost in between are no sign.
+/// wraps after 71.6 min, went back, or ran ahead of ours; or its frames, one every 10 ms from zero on, were
+/// not counted on with it. Statuses that have waited in a buffer, come twice, or were lost in between are no
+/// sign.
 bool was_switched_off(const CycleState& state, const control::wire::Status& status, Stamp now) {
   constexpr double kSlackS = 1.0;
+  constexpr double kPeriodUs = 1e4, kPeriodsOff = 0.02;  // of the drive's timer
   const auto step_us = static_cast<std::int32_t>(status.time_us - state.drive.time_us);
   const Stamp expected = state.drive_clock.stamp_of(state.drive_us + step_us);
-  return step_us * 1e-6 < -kSlackS || to_seconds(expected - now) > kSlackS;
+  const auto frames = static_cast<std::uint16_t>(status.sequence - state.drive.sequence);
+  const auto periods = std::llround(step_us / kPeriodUs);
+  const auto off = static_cast<std::int16_t>(frames - static_cast<std::uint16_t>(periods));
+  const double slack = kSlackS * 1e6 / kPeriodUs + kPeriodsOff * static_cast<double>(std::abs(periods));
+  return step_us * 1e-6 < -kSlackS || to_seconds(expected - now) > kSlackS || std::abs(off) > slack;
+}
+
+/// What any status of a step tells of the wheels: a stop between two looks is a stop. Power that comes back
+/// is held like an emergency stop: nothing goes on by itself.
+void note_stop(CycleState& state, const control::wire::Status& status, bool restarted) {
+  const bool faulty = tells_fault(status);
+  const bool unseen = state.drive_heard && status.stops != state.drive.stops && !faulty;
+  state.drive_stopped = state.drive_stopped || restarted || unseen || tells_stop(status);
+  state.drive_faulty = state.drive_faulty || faulty;
 }
 
 /// When the wheels were measured, by the controller's clock: a step that comes late, on a busy computer, does
@@ -111,7 +126,9 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
   lay_in_base(cloud, state.track, config, state.bench.sweep, state.bench.within);
   const PointCloud<Base>& base = state.bench.sweep;
   state.lidars_heard.resize(config.lidars.size());
-  note_heard(state.lidars_heard[cloud.lidar], base, config.lidars[cloud.lidar], input.now);
+  const bool tells_of_now = to_seconds(input.now - base.stamp) < patience_s(config, cloud.lidar);
+  if (tells_of_now || state.gap)
+    note_heard(state.lidars_heard[cloud.lidar], base, config.lidars[cloud.lidar], input.now);
   if (ends_gap(state, cloud.lidar, base.stamp, input.now, config)) state.gap.reset();
   const auto odom_from_base =
       state.track.empty() ? Transform2<Odom, Base>() : odometry_at(state.track, base.stamp);
@@ -132,14 +149,17 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
 }  // namespace
 
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
-  bool restarted = false;
   state.localization->set_thinking(input.thinking);
+  state.drive_stopped = state.drive_faulty = false;
+  if (state.drive_heard) note_stop(state, state.drive, false);
   for (const auto& status : input.drive) {
     const bool off = state.drive_heard && was_switched_off(state, status, input.now);
-    restarted = restarted || off;
+    note_stop(state, status, off);
     const Stamp stamp = measured_at(state, status, input.now, off);
     state.drive = status;
     state.drive_heard = input.now;
+    const bool is_deaf = status.state == control::wire::DriveState::WatchdogStop;
+    state.drive_deaf = is_deaf ? state.drive_deaf.value_or(input.now) : std::optional<Stamp>();
     state.odometry.update(status, stamp);
     const OdometryReading& reading = state.odometry.reading();
     if (!state.track.empty() && reading.stamp <= state.track.back().stamp) continue;
@@ -147,7 +167,6 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     while (to_seconds(reading.stamp - state.track.front().stamp) > kTrackS) state.track.pop_front();
     take_pose(state, state.localization->on_odometry(reading));
   }
-  state.drive_restarted = restarted;
   for (const auto& command : input.commands) {
     if (command.word == OperatorWord::SetPose) take_given_pose(state, command.given_pose);
     if (command.word == OperatorWord::SearchPose) state.localization->search_anew();

@@ -3,21 +3,9 @@
 namespace madori::app {
 namespace {
 
-using control::wire::DriveState;
-
 constexpr double kStandsBeforeM =
     0.12;  ///< nearer than this to the stopping point the vehicle counts as blocked
 constexpr double kWorthGoingM = 0.5;  ///< less free way than this is not worth a start
-
-/// Power that comes back is held like an emergency stop: nothing goes on by itself.
-bool is_stopped_by_drive(const CycleState& state) {
-  return state.drive_restarted || state.drive.emergency_stop || state.drive.bumper ||
-         state.drive.state == DriveState::EmergencyStop || state.drive.state == DriveState::BumperStop;
-}
-
-bool has_fault(const CycleState& state) {
-  return state.drive.state == DriveState::Fault || state.drive.faults != control::wire::kNoFault;
-}
 
 /// Whether the way ahead lets the vehicle go on from a standstill.
 bool is_clear(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
@@ -111,6 +99,10 @@ bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s) {
   return !heard || to_seconds(now - *heard) > limit_s;
 }
 
+bool is_drive_deaf(const CycleState& state, Stamp now, const CycleConfig& config) {
+  return state.drive_deaf && to_seconds(now - *state.drive_deaf) > config.drive_silent_s;
+}
+
 bool may_drive(LocalizationState state) {
   return state == LocalizationState::Localized || state == LocalizationState::Degraded;
 }
@@ -126,8 +118,8 @@ bool is_place_certain(const LocalizationHealth& health) {
 
 void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   ModeChanges mode(state, output);
-  const bool stopped = is_stopped_by_drive(state);
-  const bool fault = has_fault(state);
+  const bool stopped = state.drive_stopped;
+  const bool fault = state.drive_faulty;
   const bool deaf = is_silent(state.drive_heard, input.now, config.drive_silent_s);
   if (stopped) mode.apply(ModeEvent::EmergencyOn);
   if (fault || state.disobedient) mode.apply(ModeEvent::FaultOn);

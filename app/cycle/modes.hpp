@@ -50,6 +50,11 @@ inline constexpr std::array kModeEvents{ModeEvent::OrderGiven,  ModeEvent::Local
   return mode == Mode::Paused || mode == Mode::Manual || mode == Mode::EmergencyStop || mode == Mode::Fault;
 }
 
+/// Something happened that a person looks at and confirms before anything goes on.
+[[nodiscard]] constexpr bool is_to_be_confirmed(Mode mode) {
+  return mode == Mode::EmergencyStop || mode == Mode::Fault;
+}
+
 [[nodiscard]] const char* to_string(Mode mode);
 [[nodiscard]] const char* to_string(ModeEvent event);
 /// The mode after an event; nothing where the event means nothing in that mode.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "app/cycle/stages.hpp"
 #include "core/angle.hpp"
@@ -76,25 +77,43 @@ bool follow_leg(MountingWatch& watch, const CycleState& state) {
   if (!turned && by_wheels.x_m() < kLegM) return false;
   const auto by_sight = watch.map_begun.inverse() * state.pose.map_from_base;
   watch.odom_begun.reset();
-  if (turned || std::abs(by_sight.yaw_rad() - by_wheels.yaw_rad()) > kStraightRad ||
-      std::abs(by_sight.x_m() - by_wheels.x_m()) > 0.1)
+  const double off_m =
+      std::hypot(by_sight.x_m(), by_sight.y_m()) - std::hypot(by_wheels.x_m(), by_wheels.y_m());
+  if (turned || std::abs(wrap_angle(by_sight.yaw_rad() - by_wheels.yaw_rad())) > kStraightRad ||
+      std::abs(off_m) > 0.1)
     return false;  // the place was corrected meanwhile
   watch.beside_rad[watch.legs % MountingWatch::kLegs] =
-      std::atan2(by_sight.y_m(), by_sight.x_m()) - std::atan2(by_wheels.y_m(), by_wheels.x_m());
+      wrap_angle(std::atan2(by_sight.y_m(), by_sight.x_m()) - std::atan2(by_wheels.y_m(), by_wheels.x_m()));
   ++watch.legs;
   return true;
 }
 
+/// By how much the newest legs led beside, where they agree on it.
+std::optional<double> led_beside_rad(const MountingWatch& watch, std::size_t legs) {
+  if (watch.legs < legs) return std::nullopt;
+  std::vector<double> beside;
+  for (std::size_t i = 1; i <= legs; ++i)
+    beside.push_back(watch.beside_rad[(watch.legs - i) % MountingWatch::kLegs]);
+  auto apart = beside;  // half a turn is its own neighbour on both sides
+  for (double& one : apart) one = wrap_angle(one - beside.front());
+  const double middle_rad = wrap_angle(beside.front() + median_of(apart));
+  std::ranges::transform(beside, apart.begin(),
+                         [&](double one) { return std::abs(wrap_angle(one - middle_rad)); });
+  if (median_of(apart) > 0.4 * std::abs(middle_rad)) return std::nullopt;
+  return middle_rad;
+}
+
 std::optional<MountingDoubt> judge_legs(const MountingWatch& watch, const CycleConfig& config) {
-  if (watch.legs < MountingWatch::kLegs) return std::nullopt;
-  auto apart = watch.beside_rad;
-  const double beside_rad = median_of(apart);
-  for (double& one : apart) one = std::abs(one - beside_rad);
-  if (std::abs(beside_rad) < kYawRad || median_of(apart) > 0.4 * std::abs(beside_rad)) return std::nullopt;
+  constexpr std::size_t kFewLegs = 3;  // of 0.8 m: no correction of the place leads so far aside so often
+  constexpr double kFarAsideRad = to_rad(20.0);
+  std::optional<double> beside_rad = led_beside_rad(watch, kFewLegs);
+  if (!beside_rad || std::abs(*beside_rad) < kFarAsideRad)
+    beside_rad = led_beside_rad(watch, MountingWatch::kLegs);
+  if (!beside_rad || std::abs(*beside_rad) < kYawRad) return std::nullopt;
   std::size_t lidar = 0;
   while (lidar + 1 < config.lidars.size() && !tells_place(config.lidars, lidar)) ++lidar;
   const double typed_deg = to_deg(config.lidars[lidar].mounting.yaw_rad);
-  return MountingDoubt{Of::Yaw, lidar, typed_deg - to_deg(beside_rad), typed_deg};
+  return MountingDoubt{Of::Yaw, lidar, to_deg(wrap_angle(to_rad(typed_deg) - *beside_rad)), typed_deg};
 }
 
 }  // namespace
@@ -113,7 +132,7 @@ void watch_mounting(CycleState& state, const CycleInput& input, const CycleConfi
 
 bool mounting_forbids(const MountingWatch& watch) {
   if (watch.height) return true;
-  return watch.yaw && std::abs(watch.yaw->found - watch.yaw->typed) > to_deg(kYawStandsRad);
+  return watch.yaw && std::abs(wrap_angle(to_rad(watch.yaw->found - watch.yaw->typed))) > kYawStandsRad;
 }
 
 Notice mounting_notice(const MountingDoubt& doubt, const CycleConfig& config) {

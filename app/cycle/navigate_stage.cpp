@@ -94,7 +94,9 @@ Path path_over(const CycleState& state, const planning::Route& route, const Cycl
   auto path =
       there ? Result<Path>::failure("") : planning::make_waypoints(way, config.waypoints, goal.heading_rad);
   if (path) return std::move(path).value();
-  return {{{here, goal.heading_rad.value_or(pose.yaw_rad()), 0.0}}};
+  Path there_already{{{here, pose.yaw_rad(), 0.0}}};
+  if (goal.heading_rad) planning::end_in(there_already, *goal.heading_rad);
+  return there_already;
 }
 
 void forget_errand(CycleState& state) {
@@ -234,6 +236,12 @@ void try_another_route(CycleState& state, const CycleInput& input, const CycleCo
   plan(state, input, config, output);
 }
 
+bool is_beside_stop(const CycleState& state) {
+  constexpr double kAtStopM = 0.25;  ///< who loads there finds it; nearer, driving anew would help less
+  return !state.way.path.empty() && distance_m(state.pose.map_from_base.translation(),
+                                               state.way.path.points().back().position) > kAtStopM;
+}
+
 void arrive(CycleState& state, Stamp now) {
   if (state.way.backing) return end_back_out(state);
   state.errand.arrived = true;
@@ -277,10 +285,8 @@ std::optional<Notice> taken_stop(const CycleState& state, const CycleConfig& con
 }
 
 /// Whether the pose has come to lie elsewhere: it was corrected, or the vehicle was carried off.
-bool has_left_stop(const CycleState& state, const CycleConfig& config) {
-  return state.errand.arrived && !state.errand.reported && !state.way.path.empty() &&
-         distance_m(state.pose.map_from_base.translation(), state.way.path.points().back().position) >
-             config.pursuit.off_path_m;
+bool has_left_stop(const CycleState& state) {
+  return state.errand.arrived && !state.errand.reported && is_beside_stop(state);
 }
 
 void navigate(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
@@ -289,7 +295,7 @@ void navigate(CycleState& state, const CycleInput& input, const CycleConfig& con
   const bool off_path = state.progress.status == control::PursuitStatus::OffPath;
   const bool needs_path = state.way.path.empty() && state.errand.no_way.empty();
   const bool on_way = !state.errand.arrived && (needs_path || off_path);
-  if (sure && (on_way || has_left_stop(state, config))) plan(state, input, config, output);
+  if (sure && (on_way || has_left_stop(state))) plan(state, input, config, output);
   if (input.detour) take_answer(state, *input.detour, config);
   const bool told = std::any_of(input.commands.begin(), input.commands.end(),
                                 [](const auto& c) { return c.word == OperatorWord::GoOn; });

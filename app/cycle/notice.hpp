@@ -66,6 +66,7 @@ enum class Cause : std::uint8_t {
   LidarYaw,
   StopUnsure,
   StopTaken,
+  DriveDeaf,
 };
 
 /// What a person can do about it.
@@ -152,6 +153,7 @@ inline constexpr std::array kCauses{
         "the vehicle gets where lidar {name} would look at {found} degrees, and {typed} was typed"},
     CatalogueEntry{"stop-unsure", "the vehicle is only to {percent} % sure that this is node {node}"},
     CatalogueEntry{"stop-taken", "something stands at node {node}: the vehicle is {metres} m away from it"},
+    CatalogueEntry{"drive-deaf", "the drive answers, but hears no commands"},
 };
 
 inline constexpr std::array kRemedies{

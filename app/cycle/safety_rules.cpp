@@ -16,6 +16,10 @@ bool drive_is_silent(const CycleState& state, const CycleInput& input, const Cyc
   return is_silent(state.drive_heard, input.now, config.drive_silent_s);
 }
 
+bool drive_is_deaf(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  return is_drive_deaf(state, input.now, config);
+}
+
 bool lidar_is_silent(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   return is_silent(state.lidar_heard, input.now, config.lidar_silent_s);
 }
@@ -44,6 +48,7 @@ std::vector<SafetyRule> standard_safety_rules() {
       {entry(Cause::TimeGap), entry(Remedy::ByItself), true, after_a_gap},
       {entry(Cause::ProtectiveField), entry(Remedy::ClearField), false, field_is_entered},
       {entry(Cause::DriveSilent), entry(Remedy::CheckDrive), true, drive_is_silent},
+      {entry(Cause::DriveDeaf), entry(Remedy::CheckDrive), true, drive_is_deaf},
       {entry(Cause::LidarSilent), entry(Remedy::CheckLidar), false, lidar_is_silent, who_is_silent},
       {entry(Cause::LidarHeight), entry(Remedy::CorrectMounting), false, mounting_is_wrong, what_is_wrong},
   };

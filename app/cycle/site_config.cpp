@@ -18,7 +18,7 @@ void take_lidars(std::vector<LidarModel> lidars, CycleConfig& config) {
     config.check.braking.scan_period_s = std::max(config.check.braking.scan_period_s, lidar.period_s);
   }
   config.field.top_m = top_m + kHeadroomM;
-  config.sure_range_m = sure_ahead_m(lidars, config.check.vehicle.front_m);
+  config.sure_range_m = std::min(sure_ahead_m(lidars, config.check.vehicle.front_m), config.looked_at_m());
   config.sure_low_m = sure_low_m(lidars, config.check.vehicle.front_m, config.field.reach_m);
   config.lidars = std::move(lidars);
 }
@@ -39,6 +39,8 @@ void take_vehicle(const mapping::VehicleRecord& v, CycleConfig& config) {
   config.limits.max_turn_rate_radps = v.max_turn_rate_radps;
   config.limits.max_wheel_speed_mps =
       v.max_speed_mps + 0.5 * v.max_turn_rate_radps * v.half_wheel_separation_m;
+  constexpr double kDamaged = 1.5;  ///< so much faster than it may, no wheel turns
+  config.odometry.max_wheel_speed_radps = kDamaged * config.limits.max_wheel_speed_mps / v.wheel_radius_m;
   config.limits.half_wheel_separation_m = v.half_wheel_separation_m;
   config.limits.acceleration_mps2 = v.max_acceleration_mps2;
   config.limits.turn_acceleration_radps2 = v.max_turn_acceleration_radps2;

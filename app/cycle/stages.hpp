@@ -112,6 +112,8 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
 [[nodiscard]] bool tells_place(const std::vector<LidarModel>& lidars, std::size_t lidar);
 /// Whether nobody has heard of a device for too long.
 [[nodiscard]] bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s);
+/// Whether the drive has told for too long that it hears no commands.
+[[nodiscard]] bool is_drive_deaf(const CycleState& state, Stamp now, const CycleConfig& config);
 [[nodiscard]] bool may_drive(LocalizationState state);
 /// Whether the vehicle knows where it is, and hears what that needs.
 [[nodiscard]] bool is_placed(const CycleState& state);

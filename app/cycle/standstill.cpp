@@ -27,7 +27,7 @@ Standstill why_emergency(const CycleState& state, Stamp now) {
 }
 
 Standstill why_fault(const CycleState& state, const CycleInput& input) {
-  if (state.drive.faults != control::wire::kNoFault || state.drive.state == DriveState::Fault)
+  if (tells_fault(state.drive))
     return {notice(Cause::DriveFault, {{"faults", fault_words(state.drive.faults)}}),
             notice(Remedy::MendDrive), input.now};
   if (state.disobedient) {
@@ -47,7 +47,8 @@ Standstill why_deaf(const CycleState& state, Stamp now, const CycleConfig& confi
   };
   if (silent(state.drive_heard, config.drive_silent_s))
     return because(Cause::DriveSilent, Remedy::CheckDrive, now);
-  const bool asks_person = state.mode == Mode::EmergencyStop || state.mode == Mode::Fault;
+  if (is_drive_deaf(state, now, config)) return because(Cause::DriveDeaf, Remedy::CheckDrive, now);
+  const bool asks_person = is_to_be_confirmed(state.mode);
   if (!asks_person && silent(state.lidar_heard, config.lidar_silent_s)) {
     const std::string names = silent_lidars(state, now, config);
     if (state.lidar_heard && names.empty()) return because(Cause::LidarBlind, Remedy::UncoverLidar, now);

@@ -91,13 +91,8 @@ void MountingManoeuvre::see(const PointCloud<Lidar>& sweep, const Transform2<Odo
 }
 
 Notice MountingManoeuvre::held_by(const CycleInput& input) const {
-  using control::wire::DriveState;
   if (!drive_heard_ || to_seconds(input.now - *drive_heard_) > vehicle_.drive_silent_s)
     return app::notice(kMountingDriveSilent);
-  if (drive_.emergency_stop || drive_.bumper || drive_.faults != control::wire::kNoFault ||
-      drive_.state == DriveState::EmergencyStop || drive_.state == DriveState::BumperStop ||
-      drive_.state == DriveState::Fault)
-    return app::notice(kMountingDriveStopped);
   if (input.protective_stop) return app::notice(kMountingField);
   for (std::size_t i = 0; i < vehicle_.lidars.size(); ++i) {
     const LidarModel& lidar = vehicle_.lidars[i];
@@ -157,8 +152,10 @@ bool MountingManoeuvre::enables() {
 CycleOutput MountingManoeuvre::step(const CycleInput& input, const OdometryReading& odometry) {
   CycleOutput output;
   const auto& here = odometry.odom_from_base;
-  if (!input.drive.empty()) {
-    drive_ = input.drive.back();
+  for (const auto& status : input.drive) {
+    const bool unseen = drive_heard_ && status.stops != drive_.stops;
+    if (unseen || tells_stop(status) || tells_fault(status)) stop(app::notice(kMountingDriveStopped));
+    drive_ = status;
     drive_heard_ = input.now;
   }
   for (const auto& cloud : input.clouds) see(cloud, here, input.now);

@@ -45,9 +45,13 @@ void OrderDesk::refuse(std::int64_t id, const std::string& why, Stamp label) {
   add({label, "order", "order " + std::to_string(id) + " refused: " + why});
 }
 
+void OrderDesk::cancel_running(const std::string& why, Stamp label) {
+  report({{}, why, label, OrderState::Cancelled});
+}
+
 void OrderDesk::report(Report report) {
   std::unique_lock lock(mutex_);
-  if (report.refused) order_.reset();
+  if (report.ended) order_.reset();
   waiting_.fresh = true;
   waiting_.reports.push_back(std::move(report));
   if (options_.lock_step) do_work(lock);
@@ -63,10 +67,13 @@ void OrderDesk::add(EventRecord event) {
 
 /// Throws Error where the database does not take it: the same report is made again then.
 std::optional<Order> OrderDesk::settle(const Report& report) {
-  if (report.refused) {
-    store_.close(report.what.order, OrderState::Refused, *report.refused, report.label);
-    return std::nullopt;
-  }
+  if (report.ended && report.state == OrderState::Cancelled)
+    for (const Order& order : store_.list(true))
+      if (order.state == OrderState::Running)
+        store_.close(order.id, OrderState::Cancelled, *report.ended, report.label);
+  if (report.ended && report.state == OrderState::Refused)
+    store_.close(report.what.order, OrderState::Refused, *report.ended, report.label);
+  if (report.ended) return std::nullopt;
   return store_.stop_done(report.what.order, report.what.round, report.what.stop, report.label);
 }
 

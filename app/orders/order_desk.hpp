@@ -39,6 +39,9 @@ class OrderDesk {
   void stop_reached(const Target& stop, Stamp label);
   /// The order ends at once.
   void refuse(std::int64_t id, const std::string& why, Stamp label);
+  /// What runs in the database ends at once, also an order that was not given here yet; none begins before
+  /// that is written.
+  void cancel_running(const std::string& why, Stamp label);
   void add(EventRecord event);
   /// Why orders cannot be read or written; empty while they can.
   [[nodiscard]] std::string problem() const;
@@ -46,8 +49,9 @@ class OrderDesk {
  private:
   struct Report {
     Target what;
-    std::optional<std::string> refused;  ///< why; nothing: the stop was reached
+    std::optional<std::string> ended;  ///< why; nothing: the stop was reached
     Stamp label{};
+    OrderState state = OrderState::Refused;  ///< of what ended; Cancelled: whatever runs
   };
   struct Work {
     std::deque<Report> reports;

@@ -102,7 +102,7 @@ hmi::Reply PanelVehicle::start_mapping(const mapping::VehicleRecord& vehicle,
 hmi::Reply PanelVehicle::drop_mapping() {
   if (finishing_)
     return hmi::Reply::refused("mapping-busy", "a site is being made of the drive: wait for it");
-  if (!run_.may_change_site()) return hmi::Reply::refused("driving", "the vehicle is driving: stop it first");
+  if (auto may = may_begin_anew(); !may.accepted) return may;
   run_.end_mapping();
   std::error_code missing;
   std::filesystem::remove_all(site_ / "mapping", missing);
@@ -115,8 +115,7 @@ hmi::Reply PanelVehicle::may_finish_mapping() const {
   if (finishing_ || desk->progress().reading)
     return hmi::Reply::refused("mapping-busy",
                                "the drive so far is being looked at: wait until that is done");
-  if (!run_.may_change_site()) return hmi::Reply::refused("driving", "the vehicle is driving: stop it first");
-  return hmi::Reply::done();
+  return may_begin_anew();
 }
 
 std::size_t PanelVehicle::finish_mapping(

@@ -108,12 +108,6 @@ hmi::Reply PanelOrders::arrange(const std::vector<long long>& ids) {
   return hmi::Reply::refused("conflict", "the queue has changed meanwhile");
 }
 
-void PanelOrders::cancel_running(const std::string& why) {
-  const std::scoped_lock lock(mutex_);
-  for (const auto& order : store_.list(true))
-    if (order.state == OrderState::Running) store_.close(order.id, OrderState::Cancelled, why, time_of_day());
-}
-
 void PanelOrders::tell(const std::string& text) {
   const std::scoped_lock lock(mutex_);
   store_.add_event({time_of_day(), "operator", text});

@@ -26,8 +26,6 @@ class PanelOrders {
   hmi::Reply repeat(long long id);
   hmi::Reply cancel(long long id);
   hmi::Reply arrange(const std::vector<long long>& ids);
-  /// Ends the order that is being worked on.
-  void cancel_running(const std::string& why);
   /// An operator's word, among the events.
   void tell(const std::string& text);
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const;

@@ -41,6 +41,17 @@ hmi::Reply confirm_first() {
   return hmi::Reply::refused("confirm-first", "look around the vehicle and confirm first");
 }
 
+hmi::Reply driven_by_hand() {
+  return hmi::Reply::refused("driven-by-hand", "driven by hand at another panel");
+}
+
+hmi::Reply no_hold(JogHolds::Answer answer) {
+  if (answer == JogHolds::Answer::Taken) return driven_by_hand();
+  if (answer == JogHolds::Answer::Stopped)
+    return hmi::Reply::refused("stopped", "somebody pressed Stop: let the button go first");
+  return hmi::Reply::refused("let-go", "let the button go first, then press it again");
+}
+
 }  // namespace
 
 PanelVehicle::PanelVehicle(SiteRun& run, const std::filesystem::path& database, SocketOptions devices,
@@ -98,13 +109,14 @@ hmi::Reply PanelVehicle::command(hmi::Command command) {
     if (!stop && command != hmi::Command::Pause) return measuring();
   }
   if (!view) return stop ? hmi::Reply::done() : not_drivable();  // the drive is not enabled then
-  if ((command == hmi::Command::Start || command == hmi::Command::Resume) && run_.mapping())
-    return mapping_now();
+  const bool starts = command == hmi::Command::Start || command == hmi::Command::Resume;
+  if (starts && run_.mapping()) return mapping_now();
   const Mode now = view->mode;
   switch (command) {
     case hmi::Command::Start:
     case hmi::Command::Resume:
-      if (now == Mode::EmergencyStop || now == Mode::Fault) return confirm_first();
+      if (is_to_be_confirmed(now)) return confirm_first();
+      if (jogging_.is_held(clock_now())) return driven_by_hand();
       if (now == Mode::Manual) run_.say({OperatorWord::ManualOff, {}, {}});
       run_.say({OperatorWord::Resume, {}, {}});
       break;
@@ -112,12 +124,11 @@ hmi::Reply PanelVehicle::command(hmi::Command command) {
       run_.say({OperatorWord::Pause, {}, {}});
       break;
     case hmi::Command::Stop:
-      jogging_.bar();
+      jogging_.stop();
       run_.say({OperatorWord::Stop, {}, {}});
-      orders_.cancel_running("stopped at the panel");
       break;
     case hmi::Command::Halt:
-      jogging_.bar();
+      jogging_.stop();
       run_.say({OperatorWord::Halt, {}, {}});
       break;
     case hmi::Command::Confirm:
@@ -130,21 +141,35 @@ hmi::Reply PanelVehicle::command(hmi::Command command) {
   return hmi::Reply::done();
 }
 
-hmi::Reply PanelVehicle::jog(const VelocityCommand& velocity) {
-  const auto view = run_.view();
-  const bool stands = velocity == VelocityCommand{};
-  if (is_measuring()) return stands ? hmi::Reply::done() : measuring();
-  if (!view) return stands ? hmi::Reply::done() : not_drivable();
-  if (view->mode == Mode::EmergencyStop || view->mode == Mode::Fault) return confirm_first();
-  if (!stands && (finishing_ || reads_drive(run_)))
+std::optional<hmi::Reply> PanelVehicle::no_jog(const std::optional<VehicleView>& view) const {
+  if (is_measuring()) return measuring();
+  if (!view) return not_drivable();
+  if (is_to_be_confirmed(view->mode)) return confirm_first();
+  if (finishing_ || reads_drive(run_))
     return hmi::Reply::refused("mapping-busy",
                                "the drive so far is being looked at: wait until that is done");
-  if (!jogging_.allows(velocity, clock_now()))
-    return hmi::Reply::refused("stopped", "somebody pressed Stop: let the button go first");
-  if (view->mode != Mode::Manual && stands) return hmi::Reply::done();
+  return std::nullopt;
+}
+
+hmi::Reply PanelVehicle::jog(const VelocityCommand& velocity, const void* who) {
+  const auto view = run_.view();
+  if (velocity == VelocityCommand{}) {  // of a panel that does not drive, it stops nobody
+    if (jogging_.let_go(who) && view && view->mode == Mode::Manual) run_.say({OperatorWord::Jog, {}, {}});
+    return hmi::Reply::done();
+  }
+  if (auto refused = no_jog(view)) {
+    jogging_.refuse(who);
+    return *std::move(refused);
+  }
+  const auto answer = jogging_.hold(who, clock_now());
+  if (answer != JogHolds::Answer::Drives) return no_hold(answer);
   if (view->mode != Mode::Manual) run_.say({OperatorWord::ManualOn, {}, {}});
   run_.say({OperatorWord::Jog, velocity, {}});
   return hmi::Reply::done();
+}
+
+void PanelVehicle::jog_silent(const void* who) {
+  if (jogging_.has(who)) run_.say({OperatorWord::Jog, {}, {}});
 }
 
 hmi::Reply PanelVehicle::add_order(const std::vector<hmi::StopView>& stops, int repeat) {
@@ -170,12 +195,12 @@ hmi::Reply PanelVehicle::repeat_order(long long id) {
 }
 
 hmi::Reply PanelVehicle::search_place() {
-  if (!run_.may_change_site()) return driving();
+  if (!run_.stands()) return driving();
   return run_.say({OperatorWord::SearchPose, {}, {}}) ? hmi::Reply::done() : not_drivable();
 }
 
 hmi::Reply PanelVehicle::set_pose(const Transform2<Map, Base>& map_from_base) {
-  if (!run_.may_change_site()) return driving();
+  if (!run_.stands()) return driving();
   // Nobody may be surprised by a vehicle that drives off because its place was said: it waits for Resume.
   run_.say({OperatorWord::Pause, {}, {}});
   const GivenPose given{map_from_base.translation(), map_from_base.yaw_rad(), PoseSigma{}};
@@ -184,7 +209,7 @@ hmi::Reply PanelVehicle::set_pose(const Transform2<Map, Base>& map_from_base) {
 
 /// A person who insists is believed to a hand's breadth: what is seen has to speak against that much more.
 hmi::Reply PanelVehicle::insist_on_pose(const Transform2<Map, Base>& map_from_base) {
-  if (!run_.may_change_site()) return driving();
+  if (!run_.stands()) return driving();
   constexpr PoseSigma kInsisted{0.1, 0.035};
   run_.say({OperatorWord::Pause, {}, {}});
   const GivenPose given{map_from_base.translation(), map_from_base.yaw_rad(), kInsisted};
@@ -224,7 +249,7 @@ bool PanelVehicle::is_measuring() const {
 
 hmi::Reply PanelVehicle::measure_mounting() {
   if (is_measuring()) return measuring();
-  if (!run_.may_change_site()) return driving();
+  if (auto may = may_begin_anew(); !may.accepted) return may;
   try {
     run_.measure_mounting();
   } catch (const std::exception& e) {
@@ -275,10 +300,13 @@ std::shared_ptr<const std::string> PanelVehicle::camera_jpeg() const {
   return camera_ ? camera_->picture() : nullptr;
 }
 
-hmi::Reply PanelVehicle::may_change_site() const {
-  if (run_.mapping()) return mapping_now();
+hmi::Reply PanelVehicle::may_begin_anew() const {
   if (run_.may_change_site()) return hmi::Reply::done();
-  return driving();
+  return run_.stands() ? confirm_first() : driving();
+}
+
+hmi::Reply PanelVehicle::may_change_site() const {
+  return run_.mapping() ? mapping_now() : may_begin_anew();
 }
 
 }  // namespace madori::app

@@ -9,7 +9,7 @@
 
 #include "app/braking/braking_desk.hpp"
 #include "app/camera/camera_capture.hpp"
-#include "app/panel/jog_bar.hpp"
+#include "app/panel/jog_holds.hpp"
 #include "app/panel/live_copy.hpp"
 #include "app/panel/panel_orders.hpp"
 #include "app/runner/site_run.hpp"
@@ -34,7 +34,8 @@ class PanelVehicle final : public hmi::Vehicle {
 
   [[nodiscard]] hmi::LiveState live() const override;
   hmi::Reply command(hmi::Command command) override;
-  hmi::Reply jog(const VelocityCommand& velocity) override;
+  hmi::Reply jog(const VelocityCommand& velocity, const void* who) override;
+  void jog_silent(const void* who) override;
   [[nodiscard]] std::vector<hmi::OrderView> orders() const override { return orders_.open(); }
   [[nodiscard]] std::vector<hmi::OrderView> order_history() const override { return orders_.ended(); }
   hmi::Reply add_order(const std::vector<hmi::StopView>& stops, int repeat) override;
@@ -75,6 +76,10 @@ class PanelVehicle final : public hmi::Vehicle {
   void note_way_by_hand(const CycleState& state, const CycleConfig& config);
   [[nodiscard]] hmi::Reply not_drivable() const;
   [[nodiscard]] bool is_measuring() const;
+  /// Why nobody may drive by hand now.
+  [[nodiscard]] std::optional<hmi::Reply> no_jog(const std::optional<VehicleView>& view) const;
+  /// Refused while it drives, or while something is to be confirmed that a new run would forget.
+  [[nodiscard]] hmi::Reply may_begin_anew() const;
 
   SiteRun& run_;
   std::filesystem::path site_;
@@ -82,7 +87,7 @@ class PanelVehicle final : public hmi::Vehicle {
   LiveCopy copy_;
   PanelOrders orders_;
   WorkMeter meter_;
-  JogBar jogging_;
+  JogHolds jogging_;
   BrakingDesk braking_;
   std::optional<CameraCapture> camera_;
   std::atomic<bool> finishing_ = false;    ///< a site is being made of the map

@@ -43,7 +43,7 @@ class LentLink final : public VehicleLink {
 constexpr Duration kTryAgain = std::chrono::seconds(3);
 constexpr Duration kLookAtKeeping = std::chrono::seconds(5);
 
-bool stands(const VehicleView& view) {
+bool stands_still(const VehicleView& view) {
   if (drives(view.mode) || view.mode == Mode::Waiting) return false;
   return view.mode != Mode::Manual || view.command == VelocityCommand{};
 }
@@ -309,9 +309,14 @@ std::optional<int> SiteRun::without_way(std::optional<int> after, const std::vec
   return stop_without_way(routes, std::move(starts), stops, repeats);
 }
 
+bool SiteRun::stands() const {
+  const auto now = view();
+  return !now || stands_still(*now);
+}
+
 bool SiteRun::may_change_site() const {
   const auto now = view();
-  return !now || stands(*now);
+  return !now || (stands_still(*now) && !is_to_be_confirmed(now->mode));
 }
 
 std::vector<SeenWall> SiteRun::walls_seen() const {

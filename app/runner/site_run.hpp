@@ -69,6 +69,8 @@ class SiteRun {
   [[nodiscard]] std::optional<int> without_way(std::optional<int> after, const std::vector<int>& stops,
                                                bool repeats) const;
   /// The vehicle stands, and will not move before somebody lets it.
+  [[nodiscard]] bool stands() const;
+  /// It stands(), and nothing is to be confirmed: a new run would forget an emergency stop or a fault.
   [[nodiscard]] bool may_change_site() const;
   /// What the run has seen of the drawn walls; empty while there is none.
   [[nodiscard]] std::vector<SeenWall> walls_seen() const;

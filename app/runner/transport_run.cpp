@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/clock.hpp"
@@ -67,6 +68,8 @@ void TransportRun::tick(Stamp now) {
   state_ = std::move(result.state);
   link_->send(result.output);
   carry_out(result.output, now);
+  if (std::ranges::any_of(input.commands, [](const auto& c) { return c.word == OperatorWord::Stop; }))
+    orders_.cancel_running("stopped at the panel", time_of_day(now));
   if (tap_) tap_(input, result.output, state_);
   const std::string problem = orders_.problem();
   const std::scoped_lock lock(mutex_);

@@ -38,8 +38,8 @@ class ToldCause {
 /// counts the encoders' turns. Firmware and simulator run this same class. Freestanding.
 ///
 /// Any stop (silence, emergency stop, bumper, fault) is held: its cause is told for at least 200 ms; when it
-/// has gone, the state is Idle, and the wheels turn again only after a command without enable has been
-/// followed by one with it.
+/// has gone, the state is Idle, it is counted, and the wheels turn again only after a command without enable
+/// has been followed by one with it.
 class Controller {
  public:
   /// One byte from the line; `now_us` is the controller's clock, which may wrap.
@@ -69,7 +69,13 @@ class Controller {
     inputs_.faults = faults_.update(inputs.faults, now_us);
     now_us_ = now_us;
     watch(now_us);
-    if (!clear()) armed_ = running_ = false;
+    if (clear()) {
+      was_clear_ = true;
+      return;
+    }
+    armed_ = running_ = false;
+    if (was_clear_) stops_ = static_cast<std::uint8_t>((stops_ + 1U) % kStopsWrap);
+    was_clear_ = false;
   }
 
   [[nodiscard]] constexpr DriveState state() const {
@@ -94,6 +100,7 @@ class Controller {
     status.emergency_stop = inputs_.emergency_stop;
     status.bumper = inputs_.bumper;
     status.watchdog_expired = expired_;
+    status.stops = stops_;
     status.faults = inputs_.faults;
     status.time_us = now_us_;
     status.left_angle = inputs_.left_angle;
@@ -150,6 +157,8 @@ class Controller {
   std::int16_t right_turns_ = 0;
   std::uint16_t status_sequence_ = 0;
   std::uint16_t rejected_ = 0;
+  std::uint8_t stops_ = 0;
+  bool was_clear_ = true;
   bool counted_ = false;
   bool fed_ = false;
   bool expired_ = false;

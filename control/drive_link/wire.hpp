@@ -19,7 +19,8 @@ inline constexpr std::size_t kMaxFrame =
     kStatusBytes + kCobsOverhead + 1;  ///< on the line, with the closing zero
 inline constexpr std::uint32_t kWatchdogMicroseconds = 200'000;
 inline constexpr std::int32_t kMaxWheelSpeed =
-    100'000'000;                                        ///< urad/s; a faster command is refused as garbage
+    100'000'000;  ///< urad/s; a faster command is refused as garbage
+inline constexpr std::uint8_t kStopsWrap = 32;
 inline constexpr std::int32_t kCountsPerTurn = 16'384;  ///< AS5048A, 14 bit
 
 /// PC -> controller.
@@ -58,6 +59,7 @@ struct Status {
   bool emergency_stop = false;
   bool bumper = false;
   bool watchdog_expired = false;
+  std::uint8_t stops = 0;  ///< by emergency stop, bumper or fault since power-up, modulo kStopsWrap
   std::uint16_t faults = kNoFault;
   std::uint32_t time_us = 0;     ///< controller's clock when the encoders were read; wraps after 71.6 min
   std::uint16_t left_angle = 0;  ///< AS5048A, 0 ... 16383, grows while driving forward
@@ -68,6 +70,15 @@ struct Status {
   std::uint16_t rejected_frames =
       0;  ///< damaged or unknown frames that the controller has thrown away, wraps
 };
+
+/// Whether a status tells of a stop by hand or bumper.
+constexpr bool tells_stop(const Status& s) {
+  return s.emergency_stop || s.bumper || s.state == DriveState::EmergencyStop ||
+         s.state == DriveState::BumperStop;
+}
+constexpr bool tells_fault(const Status& s) {
+  return s.faults != kNoFault || s.state == DriveState::Fault;
+}
 
 /// Why a frame was thrown away.
 enum class Verdict : std::uint8_t { Good, BadStuffing, BadLength, BadVersion, BadType, BadCrc, BadValue };
@@ -133,7 +144,8 @@ constexpr std::size_t encode(const Status& status, std::uint8_t* out) {
   detail::put16(raw + 4, status.command_sequence);
   raw[6] = static_cast<std::uint8_t>(status.state);
   raw[7] = static_cast<std::uint8_t>((status.emergency_stop ? 1U : 0U) | (status.bumper ? 2U : 0U) |
-                                     (status.watchdog_expired ? 4U : 0U));
+                                     (status.watchdog_expired ? 4U : 0U) |
+                                     (static_cast<unsigned>(status.stops % kStopsWrap) << 3U));
   detail::put16(raw + 8, status.faults);
   detail::put32(raw + 10, status.time_us);
   detail::put16(raw + 14, status.left_angle);
@@ -163,7 +175,7 @@ constexpr Verdict decode(const std::uint8_t* frame, std::size_t count, Status& s
   const Verdict verdict = detail::unseal(frame, count, kStatusType, kStatusBytes, raw);
   if (verdict != Verdict::Good) return verdict;
   const std::uint16_t left = detail::get16(raw + 14), right = detail::get16(raw + 16);
-  if (raw[6] > static_cast<std::uint8_t>(DriveState::Fault) || raw[7] > 7 || left >= kCountsPerTurn ||
+  if (raw[6] > static_cast<std::uint8_t>(DriveState::Fault) || left >= kCountsPerTurn ||
       right >= kCountsPerTurn)
     return Verdict::BadValue;
   status.sequence = detail::get16(raw + 2);
@@ -172,6 +184,7 @@ constexpr Verdict decode(const std::uint8_t* frame, std::size_t count, Status& s
   status.emergency_stop = (raw[7] & 1U) != 0;
   status.bumper = (raw[7] & 2U) != 0;
   status.watchdog_expired = (raw[7] & 4U) != 0;
+  status.stops = raw[7] >> 3U;
   status.faults = detail::get16(raw + 8);
   status.time_us = detail::get32(raw + 10);
   status.left_angle = left;

@@ -15,13 +15,22 @@ json to_wire(const mapping::ImportReport& report) {
           {"notes", report.notes}};
 }
 
+void require_change(const Vehicle& vehicle) {
+  const Reply may = vehicle.may_change_site();
+  if (!may.accepted) throw Job::Failed(may.reason.code, may.reason.text);
+}
+
 Response start_import(ApiContext& context, const Request& request) {
   const Reply may = context.vehicle.may_change_site();
   if (!may.accepted) return answer(may);
   const UploadedDrawing drawing = uploaded_drawing(context, request);
   const bool started = context.job.start("import", [drawing, &context](const Job::Progress& progress) {
+    const auto standing = [&](const std::string& stage, double share) {
+      progress(stage, share);
+      if (stage == "commit") require_change(context.vehicle);  // it may have driven off meanwhile
+    };
     const auto report =
-        drawing.read([&](const auto& options) { return mapping::import_drawing(options, progress); });
+        drawing.read([&](const auto& options) { return mapping::import_drawing(options, standing); });
     context.vehicle.reload_site();
     return Job::Outcome{std::to_string(report.walls.size()) + " walls", to_wire(report)};
   });

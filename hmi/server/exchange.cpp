@@ -37,7 +37,7 @@ asio::awaitable<Response> answer(ServerParts& parts, Request& request, const Gat
 }
 
 asio::awaitable<void> serve_live_socket(ServerParts& parts, beast::tcp_stream& stream, RequestParser& parser,
-                                        Role role) {
+                                        const std::string& token) {
   Response refusal;
   if (!beast::websocket::is_upgrade(parser.get()))
     refusal = Response::error(426, "websocket-only", "this address speaks WebSocket");
@@ -50,7 +50,9 @@ asio::awaitable<void> serve_live_socket(ServerParts& parts, beast::tcp_stream& s
     co_return;
   }
   const Counted count(parts.live_sockets);
-  co_await serve_live(std::move(stream), parser.release(), role, parts.vehicle, parts.feed,
+  // Named: GCC 12 destroys a temporary lambda of a co_await twice.
+  RoleNow role = [&access = parts.access, token] { return access.role_of(token); };
+  co_await serve_live(std::move(stream), parser.release(), std::move(role), parts.vehicle, parts.feed,
                       parts.options.live_rate_hz);
 }
 
@@ -69,7 +71,8 @@ asio::awaitable<bool> serve_one(ServerParts& parts, beast::tcp_stream& stream, b
   const auto target = parser.get().target();
   Gate::Passage passage = parts.gate.pass({target.data(), target.size()}, request);
   if (passage.way == Gate::Passage::Way::Live) {
-    co_await serve_live_socket(parts, stream, parser, request.role);
+    const std::string token = request.cookie("madori_session");
+    co_await serve_live_socket(parts, stream, parser, token);
     co_return false;
   }
   Response response = std::move(passage.refusal);

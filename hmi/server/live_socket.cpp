@@ -12,6 +12,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "hmi/server/live_command.hpp"
 
@@ -30,8 +31,8 @@ constexpr std::size_t kMostMessageBytes = 4096;
 
 /// What the reading, the writing and the watching coroutine of one socket share; all run on one thread.
 struct Session {
-  Session(beast::tcp_stream stream, Role r, Vehicle& v, LiveFeed& f)
-      : socket(std::move(stream)), role(r), vehicle(v), feed(f) {}
+  Session(beast::tcp_stream stream, RoleNow r, Vehicle& v, LiveFeed& f)
+      : socket(std::move(stream)), role(std::move(r)), vehicle(v), feed(f) {}
   ~Session() {
     end_jog();
     feed.left(this);
@@ -40,28 +41,31 @@ struct Session {
   Session& operator=(const Session&) = delete;
 
   void end_jog() {
-    if (jog_until) (void)vehicle.jog({});
+    if (holds) (void)vehicle.jog({}, this);
+    holds = false;
     jog_until.reset();
   }
 
   Socket socket;
-  Role role;
+  RoleNow role;
   Vehicle& vehicle;
   LiveFeed& feed;
+  bool holds = false;  ///< a jog button: it has not sent a zero jog since
   std::optional<Clock::time_point> jog_until;
   std::optional<Notice> refusal;  ///< to tell with the next state
   bool open = true;
 };
 
 void take_jog(Session& session, const VelocityCommand& velocity) {
-  if (session.role < Role::Operator) {
+  if (session.role() < Role::Operator) {
+    session.end_jog();
     session.refusal = Reply::refused("not-allowed", "only an operator may drive by hand").reason;
     return;
   }
-  const Reply reply = session.vehicle.jog(velocity);
+  session.holds = velocity != VelocityCommand{};
+  const Reply reply = session.vehicle.jog(velocity, &session);
   if (!reply.accepted) session.refusal = reply.reason;
-  const bool moving = reply.accepted && velocity != VelocityCommand{};
-  session.jog_until = moving ? std::optional(Clock::now() + kJogLife) : std::nullopt;
+  session.jog_until = reply.accepted && session.holds ? std::optional(Clock::now() + kJogLife) : std::nullopt;
 }
 
 void take_message(Session& session, const std::string& text) {
@@ -91,7 +95,9 @@ asio::awaitable<void> watch_jog(std::shared_ptr<Session> session) {
   while (session->open) {
     timer.expires_after(kJogWatch);
     co_await timer.async_wait(asio::redirect_error(asio::use_awaitable, error));
-    if (session->jog_until && Clock::now() > *session->jog_until) session->end_jog();
+    if (!session->jog_until || Clock::now() <= *session->jog_until) continue;
+    session->vehicle.jog_silent(session.get());
+    session->jog_until.reset();
   }
 }
 
@@ -101,7 +107,7 @@ asio::awaitable<void> write_states(std::shared_ptr<Session> session, double rate
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate_hz));
   boost::system::error_code error;
   std::shared_ptr<const std::string> last_scan;
-  while (session->open && !error) {
+  while (session->open && !error && session->role() >= Role::Viewer) {
     timer.expires_after(period);
     session->feed.refresh(Clock::now());
     const auto scan = session->feed.scan();
@@ -126,10 +132,10 @@ asio::awaitable<void> write_states(std::shared_ptr<Session> session, double rate
 }  // namespace
 
 asio::awaitable<void> serve_live(beast::tcp_stream stream,
-                                 beast::http::request<beast::http::string_body> upgrade, Role role,
+                                 beast::http::request<beast::http::string_body> upgrade, RoleNow role,
                                  Vehicle& vehicle, LiveFeed& feed, double rate_hz) {
   stream.expires_never();
-  const auto session = std::make_shared<Session>(std::move(stream), role, vehicle, feed);
+  const auto session = std::make_shared<Session>(std::move(stream), std::move(role), vehicle, feed);
   session->socket.set_option(
       websocket::stream_base::timeout{std::chrono::seconds(5), std::chrono::seconds(6), true});
   session->socket.read_message_max(kMostMessageBytes);

@@ -118,6 +118,8 @@ void write_backup(const fs::path& site, const fs::path& file) {
 }
 
 bool is_backup(const fs::path& file) {
+  std::error_code none;
+  if (!fs::is_regular_file(file, none)) return false;  // reading a pipe or a device may never end
   std::ifstream stream(file, std::ios::binary);
   TarBlock block{};
   return stream.read(block.data(), kTarBlock) && is_sound(block) &&
@@ -127,6 +129,8 @@ bool is_backup(const fs::path& file) {
 std::size_t read_backup(const fs::path& file, const fs::path& site, bool replace) {
   if (has_site(site) && !replace)
     throw Error(site.string(), "is a site already", "name another folder, or replace it with --force");
+  std::error_code none;
+  const std::uintmax_t archive = fs::file_size(file, none);
   std::ifstream stream(file, std::ios::binary);
   mapping::SiteTransaction change(site);
   change.say("backup restored");
@@ -139,6 +143,7 @@ std::size_t read_backup(const fs::path& file, const fs::path& site, bool replace
     if (!is_sound(block)) no_backup(file, "it is damaged");
     const std::uint64_t size = octal_of(block, 124, 12);
     if (size > kLargest) no_backup(file, "a file in it is too large");
+    if (size > archive) no_backup(file, "a file in it is larger than the whole");
     const std::string name = safe_name(block);
     const std::string content = read_content(stream, size, file);
     if (name.empty()) continue;

@@ -229,8 +229,11 @@ class Vehicle {
 
   [[nodiscard]] virtual LiveState live() const = 0;
   virtual Reply command(Command command) = 0;
-  /// Hold-to-run. The vehicle stops by itself when no further call comes within 250 ms.
-  virtual Reply jog(const VelocityCommand& velocity) = 0;
+  /// Hold-to-run of one panel, `who`; zero: its button was let go, or it has gone. The vehicle stops by
+  /// itself when no further call comes within 250 ms.
+  virtual Reply jog(const VelocityCommand& velocity, const void* who) = 0;
+  /// `who` is not heard any more: the vehicle stands. Nobody knows whether the button was let go.
+  virtual void jog_silent(const void* who) = 0;
 
   [[nodiscard]] virtual std::vector<OrderView> orders() const = 0;
   /// Orders that have ended, newest first.

@@ -116,8 +116,11 @@ std::optional<RememberedParts> Localizer::remembered() const {
 }
 
 void Localizer::start(const SurfaceScan& scan) {
-  if (!track_.empty() && anchor_stamp_ < scan.stamp)
-    anchor_ = anchor_ * track_.between(anchor_stamp_, scan.stamp, model_).motion;
+  if (!track_.empty() && anchor_stamp_ < scan.stamp) {
+    const Transform2<Base, Base> driven = track_.between(anchor_stamp_, scan.stamp, model_).motion;
+    anchor_ = anchor_ * driven;
+    if (map_.told) map_.told->carry(driven);
+  }
   anchor_stamp_ = scan.stamp;
   agreement_.begin(scan.stamp);
   double way_m = 0.0;
@@ -183,7 +186,8 @@ void Localizer::take_in_thoughts(Stamp stamp) {
 Memory Localizer::finished_memory() {
   MapState state = map_;
   state.think(options_);
-  return std::move(state.memory);
+  return RememberedParts{std::move(state.memory), state.drawing ? state.drawing->earlier : nullptr}
+      .together();
 }
 
 PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {

@@ -81,7 +81,12 @@ SightCount SightRing::of(const SurfaceScan& other, const Transform2<Base, Base>&
 
 SightCount sights_of_each_other(const SurfaceScan& here, const SurfaceScan& there,
                                 const Transform2<Base, Base>& here_from_there) {
-  SightCount sights = SightRing(here).of(there, here_from_there);
+  return sights_of_each_other(here, SightRing(here), there, here_from_there);
+}
+
+SightCount sights_of_each_other(const SurfaceScan& here, const SightRing& ring, const SurfaceScan& there,
+                                const Transform2<Base, Base>& here_from_there) {
+  SightCount sights = ring.of(there, here_from_there);
   sights += SightRing(there).of(here, here_from_there.inverse());
   return sights;
 }

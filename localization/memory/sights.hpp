@@ -65,7 +65,10 @@ class SightRing {
   std::vector<Bin> bins_;
 };
 
-/// What two scans say of each other.
+/// What two scans say of each other; the ring is that of the first.
+[[nodiscard]] SightCount sights_of_each_other(const SurfaceScan& here, const SightRing& ring,
+                                              const SurfaceScan& there,
+                                              const Transform2<Base, Base>& here_from_there);
 [[nodiscard]] SightCount sights_of_each_other(const SurfaceScan& here, const SurfaceScan& there,
                                               const Transform2<Base, Base>& here_from_there);
 

@@ -26,6 +26,12 @@ struct StartPrior {
   };
   std::optional<Former> former{};
 
+  /// What the vehicle drove since it was told.
+  void carry(const Transform2<Base, Base>& driven) {
+    map_from_base = map_from_base * driven;
+    if (former) former->map_from_base = former->map_from_base * driven;
+  }
+
   /// Of (x, y, yaw), about the pose: 1/m^2 and 1/rad^2.
   [[nodiscard]] Eigen::Matrix3d information() const {
     const double m2 = sigma_m * sigma_m;

@@ -8,6 +8,7 @@
 #include "localization/localizer/pose_covariance.hpp"
 #include "localization/memory/local_map.hpp"
 #include "localization/slam/final_fit.hpp"
+#include "localization/slam/grid_match.hpp"
 
 namespace madori::localization {
 namespace {
@@ -15,8 +16,7 @@ namespace {
 /// By how much a motion that was measured otherwise is off the wheels' word.
 double sigmas_squared(const OdometryStep& step, const Transform2<Base, Base>& motion,
                       const JointOptions& options) {
-  const Eigen::Vector3d e(motion.x_m() - step.motion.x_m(), motion.y_m() - step.motion.y_m(),
-                          wrap_angle(motion.yaw_rad() - step.motion.yaw_rad()));
+  const Eigen::Vector3d e = pose_difference(motion, step.motion);
   return e.dot(wheels_covariance(step, options).inverse() * e);
 }
 

@@ -29,10 +29,6 @@ constexpr std::size_t kAsked = 100;  // points of a scan: it counts as a dozen b
 
 }  // namespace
 
-Eigen::Vector3d pose_difference(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b) {
-  return {a.x_m() - b.x_m(), a.y_m() - b.y_m(), wrap_angle(a.yaw_rad() - b.yaw_rad())};
-}
-
 double PosePrior::log_density(const Transform2<Map, Base>& pose) const {
   const Eigen::Vector3d e = pose_difference(pose, map_from_base);
   return -0.5 * (kFreedom + 3.0) * std::log1p(e.dot(information * e) / kFreedom);

@@ -2,12 +2,16 @@
 
 #include <Eigen/Core>
 
+#include "core/angle.hpp"
 #include "localization/slam/surface_grid.hpp"
 
 namespace madori::localization {
 
-/// x, y and the wrapped yaw, Map axes.
-[[nodiscard]] Eigen::Vector3d pose_difference(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b);
+/// x, y and the wrapped yaw, in the axes of frame To.
+template <class To, class From>
+[[nodiscard]] Eigen::Vector3d pose_difference(const Transform2<To, From>& a, const Transform2<To, From>& b) {
+  return {a.x_m() - b.x_m(), a.y_m() - b.y_m(), wrap_angle(a.yaw_rad() - b.yaw_rad())};
+}
 
 /// The wheels' word on a pose: mean, and information of (x, y, yaw) in Map axes. Student's t with four
 /// degrees of freedom: wheels that slip, and logs whose clocks leap, are far off more often than a Gaussian

@@ -19,9 +19,8 @@ SightCount joint_sights(const Memory& memory, std::size_t k, const JointOptions&
     const SightRing ring(*keyframes[j].scan);
     for (std::size_t i = k; i > 0 && k - i < options.keyframes; --i) {
       const std::size_t before = i - 1;
-      const auto motion = poses[j].inverse() * poses[before];
-      sum += ring.of(*keyframes[before].scan, motion);
-      sum += SightRing(*keyframes[before].scan).of(*keyframes[j].scan, motion.inverse());
+      sum += sights_of_each_other(*keyframes[j].scan, ring, *keyframes[before].scan,
+                                  poses[j].inverse() * poses[before]);
       if (keyframes[before].cut) break;
     }
   }

@@ -283,9 +283,7 @@ bool LoopFinder::fit_all_over(const Memory& memory, const std::vector<std::size_
     const std::size_t asked = std::min(near.size(), kOthers);
     for (std::size_t n = 0; n < asked; ++n) {
       const std::size_t i = near[n * near.size() / asked].second;
-      const Transform2<Base, Base> motion = here.inverse() * poses[i];
-      sum += ring.of(*keyframes[i].scan, motion);
-      sum += SightRing(*keyframes[i].scan).of(*keyframes[k].scan, motion.inverse());
+      sum += sights_of_each_other(*keyframes[k].scan, ring, *keyframes[i].scan, here.inverse() * poses[i]);
     }
   }
   return sum.contradiction() < options_.most_through_all;

@@ -101,25 +101,26 @@ class LeastContradicted {
   };
 
   LeastContradicted(const Witnesses& witnesses, const Transform2<Base, Base>& wheels,
-                    const Eigen::Matrix3d& information)
-      : witnesses_(witnesses), wheels_(wheels), information_(information) {}
+                    const Eigen::Matrix3d& information, double reach_m)
+      : witnesses_(witnesses), wheels_(wheels), information_(information), reach_m_(reach_m) {}
 
   [[nodiscard]] Place at(const Transform2<Base, Base>& motion) const {
-    const Eigen::Vector3d e = pose_difference(as_pose(motion), as_pose(wheels_));
+    const Eigen::Vector3d e = pose_difference(motion, wheels_);
     const SightCount sights = witnesses_.at(motion);
     return {motion, sights, kNats * sights.contradiction() + 0.5 * e.dot(information_ * e)};
   }
 
-  /// The cheapest around `start`: along each axis, with steps that are halved where none is cheaper.
+  /// The cheapest within reach of `start`: along each axis, with steps that are halved where none is cheaper.
   [[nodiscard]] Place around(const Transform2<Base, Base>& start) const {
     Place here = at(start);
     for (double step = kStepM; step > kFinestM;) {
       Place next = here;
       for (const double by : {-step, step})
-        for (const Place& beside :
-             {at(moved(here.motion, by, 0.0, 0.0)), at(moved(here.motion, 0.0, by, 0.0)),
-              at(moved(here.motion, 0.0, 0.0, by * kRadPerM))})
-          if (beside.cost < next.cost) next = beside;
+        for (const auto& motion : {moved(here.motion, by, 0.0, 0.0), moved(here.motion, 0.0, by, 0.0),
+                                   moved(here.motion, 0.0, 0.0, by * kRadPerM)}) {
+          if (distance_m(start.translation(), motion.translation()) > reach_m_) continue;
+          if (const Place beside = at(motion); beside.cost < next.cost) next = beside;
+        }
       if (next.cost < here.cost)
         here = next;
       else
@@ -141,6 +142,7 @@ class LeastContradicted {
   const Witnesses& witnesses_;
   Transform2<Base, Base> wheels_;
   Eigen::Matrix3d information_;
+  double reach_m_;  ///< farther off the scans say nothing of each other, and wheels that jumped pull for ever
 };
 
 }  // namespace
@@ -195,7 +197,7 @@ StretchMatch lean_stretches(const Memory& memory, const Stretch& from, const Str
   constexpr double kNoWorse = 1.5;  // nats: half of chi-squared of three in the mean
   const Eigen::Matrix3d known = covariance.inverse();
   const Witnesses witnesses(memory, from, to, options.witnesses);
-  const LeastContradicted least(witnesses, wheels, known);
+  const LeastContradicted least(witnesses, wheels, known, options.map_radius_m);
   auto place = least.around(wheels);
   if (const auto other = least.around(laid); other.cost < place.cost) place = other;
   Eigen::Matrix3d information =

@@ -1,5 +1,8 @@
 #include "localization/warp/bent_drawing.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "localization/warp/other_ways.hpp"
 #include "localization/warp/place_by_clearances.hpp"
 
@@ -10,6 +13,10 @@ namespace {
 /// two metres, or by so much of what is known.
 constexpr double kMoreWalls = 4.0;
 constexpr double kGrowth = 1.05;
+
+std::pair<double, double> in_order(const Point2<Map>& p) {
+  return {p.x_m, p.y_m};
+}
 
 }  // namespace
 
@@ -35,8 +42,9 @@ double BentDrawing::share_within(const Transform2<Map, Base>& in_building, doubl
 }
 
 Point2<Map> BentDrawing::place(const Point2<Map>& on_drawing) const {
-  for (const Place& place : places)
-    if (place.drawn == on_drawing) return place.stands;
+  const auto found = std::ranges::lower_bound(places, in_order(on_drawing), {},
+                                              [](const Place& p) { return in_order(p.drawn); });
+  if (found != places.end() && found->drawn == on_drawing) return found->stands;
   return in_building({on_drawing.x_m, on_drawing.y_m, 0.0}).translation();
 }
 
@@ -69,6 +77,7 @@ void BendingDrawing::take(const WarpFit& fit, const MemoryCloud& cloud) {
     const Point2<Building> carried = fit.warp.building(drawn);
     bent.places.push_back({drawn, place_by_clearances(walls, cloud, drawn, {carried.x_m, carried.y_m})});
   }
+  std::ranges::sort(bent.places, {}, [](const BentDrawing::Place& p) { return in_order(p.drawn); });
   bent_ = std::make_shared<const BentDrawing>(std::move(bent));
 }
 

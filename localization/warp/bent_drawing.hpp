@@ -17,7 +17,7 @@ struct BentDrawing {
     Point2<Map> drawn;
     Point2<Map> stands;
   };
-  std::vector<Place> places;
+  std::vector<Place> places;  ///< by where they are drawn, x before y
 
   /// One of the places where it stands, any other where the warp carries it.
   [[nodiscard]] Point2<Map> place(const Point2<Map>& on_drawing) const;

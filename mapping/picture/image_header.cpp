@@ -41,9 +41,16 @@ bool starts_with(std::span<const std::uint8_t> bytes, const std::array<std::uint
   return bytes.size() >= N && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
+int png_bytes_per_px(const Reader& read) {
+  constexpr int kGrey = 0, kColour = 2, kPalette = 3;  // the others have alpha, and are decoded to four
+  const auto kind = static_cast<int>(read.integer(25, 1));
+  const int channels = kind == kGrey ? 1 : kind == kColour || kind == kPalette ? 3 : 4;
+  return read.integer(24, 1) == 16 ? 2 * channels : channels;
+}
+
 ImageHeader png(std::span<const std::uint8_t> bytes) {
   const Reader read(bytes, true);
-  ImageHeader header{ImageFormat::Png, read.u32(16), read.u32(20), 0};
+  ImageHeader header{ImageFormat::Png, read.u32(16), read.u32(20), 0, png_bytes_per_px(read)};
   for (std::size_t at = 8; at + 12 <= read.size();) {
     if (read.is(at + 4, "IDAT")) break;
     if (read.is(at + 4, "pHYs") && read.integer(at + 16, 1) == 1) header.dpi = read.u32(at + 8) * kInch;
@@ -60,7 +67,7 @@ double jfif_dpi(const Reader& read, std::size_t at) {
 
 ImageHeader jpeg(std::span<const std::uint8_t> bytes) {
   const Reader read(bytes, true);
-  ImageHeader header{ImageFormat::Jpeg, 0, 0, 0};
+  ImageHeader header{ImageFormat::Jpeg, 0, 0, 0, 3};
   for (std::size_t at = 2; at + 9 <= read.size() && read.integer(at, 1) == 0xFF;) {
     const std::uint32_t marker = read.integer(at + 1, 1);
     if (marker == 0xE0) header.dpi = jfif_dpi(read, at);
@@ -75,12 +82,14 @@ ImageHeader jpeg(std::span<const std::uint8_t> bytes) {
   return header;
 }
 
+constexpr std::uint32_t kTiffPalette = 3;
+
 ImageHeader tiff(std::span<const std::uint8_t> bytes) {
   const Reader read(bytes, bytes[0] == 'M');
   ImageHeader header{ImageFormat::Tiff, 0, 0, 0};
   const std::size_t directory = read.u32(4);
   double resolution = 0;
-  std::uint32_t unit = 2;
+  std::uint32_t unit = 2, bits = 1, samples = 1;
   for (std::size_t i = 0; i < read.u16(directory); ++i) {
     const std::size_t at = directory + 2 + 12 * i;
     const std::uint32_t value = read.u16(at + 2) == 3 ? read.u16(at + 8) : read.u32(at + 8);
@@ -90,6 +99,15 @@ ImageHeader tiff(std::span<const std::uint8_t> bytes) {
         break;
       case 257:
         header.height_px = value;
+        break;
+      case 258:  // one a sample, elsewhere where they do not fit in here
+        bits = read.u32(at + 4) > 2 ? read.u16(read.u32(at + 8)) : value;
+        break;
+      case 262:
+        if (value == kTiffPalette) samples = std::max(samples, 3U);
+        break;
+      case 277:
+        samples = std::max(samples, value);
         break;
       case 282:
         resolution = read.u32(value) / std::max(1.0, 1.0 * read.u32(std::size_t{value} + 4));
@@ -101,20 +119,20 @@ ImageHeader tiff(std::span<const std::uint8_t> bytes) {
         break;
     }
   }
+  header.bytes_per_px = static_cast<int>(std::clamp(samples, 1U, 4U) * std::clamp((bits + 7) / 8, 1U, 8U));
   header.dpi = unit == 2 ? resolution : unit == 3 ? resolution * 2.54 : 0;
   return header;
 }
 
 ImageHeader bmp(std::span<const std::uint8_t> bytes) {
   const Reader read(bytes, false);
-  if (read.u32(14) == 12) return {ImageFormat::Bmp, read.u16(18), read.u16(20), 0};
+  if (read.u32(14) == 12) return {ImageFormat::Bmp, read.u16(18), read.u16(20), 0, 3};
   const std::int64_t height = static_cast<std::int32_t>(read.u32(22));  // negative: top-down
-  return {ImageFormat::Bmp, read.u32(18), height < 0 ? -height : height, read.u32(38) * kInch};
+  const int bytes_per_px = read.u16(28) == 32 ? 4 : 3;
+  return {ImageFormat::Bmp, read.u32(18), height < 0 ? -height : height, read.u32(38) * kInch, bytes_per_px};
 }
 
-}  // namespace
-
-std::optional<ImageHeader> read_image_header(std::span<const std::uint8_t> bytes) {
+std::optional<ImageHeader> header_of(std::span<const std::uint8_t> bytes) {
   using Four = std::array<std::uint8_t, 4>;
   if (starts_with(bytes, std::array<std::uint8_t, 8>{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}))
     return png(bytes);
@@ -123,6 +141,15 @@ std::optional<ImageHeader> read_image_header(std::span<const std::uint8_t> bytes
     return tiff(bytes);
   if (starts_with(bytes, std::array<std::uint8_t, 2>{'B', 'M'}) && bytes.size() >= 26) return bmp(bytes);
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ImageHeader> read_image_header(std::span<const std::uint8_t> bytes) {
+  constexpr double kLeastDpi = 1.0, kMostDpi = 100'000.0;
+  auto header = header_of(bytes);
+  if (header && !(header->dpi >= kLeastDpi && header->dpi <= kMostDpi)) header->dpi = 0;
+  return header;
 }
 
 }  // namespace madori::mapping

@@ -13,7 +13,8 @@ struct ImageHeader {
   ImageFormat format = ImageFormat::Png;
   std::int64_t width_px = 0;  ///< 0 where the header does not say
   std::int64_t height_px = 0;
-  double dpi = 0;  ///< 0 = not stated
+  double dpi = 0;        ///< 0 = not stated, or not that of a drawing (below 1, above 100,000)
+  int bytes_per_px = 1;  ///< of the decoded picture: channels times bytes of a sample
 };
 
 /// The header, or nothing where the bytes are none of these formats. Never reads outside `bytes`.

@@ -13,18 +13,19 @@
 #include "mapping/picture/grey_png.hpp"
 #include "mapping/picture/image_header.hpp"
 #include "mapping/picture/quiet_stderr.hpp"
+#include "mapping/site/atomic_file.hpp"
 
 namespace madori::mapping {
 namespace {
 
 namespace fs = std::filesystem;
+constexpr std::uint64_t kMostFileBytes = 512'000'000;
 constexpr auto kFormats = "give a PNG, JPEG, TIFF or BMP picture";
 
 std::vector<std::uint8_t> read_bytes(const fs::path& file) {
   std::error_code error;
-  const auto status = fs::status(file, error);
-  if (!fs::exists(status)) throw Error(file.string(), "there is no such file", "check the path");
-  if (fs::is_directory(status)) throw Error(file.string(), "is a folder", "name the drawing inside it");
+  if (fs::is_directory(file, error)) throw Error(file.string(), "is a folder", "name the drawing inside it");
+  expect_readable(file, kMostFileBytes);
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
   const auto size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
   if (size < 0) throw Error(file.string(), "cannot be read", "check its permissions");
@@ -35,6 +36,14 @@ std::vector<std::uint8_t> read_bytes(const fs::path& file) {
   return bytes;
 }
 
+void expect_at_most(const fs::path& file, double amount, double most, const char* unit) {
+  if (amount > most)
+    throw Error(file.string(),
+                "has " + std::to_string(std::llround(amount)) + unit + ", more than " +
+                    std::to_string(std::llround(most)),
+                "export it at a lower resolution (12 megapixels are plenty for a floor)");
+}
+
 ImageHeader checked_header(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
   if (bytes.empty()) throw Error(file.string(), "is empty", kFormats);
   const auto header = read_image_header(bytes);
@@ -43,11 +52,8 @@ ImageHeader checked_header(const fs::path& file, const std::vector<std::uint8_t>
     throw Error(file.string(), "has no pixels or is cut off", "export it again");
   const double megapixels =
       static_cast<double>(header->width_px) * static_cast<double>(header->height_px) / 1e6;
-  if (megapixels > kMaxImageMegapixels)
-    throw Error(file.string(),
-                "has " + std::to_string(std::llround(megapixels)) + " megapixels, more than " +
-                    std::to_string(std::llround(kMaxImageMegapixels)),
-                "export it at a lower resolution (12 megapixels are plenty for a floor)");
+  expect_at_most(file, megapixels, kMaxImageMegapixels, " megapixels");
+  expect_at_most(file, megapixels * header->bytes_per_px, kMaxDecodedMb, " MB decoded");
   return *header;
 }
 

@@ -68,7 +68,38 @@ std::filesystem::path end_of_links(std::filesystem::path file) {
   return file;
 }
 
+std::string temporary_of(const std::filesystem::path& file) {
+  return file.string() + ".tmp" + std::to_string(::getpid());
+}
+
 }  // namespace
+
+void expect_writable(const std::filesystem::path& named) {
+  struct stat there {};
+  const bool is_special = ::stat(named.c_str(), &there) == 0 && !S_ISREG(there.st_mode);
+  if (is_special) {  // opening a pipe would wait for its reader
+    errno = S_ISDIR(there.st_mode) ? EISDIR : 0;
+    if (errno != 0 || ::access(named.c_str(), W_OK) != 0) fail(named, "cannot be written");
+    return;
+  }
+  const std::string temporary = temporary_of(end_of_links(named));
+  write_whole(temporary, named, "", false);
+  ::unlink(temporary.c_str());
+}
+
+void expect_readable(const std::filesystem::path& file, std::uint64_t most_bytes) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw Error(file.string(), "there is no such file", "check the path");
+  if (!std::filesystem::is_regular_file(status))
+    throw Error(file.string(), "is no regular file", "save its content to a file first");
+  const auto size = std::filesystem::file_size(file, error);
+  if (!error && size > most_bytes)
+    throw Error(file.string(),
+                "has " + std::to_string((size + 999'999) / 1'000'000) + " MB, more than " +
+                    std::to_string(most_bytes / 1'000'000),
+                "check that it is the right file");
+}
 
 void write_new_file(const std::filesystem::path& file, std::string_view content) {
   write_whole(file.string(), file, content, false);
@@ -83,7 +114,7 @@ void write_file_atomically(const std::filesystem::path& named, std::string_view 
   struct stat there {};
   if (::stat(named.c_str(), &there) == 0 && !S_ISREG(there.st_mode)) return write_into(named, content);
   const std::filesystem::path file = end_of_links(named);
-  const std::string temporary = file.string() + ".tmp" + std::to_string(::getpid());
+  const std::string temporary = temporary_of(file);
   write_whole(temporary, named, content, true);
   if (::rename(temporary.c_str(), file.c_str()) != 0) {
     const int error = errno;

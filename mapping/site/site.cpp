@@ -56,6 +56,13 @@ VehicleRecord read_vehicle(StrictYaml yaml) {
   if (r.base_to_rear_m > r.length_m)
     throw yaml.error("base_to_rear_m", "the axle lies before the vehicle's front",
                      "measure from the driven axle to the rear bumper; at most length_m");
+  constexpr double kFastestRadps = 100.0;  // that a command of the drive link holds
+  const double rim_mps = r.max_speed_mps + r.max_turn_rate_radps * r.half_wheel_separation_m;
+  if (rim_mps > kFastestRadps * r.wheel_radius_m)
+    throw yaml.error("wheel_radius_m",
+                     "so small a wheel would turn faster than " + std::to_string(std::lround(kFastestRadps)) +
+                         " rad/s at max_speed_mps, which no command can say",
+                     "correct it, or lower max_speed_mps");
   yaml.refuse_unknown_keys();
   return r;
 }

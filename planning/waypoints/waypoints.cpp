@@ -103,6 +103,10 @@ Result<Path> make_waypoints(const std::vector<WayCorner>& corners, const Waypoin
   const auto way = without_repetitions(corners);
   if (way.size() < 2) return Result<Path>::failure("the way has less than two different points");
   const auto strokes = strokes_of(way, options);
+  double length_m = 0.0;
+  for (const Stroke& stroke : strokes) length_m += stroke.length_m;
+  if (!(length_m / options.spacing_m <= kMostWaypoints))
+    return Result<Path>::failure("the way needs more than two million waypoints");
   Path path;
   for (std::size_t first = 0; first < strokes.size();) {
     std::size_t end = first + 1;

@@ -12,6 +12,9 @@ namespace madori::planning {
 /// Waypoints nearer together than this are one place, rounded: there the vehicle turns on the spot.
 inline constexpr double kSamePointM = 1e-6;
 
+/// A path of more is refused: 200 km at the usual spacing, 100 MB.
+inline constexpr double kMostWaypoints = 2e6;
+
 /// A corner of the way, with what holds on the leg that leads to it.
 struct WayCorner {
   Point2<Map> position;
@@ -27,7 +30,8 @@ struct WaypointOptions {
 
 /// Waypoints at equal spacing along the way (layout-map paper, section 3.3.2), corners rounded by arcs as far
 /// as the vehicle can follow. A turn on the spot is a repeated position with the new heading; so is the final
-/// heading, where one is asked for. Fails where there are less than two distinct corners.
+/// heading, where one is asked for. Fails where there are less than two distinct corners, or more than
+/// kMostWaypoints would be needed.
 [[nodiscard]] Result<Path> make_waypoints(const std::vector<WayCorner>& way,
                                           const WaypointOptions& options = {},
                                           std::optional<double> final_heading_rad = std::nullopt);

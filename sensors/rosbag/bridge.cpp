@@ -178,14 +178,24 @@ bool closes(rosbag::Bag& bag) {
 }  // namespace
 
 Output::Output(const std::string& file) : state_(std::make_unique<State>()) {
-  state_->bag.open(file, rosbag::bagmode::Write);
+  try {
+    state_->bag.open(file, rosbag::bagmode::Write);
+  } catch (...) {
+    state_->descriptor = descriptor_of(file);
+    close_anyhow();
+    throw;
+  }
   state_->bag.setCompression(rosbag::compression::LZ4);
   state_->descriptor = descriptor_of(file);
 }
 
+Output::~Output() {
+  close_anyhow();
+}
+
 /// A bag that cannot be closed (the disk is full) would throw from its destructor and end the program: what
 /// it still wants to write then goes nowhere. Where even that fails, its memory is given up instead.
-Output::~Output() {
+void Output::close_anyhow() {
   if (closes(state_->bag)) return;
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   const bool diverted = nowhere >= 0 && state_->descriptor >= 0 && ::dup2(nowhere, state_->descriptor) >= 0;

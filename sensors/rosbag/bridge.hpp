@@ -109,6 +109,7 @@ class Output {
   void close();
 
  private:
+  void close_anyhow();
   struct State;
   std::unique_ptr<State> state_;
 };

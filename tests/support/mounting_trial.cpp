@@ -76,6 +76,8 @@ MountingTrialResult run_mounting_trial(const MountingTrial& trial) {
        t += 0.02) {
     app::CycleInput input;
     link.collect(input);
+    if (t >= trial.pressed_at_s && t < trial.pressed_at_s + 0.3)
+      for (auto& status : input.drive) status.emergency_stop = trial.pressed_at_s >= 0.0;
     input.now = factory->now();
     log.add(input);
     link.send(drive.step(input, log.odometry()));

@@ -16,6 +16,7 @@ struct MountingTrial {
   std::uint64_t seed = 1;
   double way_m = 1.0;
   double turn_rad = 6.283185307179586;
+  double pressed_at_s = -1.0;  ///< the emergency stop, for 0.3 s; below 0: never
 };
 
 struct MountingTrialResult {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -26,10 +27,15 @@ class ScriptedVehicle : public hmi::Vehicle {
       return hmi::Reply::refused("lost", "the vehicle does not know where it is");
     return hmi::Reply::done();
   }
-  hmi::Reply jog(const VelocityCommand& velocity) override {
+  hmi::Reply jog(const VelocityCommand& velocity, const void* /*who*/) override {
     const std::scoped_lock lock(mutex_);
     jogs_.push_back(velocity);
     return hmi::Reply::done();
+  }
+  void jog_silent(const void* /*who*/) override {
+    const std::scoped_lock lock(mutex_);
+    jogs_.emplace_back();
+    ++silences_;
   }
   [[nodiscard]] std::vector<hmi::OrderView> orders() const override {
     const std::scoped_lock lock(mutex_);
@@ -90,8 +96,9 @@ class ScriptedVehicle : public hmi::Vehicle {
   [[nodiscard]] std::shared_ptr<const std::string> camera_jpeg() const override { return camera_; }
   [[nodiscard]] hmi::Reply may_change_site() const override {
     const std::scoped_lock lock(mutex_);
-    return driving_ ? hmi::Reply::refused("driving", "the vehicle is driving: pause it first")
-                    : hmi::Reply::done();
+    return driving_ || (drives_when_ && drives_when_())
+               ? hmi::Reply::refused("driving", "the vehicle is driving: pause it first")
+               : hmi::Reply::done();
   }
   void reload_site() override {
     const std::scoped_lock lock(mutex_);
@@ -157,6 +164,11 @@ class ScriptedVehicle : public hmi::Vehicle {
     const std::scoped_lock lock(mutex_);
     driving_ = driving;
   }
+  /// It drives off by itself.
+  void drive_when(std::function<bool()> when) {
+    const std::scoped_lock lock(mutex_);
+    drives_when_ = std::move(when);
+  }
   void show_camera(std::string jpeg) { camera_ = std::make_shared<const std::string>(std::move(jpeg)); }
   [[nodiscard]] std::vector<Transform2<Map, Base>> poses() const {
     const std::scoped_lock lock(mutex_);
@@ -182,6 +194,11 @@ class ScriptedVehicle : public hmi::Vehicle {
     const std::scoped_lock lock(mutex_);
     return jogs_;
   }
+  /// How often a panel that held a jog button fell silent.
+  [[nodiscard]] int silences() const {
+    const std::scoped_lock lock(mutex_);
+    return silences_;
+  }
   [[nodiscard]] std::vector<hmi::Command> commands() const {
     const std::scoped_lock lock(mutex_);
     return commands_;
@@ -199,7 +216,9 @@ class ScriptedVehicle : public hmi::Vehicle {
   std::vector<hmi::Command> commands_;
   long long last_id_ = 0;
   int reloads_ = 0;
+  int silences_ = 0;
   bool driving_ = false;
+  std::function<bool()> drives_when_;
   std::vector<Transform2<Map, Base>> poses_;
   std::shared_ptr<const std::string> camera_;
   bool refuse_start_ = false;

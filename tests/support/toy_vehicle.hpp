@@ -57,9 +57,13 @@ class ToyVehicle {
     turn_wheels();
     controller_.tick({emergency_stop, bumper, drive_faults, angle(left_rad_), angle(right_rad_), battery_mv},
                      micros);
+    (void)controller_.next_status();  // one every 10 ms, heard or not
+    const auto status = controller_.next_status();
+    if (!drive_silent) waiting_.push_back(status);
+    if (hung) return;
     app::CycleInput input;
     input.now = stamp_from_seconds(1'000.0 + time_s_ + clock_s);
-    if (!drive_silent) input.drive.push_back(controller_.next_status());
+    input.drive = std::exchange(waiting_, {});
     if (++ticks_ % 5 == 0 && !lidar_silent)
       input.clouds.push_back(cloud(input.now - duration_from_seconds(cloud_age_s)));
     input.commands = std::exchange(commands, {});
@@ -89,7 +93,9 @@ class ToyVehicle {
   }
   /// The drive's controller starts anew, as after a brown-out: idle, and armed only by a command that does
   /// not enable it.
+  void count_frames() { (void)controller_.next_status(), (void)controller_.next_status(); }
   void restart_drive() { controller_ = {}; }
+  [[nodiscard]] control::wire::DriveState drive_state() const { return controller_.state(); }
   void set_source(std::unique_ptr<app::PoseSource> source) {
     pose = nullptr;
     state_.localization = std::move(source);
@@ -122,6 +128,8 @@ class ToyVehicle {
   ToyLidar lidar;
   bool protective_stop = false;
   bool emergency_stop = false, bumper = false, drive_silent = false, lidar_silent = false;
+  bool drive_deaf = false;  ///< commands do not reach it
+  bool hung = false;        ///< the cycle takes no step
   std::uint16_t drive_faults = 0;
   std::uint16_t battery_mv = 25'000;
   double right_wheel_share = 1.0;  ///< of what it is told: a weak motor, a dead one
@@ -172,7 +180,7 @@ class ToyVehicle {
         control::wire::Command{++sequence_, output.enable, static_cast<std::int32_t>(wheels.left_radps * 1e6),
                                static_cast<std::int32_t>(wheels.right_radps * 1e6)},
         frame.data());
-    if (!drive_silent)
+    if (!drive_silent && !drive_deaf)
       for (std::size_t i = 0; i < size; ++i) controller_.receive(frame[i], micros);
     driven.push_back(output.command);
     events.insert(events.end(), output.events.begin(), output.events.end());
@@ -194,6 +202,7 @@ class ToyVehicle {
   std::int64_t orders_ = 0;
   std::uint16_t sequence_ = 0;
   std::optional<planning::DetourAnswer> detour_;
+  std::vector<control::wire::Status> waiting_;
   app::CycleState state_;
 };
 

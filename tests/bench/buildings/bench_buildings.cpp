@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "app/commands/within.hpp"
 #include "core/result.hpp"
 #include "tests/bench/buildings/bent_campaign.hpp"
 #include "tests/bench/buildings/building_drive.hpp"
@@ -91,7 +92,9 @@ int main(int argc, char** argv) {
   app.add_option("--seed", a.drive.seed, "order of stations, and how taps are off")->capture_default_str();
   app.add_option("--laps", a.drive.laps, "visits of all stations")->capture_default_str();
   app.add_option("--limit-s", a.drive.limit_s, "simulated seconds for one delivery")->capture_default_str();
-  app.add_option("--jobs", a.jobs, "processes at once")->check(CLI::Range(1, 64))->capture_default_str();
+  app.add_option("--jobs", a.jobs, "processes at once")
+      ->check(madori::app::within(1, 64))
+      ->capture_default_str();
   app.add_option("--hand-made", a.drive.hand_made,
                  "folder: BUILDING/walls.csv, marked in the drawing by hand, in place of the imported walls");
   app.add_option("--trace", a.drive.trace,

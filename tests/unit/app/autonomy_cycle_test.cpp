@@ -31,6 +31,34 @@ TEST(AutonomyCycle, AnOrderIsDeliveredAndTheGoalIsMetInPlaceAndHeading) {
   EXPECT_EQ(v->state().mode, Mode::Idle);
 }
 
+TEST(AutonomyCycle, WhoStandsAtTheStopAlreadyTurnsToItsHeading) {
+  for (const double off_deg : {10.0, 30.0, 40.0}) {
+    auto v = corridor_vehicle();
+    v->rolling.set_pose({22.0, 0.0, to_rad(90.0 - off_deg)});
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    ASSERT_TRUE(v->run_until([&] { return v->delivered(); }, 20.0)) << off_deg;
+    EXPECT_NEAR(to_deg(v->rolling.pose().yaw_rad()), 90.0, 1.0);
+  }
+}
+
+/// Beyond the end of its way, or beside it, is not at the stop.
+TEST(AutonomyCycle, WhatIsDrivenPastTheStopByHandIsNotDelivered) {
+  for (const double past_m : {0.3, 0.55, 0.7}) {
+    auto v = corridor_vehicle();
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    ASSERT_TRUE(v->run_until([&] { return v->rolling.pose().x_m() > 20.5; }, 60.0));
+    v->say(OperatorWord::ManualOn);
+    v->run_until([] { return false; }, 1.0);
+    v->rolling.set_pose({22.0 + past_m * 0.8, past_m * 0.6, 0.0});
+    v->say(OperatorWord::ManualOff);
+    v->say(OperatorWord::Resume);
+    ASSERT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << v->state().standstill.cause.text;
+    EXPECT_LT(distance_m(v->rolling.pose().translation(), Point2<Map>{22.0, 0.0}), 0.05) << past_m;
+  }
+}
+
 TEST(AutonomyCycle, AnUnknownNodeIsRefusedAndSaidSo) {
   auto v = corridor_vehicle();
   v->drive_to({{99}});
@@ -41,6 +69,7 @@ TEST(AutonomyCycle, AnUnknownNodeIsRefusedAndSaidSo) {
 
 TEST(AutonomyCycle, ManualModeFollowsTheHeldKeyAndStopsWithoutIt) {
   auto v = corridor_vehicle();
+  v->step();  // commands that do not enable the drive arm it
   v->say(OperatorWord::ManualOn);
   v->commands.push_back({OperatorWord::Jog, {0.3, 0.0}});
   v->run_until([&] { return false; }, 0.2);

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/cycle/stages.hpp"
 #include "app/demo/played_operator.hpp"
 #include "tests/unit/app/corridor_vehicle.hpp"
 
@@ -66,6 +67,91 @@ TEST(AutonomyCycle, ADriveThatWasDeafGoesOnByItselfButOneThatWasSwitchedOffDoesN
     if (switched_off) {
       EXPECT_EQ(v->state().mode, Mode::EmergencyStop);
     }
+  }
+}
+
+/// The controller's clock, which a power cut sets to zero, may just have been about to wrap.
+TEST(AutonomyCycle, APowerCutBeforeTheDrivesClockWrapsIsNoticed) {
+  constexpr double kWrapS = 4294.967296;
+  for (const auto& [left_s, off_s] :
+       {std::pair(20.0, 60.0), std::pair(300.0, 600.0), std::pair(20.0, 10.0)}) {
+    auto v = corridor_vehicle();
+    v->drive_started_s = -(kWrapS - 10.0 - left_s);
+    for (double before_s = 0.0; before_s < kWrapS - 10.0 - left_s; before_s += 0.02) v->count_frames();
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    v->run_until([&] { return v->time_s() > 10.0; }, 20.0);
+    v->drive_silent = true;
+    v->run_until([&] { return false; }, off_s);
+    v->restart_drive();
+    v->drive_started_s = v->time_s() - 0.5;
+    v->drive_silent = false;
+    EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 60.0)) << off_s << " s off";
+    EXPECT_EQ(v->state().mode, Mode::EmergencyStop);
+  }
+}
+
+/// A late step, or a silent link: a stop that began and ended meanwhile is a stop.
+TEST(AutonomyCycle, AStopBetweenTwoLooksIsHeld) {
+  for (const bool silent : {false, true})
+    for (const bool by_bumper : {false, true})
+      for (const double away_s : {0.24, 0.6, 1.5}) {
+        auto v = corridor_vehicle();
+        v->drive_to({{2}});
+        v->say(OperatorWord::Resume);
+        ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 15.0));
+        (silent ? v->drive_silent : v->hung) = true;
+        for (double t = 0.0; t < away_s; t += 0.02) {
+          (by_bumper ? v->bumper : v->emergency_stop) = t < 0.02;
+          v->step();
+        }
+        v->drive_silent = v->hung = false;
+        EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 60.0)) << silent << by_bumper << away_s;
+        EXPECT_EQ(v->state().mode, Mode::EmergencyStop);
+      }
+}
+
+/// What the wheels do not do is no speed that they could go on with.
+TEST(AutonomyCycle, ADriveThatHearsNothingIsNamedAndStartsAnewFromStandstill) {
+  auto v = corridor_vehicle();
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 15.0));
+  v->drive_deaf = true;
+  v->run_until([&] { return false; }, 10.0);
+  EXPECT_EQ(v->state().mode, Mode::Waiting);
+  EXPECT_EQ(v->state().standstill.cause, notice(Cause::DriveDeaf));
+  v->drive_deaf = false;
+  double before_mps = 0.0;
+  v->on_step = [&](const auto& /*input*/, const auto& output, const auto& /*state*/) {
+    EXPECT_LT(output.command.linear_mps - before_mps, v->config.limits.acceleration_mps2 * 0.021);
+    before_mps = std::max(
+        0.0, v->drive_state() == control::wire::DriveState::Running ? output.command.linear_mps : 0.0);
+  };
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
+TEST(AutonomyCycle, SweepsOfAnotherTimeTellNothingOfNow) {
+  auto v = corridor_vehicle();
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 15.0));
+  v->cloud_age_s = 1.0;
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.01; }, 2.0));
+  EXPECT_EQ(v->state().standstill.cause, notice(Cause::LidarSilent));
+  v->cloud_age_s = 0.0;
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
+TEST(AutonomyCycle, ByHandWithoutALidarItCreeps) {
+  auto v = corridor_vehicle();
+  v->run_until([&] { return false; }, 1.0);
+  v->lidar_silent = true;
+  v->run_until([&] { return false; }, 1.0);
+  v->say(OperatorWord::ManualOn);
+  for (const VelocityCommand& jog : {VelocityCommand{0.3, 0.0}, VelocityCommand{0.0, 0.5}}) {
+    v->run_until([&] { return v->commands.push_back({OperatorWord::Jog, jog}), false; }, 2.0);
+    EXPECT_NEAR(outline_mps(v->config.check.vehicle, v->output.command), v->config.out_of_field_mps, 0.01);
   }
 }
 
@@ -141,13 +227,14 @@ TEST(AutonomyCycle, ADriveWhoseLinkOpensLateIsArmed) {
       << v->state().standstill.cause.text;
 }
 
-TEST(AutonomyCycle, ADriveThatRestartsWhileAllCommandsEnableIsArmedAgain) {
+TEST(AutonomyCycle, ADriveThatMissedCommandsWhileAllEnableIsArmedAgain) {
   auto v = corridor_vehicle();
   v->drive_to({{2}});
   v->say(OperatorWord::Resume);
   ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
-  v->restart_drive();
+  v->drive_deaf = true;
   EXPECT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.1; }, 2.0));
+  v->drive_deaf = false;
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << v->state().standstill.cause.text;
 }
 

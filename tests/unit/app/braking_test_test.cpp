@@ -142,6 +142,36 @@ TEST(BrakingTest, WhoeverComesIntoTheWayOrPressesStopEndsIt) {
   }
 }
 
+/// Brakes so weak that the cycle takes the wheels for faulty: just then a person presses Stop.
+TEST(BrakingTest, StopEndsItWhileTheBrakesFailToo) {
+  simulation::VehicleSpec weak;
+  weak.braking_mps2 = 0.22;
+  weak.dead_time_s = 0.35;
+  weak.motor_lag_s = 0.0;
+  Hall hall({}, weak);
+  ASSERT_TRUE(hall.desk.start({0.8, BrakingDesk::kStops}, true));
+  ASSERT_TRUE(hall.run.run_until([&] { return hall.run.state().mode == Mode::Fault; }, 30.0));
+  hall.run.run->say({OperatorWord::Stop, {}, {}});
+  ASSERT_TRUE(hall.run.run_until([&] { return hall.run.stands(); }, 8.0));
+  const double driven_m = hall.run.factory->distance_driven_m();
+  hall.run.run_until([] { return false; }, 20.0);
+  EXPECT_FALSE(hall.desk.view().running);
+  EXPECT_EQ(hall.desk.view().trouble.code, "ended");
+  EXPECT_NEAR(hall.run.factory->distance_driven_m(), driven_m, 0.01);
+}
+
+TEST(BrakingVerdict, WhatAnEmptyVehicleCanTheLoadedOneNeedNotBeAbleTo) {
+  const mapping::VehicleRecord record;  // 0.8 m/s2
+  const BrakingSite site{1.0, 3.0, 0.1, 0.0};
+  const std::vector<BrakingStop> better{{false, {1.0, 1.2, 0.05, 0.0}}}, worse{{false, {1.0, 0.5, 0.6, 0.0}}};
+  const auto kept = with_measured(record, *verdict_of(better, site), false);
+  EXPECT_DOUBLE_EQ(kept.max_deceleration_mps2, record.max_deceleration_mps2);
+  EXPECT_DOUBLE_EQ(kept.reaction_s, record.reaction_s);
+  const auto lowered = with_measured(record, *verdict_of(worse, site), true);
+  EXPECT_DOUBLE_EQ(lowered.max_deceleration_mps2, 0.5);
+  EXPECT_DOUBLE_EQ(lowered.reaction_s, 0.62);
+}
+
 TEST(BrakingVerdict, TheWorstStopCountsAndATopSpeedThatOutrunsTheLidarIsRefused) {
   const std::vector<BrakingStop> stops{{false, {1.0, 0.84, 0.20, 0.0}}, {true, {1.0, 0.618, 0.312, 0.0}}};
   const mapping::VehicleRecord record;  // 1 m/s

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/mounting/mounting_findings.hpp"
+#include "app/mounting/mounting_words.hpp"
 #include "core/angle.hpp"
 #include "tests/support/mounting_trial.hpp"
 #include "tests/unit/app/corridor_vehicle.hpp"
@@ -52,6 +53,14 @@ TEST(Mounting, OfTwoScannersAtOppositeCornersIsFoundTogetherAndTheyAgree) {
   ASSERT_EQ(result.found.agreements.size(), 1U);
   EXPECT_LT(result.found.agreements.front().apart_m, 0.03);
   EXPECT_GT(result.found.agreements.front().walls, 10);
+}
+
+TEST(Mounting, AnEmergencyStopEndsTheDriveAndNothingGoesOnWhenItIsReleased) {
+  auto trial = test::random_mounting("lms1xx", 1);
+  trial.pressed_at_s = 5.0;
+  const auto result = test::run_mounting_trial(trial);
+  EXPECT_FALSE(result.driven);
+  EXPECT_EQ(result.stopped, notice(kMountingDriveStopped).text);
 }
 
 TEST(Mounting, DrivingStraightOnTellsTheYawAloneAndSaysSo) {
@@ -163,6 +172,10 @@ TEST(WrongMounting, AYawWrongBySomeDegreesIsToldAfterTheFirstMetresAndStopsWhere
   EXPECT_FALSE(yaw_events(to_rad(-8.0), cause).empty());
   EXPECT_EQ(cause, "lidar-yaw");
   EXPECT_TRUE(yaw_events(to_rad(0.3), cause).empty());
+  for (const double far_deg : {30.0, 45.0, -90.0, 180.0}) {
+    EXPECT_FALSE(yaw_events(to_rad(far_deg), cause).empty()) << far_deg;
+    EXPECT_EQ(cause, "lidar-yaw") << far_deg;
+  }
 }
 
 }  // namespace

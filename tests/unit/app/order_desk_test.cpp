@@ -87,6 +87,37 @@ TEST_F(OrderDeskTest, ARefusedOrderIsGoneAtOnceAndNeverComesBack) {
   EXPECT_EQ(store.find(first)->state, OrderState::Refused);
 }
 
+TEST_F(OrderDeskTest, WhatAStopEndsIsGoneAtOnceAndCancelledBeforeAnythingElseBegins) {
+  OrderStore store(file_);
+  const auto first = store.add({{1}}, 1, now_);
+  const auto second = store.add({{2}}, 1, now_);
+  OrderDesk desk(file_, {.poll_s = 0.1});
+  tick_until(desk, is_running);
+  const Database other = open_order_database(file_);
+  {
+    const Transaction held(other.get());
+    desk.cancel_running("stopped at the panel", now_);
+    for (int i = 0; i < 100; ++i) {
+      now_ += kTick;
+      EXPECT_FALSE(desk.order(now_, true)) << "neither the one that was stopped nor the next";
+    }
+  }
+  EXPECT_EQ(tick_until(desk, is_running)->id, second);
+  EXPECT_EQ(store.find(first)->state, OrderState::Cancelled);
+  EXPECT_EQ(store.find(first)->note, "stopped at the panel");
+}
+
+/// After a restart: it runs in the database, and nobody has begun it here.
+TEST_F(OrderDeskTest, AStopEndsAnOrderThatWasNotGivenYet) {
+  OrderStore store(file_);
+  const auto id = store.add({{1}}, 1, now_);
+  store.begin_next(now_);
+  OrderDesk desk(file_, {.lock_step = true});
+  desk.cancel_running("stopped at the panel", now_);
+  EXPECT_EQ(store.find(id)->state, OrderState::Cancelled);
+  EXPECT_FALSE(desk.order(now_, true));
+}
+
 TEST_F(OrderDeskTest, WhatIsLeftIsWrittenAtTheEnd) {
   OrderStore store(file_);
   const auto id = store.add({{1}}, 1, now_);

@@ -28,6 +28,24 @@ CycleConfig config_of(const mapping::VehicleRecord& vehicle, bool shortest = fal
   return load_for_driving(folder.path()).config;
 }
 
+TEST(SiteConfig, SmallWheelsTurnFastButNotFasterThanACommandCanSay) {
+  mapping::VehicleRecord vehicle;
+  vehicle.wheel_radius_m = 0.03;
+  const CycleConfig config = config_of(vehicle);
+  EXPECT_GT(config.odometry.max_wheel_speed_radps, config.limits.max_wheel_speed_mps / 0.03);
+  vehicle.wheel_radius_m = 0.005;
+  EXPECT_THROW((void)config_of(vehicle), Error);
+}
+
+TEST(SiteConfig, NobodyCountsOnSeeingWhereNobodyLooks) {
+  mapping::VehicleRecord vehicle;
+  vehicle.max_speed_mps = 5.0;
+  const CycleConfig config = config_of(vehicle);
+  EXPECT_LE(config.sure_range_m, config.looked_at_m());
+  EXPECT_LE(config.check.braking.horizon_m(config.check.braking.speed_within(config.sure_range_m)),
+            config.looked_at_m() + 1e-6);
+}
+
 TEST(SiteConfig, WeakAndSlowBrakesLengthenTheWayToStand) {
   const CycleConfig usual = config_of({});
   mapping::VehicleRecord vehicle;

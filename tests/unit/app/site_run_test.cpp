@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "app/panel/reference_lidar.hpp"
@@ -19,16 +20,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Hears nothing, and remembers whether the drive was ever enabled.
+/// Hears nothing but what the drive is made to tell, and remembers whether it was ever enabled.
 class SilentLink final : public VehicleLink {
  public:
-  explicit SilentLink(bool& enabled) : enabled_(enabled) {}
-  void collect(CycleInput& /*input*/) override {}
+  SilentLink(bool& enabled, std::optional<control::wire::Status>& drive) : enabled_(enabled), drive_(drive) {}
+  void collect(CycleInput& input) override {
+    if (!drive_) return;
+    drive_->time_us += 20'000;
+    input.drive.push_back(*drive_);
+  }
   void send(const CycleOutput& output) override { enabled_ = enabled_ || output.enable; }
   [[nodiscard]] std::string problem() const override { return "silent"; }
 
  private:
   bool& enabled_;
+  std::optional<control::wire::Status>& drive_;
 };
 
 class SiteRunTest : public testing::Test {
@@ -60,10 +66,11 @@ class SiteRunTest : public testing::Test {
   test::TemporaryFolder folder_;
   fs::path site_ = folder_.path() / "site";
   bool enabled_ = false;
+  std::optional<control::wire::Status> drive_;
   int opened_ = 0, closed_ = 0, idle_ = 0;
   Stamp now_ = stamp_from_seconds(1'700'000'000.0);
   SiteRun run_{site_,
-               std::make_unique<SilentLink>(enabled_),
+               std::make_unique<SilentLink>(enabled_, drive_),
                {.opened = [this](TransportRun&) { ++opened_; },
                 .closing = [this] { ++closed_; },
                 .idle = [this](const CycleInput&) { ++idle_; }}};
@@ -124,6 +131,28 @@ TEST_F(SiteRunTest, AChangeIsTakenOverByANewRunAndAFaultySiteEndsIt) {
   tick_until([this] { return !run_.view(); });
   EXPECT_EQ(closed_, 2);
   EXPECT_NE(run_.missing(), "");
+}
+
+TEST_F(SiteRunTest, AnEmergencyStopOutlivesAChangeOfTheSiteUntilItIsConfirmed) {
+  import();
+  draw_routes();
+  mount_lidar();
+  tick_until([this] { return opened_ == 1; });
+  drive_ = control::wire::Status{.emergency_stop = true};
+  tick_until([this] { return run_.view()->mode == Mode::EmergencyStop; });
+  drive_->emergency_stop = false;
+  EXPECT_TRUE(run_.stands());
+  EXPECT_FALSE(run_.may_change_site());
+  run_.reload();  // as a change by another program
+  for (int i = 0; i < 300; ++i) {
+    now_ += std::chrono::milliseconds(20);
+    run_.tick(now_);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(opened_, 1);
+  EXPECT_EQ(run_.view()->mode, Mode::EmergencyStop);
+  run_.say({OperatorWord::Confirm, {}, {}});
+  tick_until([this] { return opened_ == 2; });
 }
 
 TEST(Statistics, SumsSurviveARestart) {

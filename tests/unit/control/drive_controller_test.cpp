@@ -121,6 +121,23 @@ TEST(DriveController, CountsTurnsBothWays) {
   }
 }
 
+TEST(DriveController, CountsStopsAndTellsTheirNumber) {
+  Bench bench;
+  bench.start();
+  for (int stop = 1; stop <= 40; ++stop) {
+    (stop % 2 == 0 ? bench.inputs.emergency_stop : bench.inputs.bumper) = true;
+    bench.wait_ms(1);
+    bench.inputs.emergency_stop = bench.inputs.bumper = false;
+    bench.wait_ms(250);
+    std::uint8_t frame[kMaxFrame];
+    const std::size_t size = bench.controller.status_frame(frame);
+    Status status;
+    ASSERT_EQ(decode(frame, size - 1, status), Verdict::Good);
+    EXPECT_EQ(status.stops, stop % kStopsWrap);
+    EXPECT_FALSE(status.emergency_stop || status.bumper);
+  }
+}
+
 TEST(DriveController, CountsDamagedFrames) {
   Bench bench;
   bench.start();

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -163,13 +166,27 @@ TEST_F(ServerTest, APanelIsToldWhatOthersEditUntilTheyLeave) {
 TEST_F(ServerTest, AJogEndsWhenTheBrowserFallsSilentOrVanishes) {
   for (const bool vanish : {false, true}) {
     test::LiveClient client(server_->port(), "same");
-    const std::size_t before = vehicle_.jogs().size();
+    vehicle_.forget();
     client.send(R"({"jog": {"linear": 0.3, "angular": 0}})");
-    while (vehicle_.jogs().size() == before) std::this_thread::yield();
-    EXPECT_DOUBLE_EQ(vehicle_.jogs().back().linear_mps, 0.3);
+    while (std::ranges::count(vehicle_.jogs(), VelocityCommand{0.3, 0.0}) == 0) std::this_thread::yield();
     if (vanish) client.drop();
     while (vehicle_.jogs().back() != VelocityCommand{}) std::this_thread::yield();
+    if (!vanish) {
+      EXPECT_EQ(vehicle_.silences(), 1) << "a silent browser has not let the button go";
+    }
   }
+}
+
+TEST_F(ServerTest, ADrawingIsNotTakenOverWhenTheVehicleHasDrivenOffMeanwhile) {
+  std::ifstream file(std::filesystem::path(MADORI_SOURCE_DIR) / "data/sample_factory/factory.dxf");
+  const std::string dxf{std::istreambuf_iterator<char>(file), {}};
+  const json before = get("/api/site");
+  vehicle_.drive_when([this] { return job_.state()["stage"] == "commit"; });
+  ASSERT_EQ(call("POST", "/api/site/drawing?name=other.dxf", dxf).status, 200);
+  const json job = finished_job();
+  EXPECT_EQ(job["error"]["values"]["kind"], "driving");
+  EXPECT_EQ(get("/api/site"), before);
+  EXPECT_EQ(vehicle_.reloads(), 0);
 }
 
 TEST_F(ServerTest, NonsenseOnTheLiveSocketIsToldAndMovesNothing) {
@@ -238,6 +255,22 @@ TEST_F(NetworkServerTest, RolesOpenWhatTheyMay) {
   EXPECT_EQ(call("PUT", "/api/site/walls", "{}", login.cookie).status, 403);
   EXPECT_EQ(call("DELETE", "/api/session", "", login.cookie).status, 200);
   EXPECT_EQ(call("GET", "/api/site", "", login.cookie).status, 401);
+}
+
+TEST_F(NetworkServerTest, ATabletThatIsLoggedOutDrivesNoLonger) {
+  const HttpAnswer login = call("POST", "/api/session", R"({"pin": "1111"})");
+  test::LiveClient tablet(server_->port(), "same", login.cookie);
+  tablet.send(R"({"jog": {"linear": 0.3, "angular": 0}})");
+  while (vehicle_.jogs().empty()) std::this_thread::yield();
+  EXPECT_EQ(call("DELETE", "/api/session", "", login.cookie).status, 200);
+  EXPECT_THROW(
+      while (true) {
+        tablet.send(R"({"jog": {"linear": 0.2, "angular": 0}})");
+        (void)tablet.receive_text();
+      },
+      std::exception);
+  while (vehicle_.jogs().back() != VelocityCommand{}) std::this_thread::yield();
+  EXPECT_EQ(std::ranges::count(vehicle_.jogs(), VelocityCommand{0.2, 0.0}), 0);
 }
 
 }  // namespace

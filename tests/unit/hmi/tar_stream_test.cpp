@@ -2,11 +2,15 @@
 #include "hmi/server/tar_stream.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 
+#include "core/result.hpp"
+#include "hmi/server/site_backup.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -42,6 +46,44 @@ TEST(TarStream, TarUnpacksTheSameFiles) {
   EXPECT_EQ(mapping::file_content(out / "block.csv"), std::string(512, 'x'));
   EXPECT_EQ(mapping::file_content(out / long_name), large);
   EXPECT_FALSE(fs::exists(out / "link"));
+}
+
+/// What a restored backup says whose first file claims to have so many bytes.
+std::string claimed(const fs::path& backup, const char* octal, const fs::path& site) {
+  std::string bytes = mapping::file_content(backup);
+  bytes.replace(124, 11, octal).replace(148, 8, 8, ' ');
+  unsigned sum = 0;
+  for (int i = 0; i < 512; ++i) sum += static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)]);
+  std::array<char, 8> checksum{};
+  std::snprintf(checksum.data(), checksum.size(), "%06o", sum);
+  bytes.replace(148, 8, checksum.data(), 8);
+  mapping::write_new_file(backup, bytes);
+  try {
+    (void)read_backup(backup, site, false);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SiteBackup, AFileThatClaimsMoreThanTheWholeIsRefused) {
+  const test::TemporaryFolder folder;
+  const fs::path site = folder.path() / "site", backup = folder.path() / "b.tar";
+  fs::create_directory(site);
+  mapping::write_new_file(site / "site.yaml", "name: hall\n");
+  write_backup(site, backup);
+  ASSERT_TRUE(is_backup(backup));
+  const std::string said = claimed(backup, "06000000000", folder.path() / "new");  // 805 MB
+  EXPECT_NE(said.find("larger than the whole"), std::string::npos) << said;
+  EXPECT_FALSE(fs::exists(folder.path() / "new/site.yaml"));
+}
+
+TEST(SiteBackup, APipeIsNoneAndIsNotWaitedFor) {
+  const test::TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "b.tar";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_FALSE(is_backup(pipe));
+  EXPECT_FALSE(is_backup("/dev/zero"));
 }
 
 }  // namespace

@@ -113,6 +113,18 @@ TEST(Joints, MayContradictAsTheirNeighboursDo) {
   EXPECT_EQ(judge_joint(carried, 2, wheels_to(carried, 2), 0.0).joint, Joint::False);
 }
 
+/// What is laid is not followed to wheels that jumped by a thousand kilometres.
+TEST(Joints, AreSoughtWithinReachOfTheScans) {
+  const std::vector<Pose> truth{{5.0, 1.2, 0.0}, {6.0, 1.2, 0.1}, {9.0, 1.3, 0.4}, {10.0, 1.6, 0.3}};
+  const Memory memory = joined(truth, {});
+  const StretchOptions options;
+  const auto laid = from_to(truth[1], truth[2]);
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.09, 0.09, 0.09).asDiagonal();
+  const StretchMatch led = lean_stretches(memory, {0, 1, 1}, {2, 2, 3}, {1e6, 0.0, 0.0}, covariance, laid);
+  const Transform2<Base, Base>& found = led.factor.motion;
+  EXPECT_LE(std::min(std::abs(found.x_m() - 1e6), std::abs(found.x_m() - laid.x_m())), options.map_radius_m);
+}
+
 TEST(PlaceViews, TellTheTurnAndThePlace) {
   std::mt19937 engine(4);
   const mapping::Walls walls = test::laboratory_hall();

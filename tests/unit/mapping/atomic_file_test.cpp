@@ -55,6 +55,26 @@ TEST_F(AtomicFile, ADeviceIsWrittenIntoAndAFullOneIsAnError) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
+TEST_F(AtomicFile, WhetherAFileCanBeWrittenIsSaidWithoutWriting) {
+  const fs::path old = folder_.write("old.json", "old");
+  for (const fs::path& file : {old, at("new.json"), fs::path("/dev/null")})
+    EXPECT_NO_THROW(expect_writable(file)) << file;
+  EXPECT_EQ(file_content(old), "old");
+  EXPECT_FALSE(fs::exists(at("new.json")));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1);
+  for (const fs::path& file : {folder_.path(), at("absent/new.json"), at("old.json/new.json")})
+    EXPECT_THROW(expect_writable(file), Error) << file;
+}
+
+TEST_F(AtomicFile, WhatMayNeverEndOrIsTooLargeIsNotRead) {
+  const fs::path pipe = at("pipe"), file = folder_.write("file", "12345");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NO_THROW(expect_readable(file, 5));
+  EXPECT_THROW(expect_readable(file, 4), Error);
+  for (const fs::path& other : {pipe, fs::path("/dev/zero"), folder_.path(), at("absent")})
+    EXPECT_THROW(expect_readable(other, 5), Error) << other;
+}
+
 TEST_F(AtomicFile, ALinkStaysAndWhatItLeadsToIsReplaced) {
   fs::create_directory(at("far"));
   folder_.write("far/real.json", "old");

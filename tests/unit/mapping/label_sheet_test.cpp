@@ -90,6 +90,7 @@ TEST(WallModel, WhatItTellsRisesWithWhatItJudgesAndComesBackFromItsFile) {
 TEST(WallModel, RefusesWhatIsNoModelAndOtherFeatures) {
   const test::TemporaryFolder folder;
   EXPECT_THROW((void)WallModel::load("/no/such/model"), Error);
+  EXPECT_THROW((void)WallModel::load("/dev/zero"), Error);
   EXPECT_THROW((void)WallModel::load(folder.write("model.ubj", "not trees")), Error);
   FeatureTable other(1);
   other.add("something", {1.0F});

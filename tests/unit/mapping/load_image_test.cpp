@@ -100,6 +100,40 @@ TEST_F(LoadImage, AGigapixelIsRefusedBeforeItIsDecoded) {
   EXPECT_THAT(reason(write_text("huge.png", header)), HasSubstr("1074 megapixels"));
 }
 
+/// A head that promises so many pixels of 8 or 16 bits in colour (2), with alpha (6).
+std::string png_head(std::uint16_t width_px, std::uint16_t height_px, int bits, int kind) {
+  const auto two = [](std::uint16_t n) {
+    return std::string{'\0', '\0', static_cast<char>(n >> 8U), static_cast<char>(n & 0xFFU)};
+  };
+  return std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16) + two(width_px) + two(height_px) +
+         std::string{
+             static_cast<char>(bits), static_cast<char>(kind), '\0', '\0', '\0', '\0', '\0', '\0', '\0'};
+}
+
+TEST_F(LoadImage, TheDecodedSizeIsLimitedToo) {
+  EXPECT_THAT(reason(write_text("deep.png", png_head(20000, 14900, 16, 6))), HasSubstr("2384 MB decoded"));
+  EXPECT_THAT(reason(write_text("colour.png", png_head(10000, 6000, 8, 6))), HasSubstr("damaged"));
+}
+
+TEST_F(LoadImage, WhatIsNoRegularFileOrHugeIsNotRead) {
+  EXPECT_THAT(reason("/dev/zero"), HasSubstr("no regular file"));
+  const auto sparse = write_text("sparse.png", "");
+  std::filesystem::resize_file(sparse, 3'000'000'000);
+  EXPECT_THAT(reason(sparse), HasSubstr("has 3000 MB"));
+}
+
+TEST(ImageHeader, AnAbsurdResolutionIsUnknown) {
+  const auto dpi = [](const std::string& dots_per_metre) {
+    std::string png = png_head(10, 10, 8, 2);
+    png +=
+        std::string("\0\0\0\x09pHYs", 8) + dots_per_metre + dots_per_metre + std::string("\x01\0\0\0\0", 5);
+    return read_image_header({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()})->dpi;
+  };
+  EXPECT_NEAR(dpi(std::string("\0\0\x2E\x23", 4)), 300.0, 0.1);
+  EXPECT_EQ(dpi("\xFF\xFF\xFF\xFF"), 0.0);
+  EXPECT_EQ(dpi(std::string("\0\0\0\x01", 4)), 0.0);
+}
+
 TEST(ImageHeader, TruncatedBytesAreNeverReadPastTheirEnd) {
   const std::vector<std::uint8_t> tiff{'I', 'I', 42, 0, 0xFF, 0xFF, 0xFF, 0x7F};
   const auto header = read_image_header(tiff);

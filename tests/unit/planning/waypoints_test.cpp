@@ -65,6 +65,12 @@ TEST(Waypoints, OnePointIsNoWay) {
   EXPECT_FALSE(make_waypoints(corners({{1, 1}, {1, 1}})));
 }
 
+TEST(Waypoints, AWayOfMillionsOfPointsIsRefused) {
+  EXPECT_FALSE(make_waypoints(corners({{0, 0}, {9e5, 0}}), {.spacing_m = 0.01}));
+  EXPECT_FALSE(make_waypoints(corners({{0, 0}, {1e300, 0}})));
+  EXPECT_TRUE(make_waypoints(corners({{0, 0}, {1e5, 0}})));
+}
+
 TEST(Waypoints, TheFileIsAsPublished) {
   const auto path = make_waypoints(corners({{0, 0}, {0.2, 0}}), {}, 1.0).value();
   EXPECT_EQ(waypoints_csv(path), "ID,x,y\n0,0.000000,0.000000\n1,0.100000,0.000000\n2,0.200000,0.000000\n");
