@@ -100,7 +100,7 @@ enum class OperatorWord {
   ForgetObstacles,
   SetPose,
   SearchPose,
-  Stop,  ///< stands in every mode, also by hand; the panel ends the order that is under way
+  Stop,  ///< stands in every mode, also by hand, and ends the order that is under way
   Halt   ///< the same by anybody: the order stays
 };
 
