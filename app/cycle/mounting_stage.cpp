@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <vector>
 
 #include "app/cycle/stages.hpp"
 #include "core/angle.hpp"
@@ -89,11 +89,12 @@ bool follow_leg(MountingWatch& watch, const CycleState& state) {
 }
 
 /// By how much the newest legs led beside, where they agree on it.
-std::optional<double> led_beside_rad(const MountingWatch& watch, std::size_t legs) {
-  if (watch.legs < legs) return std::nullopt;
-  std::vector<double> beside;
-  for (std::size_t i = 1; i <= legs; ++i)
-    beside.push_back(watch.beside_rad[(watch.legs - i) % MountingWatch::kLegs]);
+template <std::size_t Legs>
+std::optional<double> led_beside_rad(const MountingWatch& watch) {
+  if (watch.legs < Legs) return std::nullopt;
+  std::array<double, Legs> beside;
+  for (std::size_t i = 0; i < Legs; ++i)
+    beside[i] = watch.beside_rad[(watch.legs - 1 - i) % MountingWatch::kLegs];
   auto apart = beside;  // half a turn is its own neighbour on both sides
   for (double& one : apart) one = wrap_angle(one - beside.front());
   const double middle_rad = wrap_angle(beside.front() + median_of(apart));
@@ -106,9 +107,9 @@ std::optional<double> led_beside_rad(const MountingWatch& watch, std::size_t leg
 std::optional<MountingDoubt> judge_legs(const MountingWatch& watch, const CycleConfig& config) {
   constexpr std::size_t kFewLegs = 3;  // of 0.8 m: no correction of the place leads so far aside so often
   constexpr double kFarAsideRad = to_rad(20.0);
-  std::optional<double> beside_rad = led_beside_rad(watch, kFewLegs);
+  std::optional<double> beside_rad = led_beside_rad<kFewLegs>(watch);
   if (!beside_rad || std::abs(*beside_rad) < kFarAsideRad)
-    beside_rad = led_beside_rad(watch, MountingWatch::kLegs);
+    beside_rad = led_beside_rad<MountingWatch::kLegs>(watch);
   if (!beside_rad || std::abs(*beside_rad) < kYawRad) return std::nullopt;
   std::size_t lidar = 0;
   while (lidar + 1 < config.lidars.size() && !tells_place(config.lidars, lidar)) ++lidar;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "localization/memory/fuse.hpp"
 #include "localization/memory/local_map.hpp"
@@ -43,10 +42,10 @@ std::vector<LoopCandidate> loop_candidates(const std::vector<Transform2<Map, Bas
       ++i;
       continue;
     }
-    LoopCandidate c{i, i, i, std::numeric_limits<double>::infinity()};
+    LoopCandidate c{i, i, i, options.loop_radius_m};
     for (; i < end && away_m(i) <= options.loop_radius_m; ++i) {
       const double d = away_m(i) + std::abs(wrap_angle(poses[i].yaw_rad() - here.yaw_rad()));
-      if (d < c.distance_m) {
+      if (d < c.distance_m || c.nearest == c.first) {
         c.distance_m = d;
         c.nearest = i;
       }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <unordered_map>
 
 #include "localization/placement/wall_piece.hpp"
 
@@ -93,7 +93,7 @@ double nats_of_crossed_walls(const FreeWays& ways, const Transform2<Map, Map>& c
     int ways = 0;
     double probability = 0.0;
   };
-  std::map<std::uint64_t, Piece> pieces;
+  std::unordered_map<std::uint64_t, Piece> pieces;
   const auto cross = [&](const Segment2<Map>& way, int counts) {
     walk({correction * way.a, correction * way.b}, drawn, [&](const Point2<Map>& p) {
       Piece& piece = pieces[wall_piece_of(p.x_m, p.y_m)];
