@@ -157,9 +157,7 @@ BrakingTest::Words BrakingTest::go_back(const CycleState& state, const CycleConf
 BrakingTest::Words BrakingTest::after_step(const CycleInput& input, const CycleState& state,
                                            const CycleConfig& config) {
   if (phase_ == Phase::Ended || state.track.empty()) return {};
-  const auto stops = [](const OperatorCommand& c) {
-    return c.word == OperatorWord::Stop || c.word == OperatorWord::Halt || c.word == OperatorWord::Pause;
-  };
+  const auto stops = [](const OperatorCommand& c) { return event_of(c.word) == ModeEvent::Pause; };
   if (std::ranges::any_of(input.commands, stops)) return fail(BrakingTrouble::Ended);
   if (phase_ == Phase::Begins) return begin(input, state, config);
   record(state);

@@ -24,25 +24,6 @@ bool is_blocked(const CycleState& state, const CycleInput& input, const CycleCon
          state.ahead.stop_along_m - state.progress.along_m < kStandsBeforeM;
 }
 
-std::optional<ModeEvent> event_of(OperatorWord word) {
-  switch (word) {
-    case OperatorWord::Pause:
-    case OperatorWord::Stop:
-    case OperatorWord::Halt:
-      return ModeEvent::Pause;
-    case OperatorWord::Resume:
-      return ModeEvent::Resume;
-    case OperatorWord::Confirm:
-      return ModeEvent::Confirmed;
-    case OperatorWord::ManualOn:
-      return ModeEvent::ManualOn;
-    case OperatorWord::ManualOff:
-      return ModeEvent::ManualOff;
-    default:
-      return std::nullopt;
-  }
-}
-
 bool is_stop(OperatorWord word) {
   return word == OperatorWord::Stop || word == OperatorWord::Halt;
 }
@@ -94,6 +75,25 @@ std::optional<ModeEvent> way_event(const CycleState& state, const CycleInput& in
 }
 
 }  // namespace
+
+std::optional<ModeEvent> event_of(OperatorWord word) {
+  switch (word) {
+    case OperatorWord::Pause:
+    case OperatorWord::Stop:
+    case OperatorWord::Halt:
+      return ModeEvent::Pause;
+    case OperatorWord::Resume:
+      return ModeEvent::Resume;
+    case OperatorWord::Confirm:
+      return ModeEvent::Confirmed;
+    case OperatorWord::ManualOn:
+      return ModeEvent::ManualOn;
+    case OperatorWord::ManualOff:
+      return ModeEvent::ManualOff;
+    default:
+      return std::nullopt;
+  }
+}
 
 bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s) {
   return !heard || to_seconds(now - *heard) > limit_s;

@@ -110,6 +110,8 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
 [[nodiscard]] std::optional<Stamp> heard_all(const CycleState& state, const CycleConfig& config, Stamp now);
 /// Whether a lidar tells where the vehicle is: those that see walls over the equipment do, else all of them.
 [[nodiscard]] bool tells_place(const std::vector<LidarModel>& lidars, std::size_t lidar);
+/// What a person's word asks of the mode; nothing where it is no matter of modes.
+[[nodiscard]] std::optional<ModeEvent> event_of(OperatorWord word);
 /// Whether nobody has heard of a device for too long.
 [[nodiscard]] bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s);
 /// Whether the drive has told for too long that it hears no commands.

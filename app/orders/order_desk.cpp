@@ -67,14 +67,16 @@ void OrderDesk::add(EventRecord event) {
 
 /// Throws Error where the database does not take it: the same report is made again then.
 std::optional<Order> OrderDesk::settle(const Report& report) {
-  if (report.ended && report.state == OrderState::Cancelled)
+  if (!report.ended)
+    return store_.stop_done(report.what.order, report.what.round, report.what.stop, report.label);
+  const auto close = [&](std::int64_t id) { store_.close(id, report.state, *report.ended, report.label); };
+  if (report.state == OrderState::Refused) {
+    close(report.what.order);
+  } else {
     for (const Order& order : store_.list(true))
-      if (order.state == OrderState::Running)
-        store_.close(order.id, OrderState::Cancelled, *report.ended, report.label);
-  if (report.ended && report.state == OrderState::Refused)
-    store_.close(report.what.order, OrderState::Refused, *report.ended, report.label);
-  if (report.ended) return std::nullopt;
-  return store_.stop_done(report.what.order, report.what.round, report.what.stop, report.label);
+      if (order.state == OrderState::Running) close(order.id);
+  }
+  return std::nullopt;
 }
 
 /// Orders come from other programs too: what stands in the database counts.

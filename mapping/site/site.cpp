@@ -1,6 +1,7 @@
 #include "mapping/site/site.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 

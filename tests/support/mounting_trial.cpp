@@ -77,7 +77,7 @@ MountingTrialResult run_mounting_trial(const MountingTrial& trial) {
     app::CycleInput input;
     link.collect(input);
     if (t >= trial.pressed_at_s && t < trial.pressed_at_s + 0.3)
-      for (auto& status : input.drive) status.emergency_stop = trial.pressed_at_s >= 0.0;
+      for (auto& status : input.drive) status.emergency_stop = true;
     input.now = factory->now();
     log.add(input);
     link.send(drive.step(input, log.odometry()));

@@ -39,8 +39,7 @@ WallModel from_bytes(const std::string& name, std::string_view content) {
 }  // namespace
 
 WallModel WallModel::load(const std::filesystem::path& file) {
-  constexpr std::uint64_t kMostBytes = 64'000'000;
-  expect_readable(file, kMostBytes);
+  expect_readable(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw Error(file.string(), "cannot be opened", "name a model that train_walls wrote");
   return from_bytes(file.string(), std::string{std::istreambuf_iterator<char>(stream), {}});
