@@ -6,7 +6,7 @@
 
 #include "core/result.hpp"
 #include "sensors/carmen/reader.hpp"
-#include "sensors/deskew.hpp"
+#include "sensors/deskewed_reader.hpp"
 #include "sensors/pcap/reader.hpp"
 #include "sensors/time_order.hpp"
 #include "sensors/vlp16/assembler.hpp"
@@ -16,7 +16,6 @@ namespace madori::sensors {
 namespace {
 
 constexpr auto kBagDisorder = std::chrono::milliseconds(300);
-constexpr auto kWheelsAhead = std::chrono::milliseconds(300);  ///< longer than the slowest revolution, 5 Hz
 
 /// The revolutions of a capture, with the wheels' odometry in between.
 class Vlp16LogReader final : public LogReader {
@@ -40,37 +39,20 @@ class Vlp16LogReader final : public LogReader {
     read_frame();
     if (wheel_ && (frames_.empty() || wheel_->stamp <= frames_.front().stamp)) return next_wheel();
     if (frames_.empty()) return std::nullopt;
+    if (wheels_ && !wheel_ && !any_cloud_)
+      throw Error(options_.wheels.string(), "ends before the capture begins",
+                  "time_s must be on the clock of the capture (seconds since 1970)");
+    any_cloud_ = true;
     PointCloud<Lidar> cloud = std::move(frames_.front());
     frames_.pop_front();
-    if (options_.deskew && wheels_) {
-      look_ahead(cloud.stamp + kWheelsAhead);
-      deskew(cloud, options_.base_from_lidar, track_);
-    }
     return CloudRecord{"vlp16", std::move(cloud), options_.base_from_lidar, options_.lidar_height_m};
   }
 
  private:
   std::optional<LogRecord> next_wheel() {
     const OdometryReading reading = *wheel_;
-    track_.add(reading);
-    if (ahead_.empty()) {
-      wheel_ = wheels_->next();
-    } else {
-      wheel_ = ahead_.front();
-      ahead_.pop_front();
-    }
+    wheel_ = wheels_->next();
     return reading;
-  }
-  /// Reads wheels into the track until `until` without handing them out.
-  void look_ahead(Stamp until) {
-    if (!wheel_) return;
-    track_.add(*wheel_);
-    while ((ahead_.empty() ? wheel_->stamp : ahead_.back().stamp) < until) {
-      const auto reading = wheels_->next();
-      if (!reading) return;
-      track_.add(*reading);
-      ahead_.push_back(*reading);
-    }
   }
   void read_frame() {
     while (frames_.empty() && !ended_) {
@@ -94,8 +76,7 @@ class Vlp16LogReader final : public LogReader {
   std::deque<PointCloud<Lidar>> frames_;
   std::optional<WheelsCsv> wheels_;
   std::optional<OdometryReading> wheel_;
-  std::deque<OdometryReading> ahead_;
-  OdometryTrack track_;
+  bool any_cloud_ = false;  ///< was handed out
   bool ended_ = false;
 };
 
@@ -115,14 +96,19 @@ std::unique_ptr<LogReader> open_log(const std::filesystem::path& file, const Log
     throw Error(file.string(), "is no file", "check the path of the log");
   if (!options.wheels.empty() && !capture)
     throw Error(file.string(), "carries its own odometry", "give the wheels' record with a .pcap only");
-  if (capture) return std::make_unique<Vlp16LogReader>(file, options);
+  const auto deskewed = [&](std::unique_ptr<LogReader> log) -> std::unique_ptr<LogReader> {
+    if (!options.deskew) return log;
+    return std::make_unique<DeskewedReader>(std::move(log));
+  };
+  if (capture) return deskewed(std::make_unique<Vlp16LogReader>(file, options));
   if (extension == ".log" || extension == ".clf" || extension == ".carmen")
     return std::make_unique<carmen::CarmenReader>(file);
   if (extension == ".bag") {
     BagOptions bag = options.bag;
     bag.base_from_lidar = options.base_from_lidar;
     bag.lidar_height_m = options.lidar_height_m;
-    return std::make_unique<TimeOrderedReader>(std::make_unique<BagReader>(file, bag), kBagDisorder);
+    return deskewed(
+        std::make_unique<TimeOrderedReader>(std::make_unique<BagReader>(file, bag), kBagDisorder));
   }
   throw Error(file.string(), "has an extension that is no log's",
               "use .log, .clf or .carmen (CARMEN), .bag (ROS 1) or .pcap (VLP-16)");

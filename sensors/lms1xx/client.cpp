@@ -12,10 +12,10 @@ bool is_refused(const Head& head, std::optional<std::uint32_t> answer) {
   return (head.kind == "sAN" || head.kind == "sEA") && answer.value_or(0) != 1;
 }
 
-/// Second status byte of a scan telegram.
+/// Second status byte of a scan telegram. An LMS5xx sets the error's bit too when its screen is too dirty.
 std::string problem_of(const ScanData& data) {
-  if ((data.status[1] & 1U) != 0) return "the scanner reports a device error";
   if ((data.status[1] & 4U) != 0) return "the scanner's front screen is too dirty to measure: clean it";
+  if ((data.status[1] & 1U) != 0) return "the scanner reports a device error";
   if ((data.status[1] & 2U) != 0) return "the scanner's front screen is dirty: clean it soon";
   return "";
 }

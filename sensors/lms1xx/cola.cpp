@@ -54,14 +54,19 @@ Bytes frame(Dialect dialect, Span payload) {
 }
 
 void Splitter::push(Span bytes) {
-  if (start_ > 0) buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(start_));
+  const auto done = static_cast<std::ptrdiff_t>(start_);
+  buffer_.erase(buffer_.begin(), buffer_.begin() + done);
+  sums_.erase(sums_.begin(), sums_.begin() + done);
+  searched_ -= std::min(searched_, start_);
   start_ = 0;
   buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+  for (const std::uint8_t byte : bytes) sums_.push_back(static_cast<std::uint8_t>(sums_.back() ^ byte));
 }
 
 void Splitter::clear() {
   buffer_.clear();
-  start_ = 0;
+  sums_.assign(1, 0);
+  start_ = searched_ = 0;
 }
 
 void Splitter::skip(std::size_t count) {
@@ -79,8 +84,10 @@ std::optional<Span> Splitter::next_a() {
     const auto stx = std::find(from, buffer_.end(), kStx);
     skip(static_cast<std::size_t>(stx - from));
     if (stx == buffer_.end()) return std::nullopt;
-    const auto end = std::find_if(stx + 1, buffer_.end(), [](auto c) { return c == kStx || c == kEtx; });
+    const auto unseen = buffer_.begin() + static_cast<std::ptrdiff_t>(std::max(start_ + 1, searched_));
+    const auto end = std::find_if(unseen, buffer_.end(), [](auto c) { return c == kStx || c == kEtx; });
     const auto length = static_cast<std::size_t>(end - stx);
+    searched_ = static_cast<std::size_t>(end - buffer_.begin());
     if (end == buffer_.end() && length <= kMaxPayload) return std::nullopt;
     if (end == buffer_.end() || *end == kStx || length > kMaxPayload) {
       ++damaged_;
@@ -110,7 +117,8 @@ std::optional<Span> Splitter::next_b() {
     }
     if (buffer_.size() - start_ < kHeaderB + length + 1) return std::nullopt;
     const Span payload(at + kHeaderB, length);
-    if (xor_of(payload) != at[kHeaderB + length]) {
+    const std::size_t begin = start_ + kHeaderB;
+    if ((sums_[begin] ^ sums_[begin + length]) != at[kHeaderB + length]) {
       ++damaged_;
       skip(1);
       continue;
@@ -124,9 +132,8 @@ std::optional<Span> Splitter::next_b() {
 Bytes encode(Dialect dialect, const Message& message) {
   Bytes payload;
   append(payload, message.kind);
-  payload.push_back(' ');
-  append(payload, message.name);
-  if (dialect == Dialect::B) payload.push_back(' ');
+  if (!message.name.empty()) append(payload, " " + message.name);
+  if (dialect == Dialect::B && !message.name.empty() && !message.arguments.empty()) payload.push_back(' ');
   for (const Argument& argument : message.arguments) {
     if (dialect == Dialect::A)
       append_text(payload, argument);
@@ -138,6 +145,7 @@ Bytes encode(Dialect dialect, const Message& message) {
 
 std::optional<Head> head_of(Span payload) {
   const std::string_view text(reinterpret_cast<const char*>(payload.data()), payload.size());
+  if (text.starts_with("sFA")) return Head{text.substr(0, 3), {}, payload.subspan(3)};
   if (text.size() < 5 || text[0] != 's' || text[3] != ' ') return std::nullopt;
   const std::size_t end = std::min(text.find(' ', 4), text.size());
   const std::string_view name = text.substr(4, end - 4);

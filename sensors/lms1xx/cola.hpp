@@ -43,7 +43,9 @@ class Splitter {
 
   Dialect dialect_;
   Bytes buffer_;
+  Bytes sums_{0};  ///< XOR of all that came before each byte: a frame's check costs the same at any length
   std::size_t start_ = 0;
+  std::size_t searched_ = 0;  ///< text: no mark lies between the frame's begin and here
   std::uint64_t damaged_ = 0;
   std::uint64_t skipped_ = 0;
 };
@@ -60,14 +62,14 @@ struct Argument {
 /// `sMN SetAccessMode 03 F4724744` and the like.
 struct Message {
   std::string kind;  ///< sRN, sRA, sWN, sWA, sMN, sAN, sEN, sEA, sSN, sFA
-  std::string name;
+  std::string name;  ///< empty of sFA, which has a code alone (two bytes)
   std::vector<Argument> arguments;
 };
 
 [[nodiscard]] Bytes encode(Dialect dialect, const Message& message);
 
-/// Kind and name of a payload, e.g. "sSN" and "LMDscandata", the bytes behind them, and in dialect A those as
-/// words.
+/// Kind and name of a payload, e.g. "sSN" and "LMDscandata", and the bytes behind them. A refusal has no
+/// name: "sFA 5" in text, in binary the code follows at once.
 struct Head {
   std::string_view kind;
   std::string_view name;

@@ -12,7 +12,7 @@
 namespace madori::sensors::lms1xx {
 namespace {
 
-constexpr std::size_t kMaxValues = 4096, kMaxChannels = 8, kMaxEncoders = 4;
+constexpr std::size_t kMaxValues = 4096, kMaxChannels = 10, kMaxEncoders = 4;
 constexpr std::uint16_t kFirstRange = 16;  ///< smaller values are codes: dazzle, no echo, ...
 constexpr double kDegPerUnit = 1e-4;
 

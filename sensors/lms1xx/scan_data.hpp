@@ -38,7 +38,7 @@ struct ScanData {
   std::uint16_t device = 1;
   std::uint32_t serial = 0;
   std::array<std::uint8_t, 2>
-      status{};  ///< second byte: 0 good, 1 error, 2 pollution warning, 4 pollution error
+      status{};  ///< second byte: 0 good, 1 error, 2 pollution warning, 4 (LMS5xx: 5) pollution error
   std::uint16_t telegram_counter = 0;
   std::uint16_t scan_counter = 0;
   std::uint32_t scan_time_us = 0;      ///< since power-up, at the beginning of the scan; wraps
@@ -57,7 +57,7 @@ struct ScanData {
 
 /// Reads the payload of `sSN LMDscandata` or `sRA LMDscandata`. What follows the channels (position, name,
 /// comment, time) is ignored. A failure names the field where the telegram is damaged; at most 4096 values a
-/// channel, 8 channels of each kind, 4 encoders.
+/// channel, 10 channels of each kind (five echoes, and RSSI of each), 4 encoders.
 [[nodiscard]] Result<ScanData> decode_scan(Dialect dialect, std::span<const std::uint8_t> payload);
 
 /// Channel DIST1 (or DIST2 where there is no other) as a scan of the Lidar frame: x forward, which is 90 deg

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "core/stamp.hpp"
 #include "sensors/pcap/udp.hpp"
@@ -26,14 +27,16 @@ class PcapReader {
   PcapReader(const PcapReader&) = delete;
   PcapReader& operator=(const PcapReader&) = delete;
 
-  /// Nothing at the end. A capture that was cut short ends there; truncated() tells.
+  /// Nothing at the end; a capture that was cut short ends there. Throws Error where one is damaged.
   [[nodiscard]] std::optional<CapturedPacket> next();
-  [[nodiscard]] bool truncated() const { return truncated_; }
 
  private:
   struct Handle;
+  [[noreturn]] void refuse(const std::string& why) const;
+
+  std::string file_;
   std::unique_ptr<Handle> handle_;
-  bool truncated_ = false;
+  std::uint64_t packets_ = 0;  ///< read so far, of any kind
 };
 
 }  // namespace madori::sensors::pcap

@@ -64,6 +64,20 @@ double bounded(double value, double largest) {
   return std::isfinite(value) ? std::clamp(value, 0.0, largest) : 0.0;
 }
 
+/// Seconds from the message's stamp, before it where that is the sweep's end.
+float time_offset_s(double seconds) {
+  return std::isfinite(seconds) ? static_cast<float>(std::clamp(seconds, -10.0, 10.0)) : 0.0F;
+}
+
+/// The stamp becomes that of the first firing.
+void count_from_first(PointCloud<Lidar>& cloud) {
+  float first_s = 0.0F;
+  for (const CloudPoint& point : cloud.points) first_s = std::min(first_s, point.time_offset_s);
+  if (first_s == 0.0F) return;
+  cloud.stamp += duration_from_seconds(static_cast<double>(first_s));
+  for (CloudPoint& point : cloud.points) point.time_offset_s -= first_s;
+}
+
 struct Layout {
   std::optional<Field> x, y, z, intensity, ring, time;
 };
@@ -79,7 +93,7 @@ std::optional<CloudPoint> read_point(const std::uint8_t* at, const Layout& layou
   if (layout.ring) point.ring = static_cast<std::uint8_t>(bounded(value_at(at, *layout.ring), 255.0));
   if (layout.time) {
     const double unit = layout.time->type >= kF32 ? 1.0 : 1e-9;
-    point.time_offset_s = static_cast<float>(bounded(unit * value_at(at, *layout.time), 10.0));
+    point.time_offset_s = time_offset_s(unit * value_at(at, *layout.time));
   }
   return point;
 }
@@ -105,6 +119,7 @@ Result<PointCloud<Lidar>> cloud_from_fields(const Cloud& in) {
       const auto point = read_point(in.data.data() + row * in.row_step + column * in.point_step, layout);
       if (point) cloud.points.push_back(*point);
     }
+  count_from_first(cloud);
   return cloud;
 }
 

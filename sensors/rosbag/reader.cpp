@@ -37,10 +37,11 @@ std::string choose(const std::vector<bridge::Topic>& topics, bridge::Kind kind, 
 }
 
 std::optional<OdometryReading> convert(const bridge::Pose& pose) {
-  const double yaw_rad = std::atan2(2.0 * (pose.qw * pose.qz + pose.qx * pose.qy),
-                                    1.0 - 2.0 * (pose.qy * pose.qy + pose.qz * pose.qz));
+  const double ww = pose.qw * pose.qw, xx = pose.qx * pose.qx, yy = pose.qy * pose.qy, zz = pose.qz * pose.qz;
+  const double yaw_rad =
+      std::atan2(2.0 * (pose.qw * pose.qz + pose.qx * pose.qy), ww + xx - yy - zz);  // of any length
   OdometryReading reading{to_stamp(pose.stamp_ns), {pose.x, pose.y, yaw_rad}};
-  if (!reading.odom_from_base.is_finite()) return std::nullopt;
+  if (!(ww + xx + yy + zz > 0.0) || !reading.odom_from_base.is_finite()) return std::nullopt;
   return reading;
 }
 
@@ -110,7 +111,7 @@ std::optional<LogRecord> BagReader::next() {
   };
   sinks.odometry = [&](const std::string& topic, const bridge::Pose& in) {
     const auto reading = convert(in);
-    if (!reading) refuse(topic, in.stamp_ns, "the pose is no number");
+    if (!reading) refuse(topic, in.stamp_ns, "the pose is no number, or has no orientation");
     ready_.emplace_back(*reading);
   };
   while (ready_.empty()) {

@@ -8,7 +8,8 @@
 namespace madori::sensors::s300 {
 
 /// Puts the beginnings of scans on the program's clock: a telegram is complete when the 270 deg have been
-/// seen and its bytes of ten bits have gone over the line.
+/// seen and its bytes of ten bits have gone over the line. A scan number that goes back is of a scanner that
+/// was switched on anew.
 class ScanClock {
  public:
   explicit ScanClock(double baud) : baud_(baud) {}
@@ -18,6 +19,8 @@ class ScanClock {
     const auto values = static_cast<double>(telegram.values.size());
     const double sweep_s = kScanPeriodS * values * 0.5 / 360.0;
     const double line_s = (26.0 + 2.0 * values) * 10.0 / baud_;
+    if (telegram.scan_number < last_scan_) clock_.reset();
+    last_scan_ = telegram.scan_number;
     clock_.observe(scan_us + std::llround((sweep_s + line_s) * 1e6), received);
     return clock_.stamp_of(scan_us);
   }
@@ -26,6 +29,7 @@ class ScanClock {
  private:
   double baud_;
   DeviceClock clock_;
+  std::uint32_t last_scan_ = 0;
 };
 
 }  // namespace madori::sensors::s300

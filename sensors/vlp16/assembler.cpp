@@ -12,7 +12,9 @@ constexpr std::int64_t kLateUs = 1'000'000;     ///< further back it is the cloc
 constexpr std::int64_t kSilenceUs = 1'000'000;  ///< longer: what was gathered belongs to no common frame
 constexpr int kMaxGapCdeg = 400;                ///< 20 Hz turn 0.8 deg a block; a lost block doubles it
 constexpr int kMaxBackCdeg = 100;               ///< a standing rotor's azimuth trembles
-constexpr double kShortestStepUs = 1200.0;      ///< of a VLP-16 in single return mode
+constexpr double kCircleCdeg = 36'000.0;
+constexpr std::int64_t kLongestTurnUs = 250'000;  ///< 5 Hz is the slowest; its motor may lag a little
+constexpr double kShortestStepUs = 1200.0;        ///< of a VLP-16 in single return mode
 constexpr std::size_t kPointsToExpect = 30'000;
 
 struct Trigonometry {
@@ -79,6 +81,9 @@ PushVerdict Assembler::check_order(Stamp received) {
       if (is_too_fast()) return ++counters_.refused, PushVerdict::ForeignSensor;
       const double steps = static_cast<double>(step_us) / packet_us(packet_.mode);
       counters_.lost += static_cast<std::uint64_t>(std::max(0LL, std::llround(steps) - 1));
+      const bool turn_is_missing =
+          gap_cdeg_[0] * static_cast<double>(step_us) > kCircleCdeg * 2.0 * kFiringUs;
+      if (turn_is_missing) finish_frame();
       packet_us_ += step_us;
     }
     if (packet_.mode != mode_) finish_frame();
@@ -126,8 +131,7 @@ bool Assembler::is_too_fast() {
     foreign_sensor_ = "VLP-32C";
   else
     foreign_sensor_ = "sensor that sends faster than a VLP-16";
-  frame_.cloud.points.clear();
-  frame_.blocks = 0;
+  drop_frame();
   return true;
 }
 
@@ -148,9 +152,8 @@ void Assembler::begin_anew() {
   started_ = false;
   foreign_sensor_.clear();
   impossible_steps_ = possible_steps_ = 0;
-  last_azimuth_cdeg_ = -1;
-  frame_.cloud.points.clear();
-  frame_.blocks = 0;
+  rotor_stands_ = false;
+  drop_frame();
   clock_.reset();
 }
 
@@ -170,17 +173,24 @@ bool Assembler::find_gaps() {
 
 void Assembler::cut_before(std::uint16_t azimuth_cdeg) {
   const int back = last_azimuth_cdeg_ - azimuth_cdeg;
-  if (last_azimuth_cdeg_ >= 0 && back > kMaxBackCdeg) finish_frame();
+  if (last_azimuth_cdeg_ >= 0 && back > kMaxBackCdeg) {
+    rotor_stands_ = false;
+    finish_frame();
+  }
   if (back <= 0 || back > kMaxBackCdeg) last_azimuth_cdeg_ = azimuth_cdeg;
 }
 
 void Assembler::add_block(std::size_t block) {
   const Block& b = packet_.blocks[block];
+  const auto firing_us = packet_us_ + static_cast<std::int64_t>(time_offset_us(packet_.mode, block, 0));
   cut_before(b.azimuth_cdeg);
+  if (frame_.blocks > 0 && firing_us - frame_.first_firing_us > kLongestTurnUs) {
+    rotor_stands_ = true;
+    drop_frame();
+  }
   const bool dual = packet_.mode == ReturnMode::Dual;
   const bool is_last = dual && block % 2 == 0;
-  if (frame_.blocks++ == 0)
-    frame_.first_firing_us = packet_us_ + static_cast<std::int64_t>(time_offset_us(packet_.mode, block, 0));
+  if (frame_.blocks++ == 0) frame_.first_firing_us = firing_us;
   if (is_last && options_.dual_return == DualReturn::Strongest) return;
   if (dual && !is_last && options_.dual_return == DualReturn::Last) return;
   const Block* twin =
@@ -212,6 +222,12 @@ void Assembler::finish_frame() {
   sink_(frame_);
   frame_.cloud.points.clear();
   frame_.cloud.points.reserve(kPointsToExpect);
+  frame_.blocks = 0;
+}
+
+void Assembler::drop_frame() {
+  last_azimuth_cdeg_ = -1;
+  frame_.cloud.points.clear();
   frame_.blocks = 0;
 }
 

@@ -13,7 +13,9 @@
 
 namespace madori::sensors::vlp16 {
 
-/// Which return of a dual-return packet becomes a point. Both: the strongest, and the last where it differs.
+/// Which return of a dual-return packet becomes a point. Strongest: the odd blocks' return, which is the
+/// second strongest where the last is the strongest; so of two returns always the nearer one, as a vehicle
+/// wants it. Both: that one, and the last where it differs.
 enum class DualReturn { Strongest, Last, Both };
 
 struct AssemblerOptions {
@@ -37,8 +39,10 @@ struct AssemblerCounters {
   std::uint64_t frames = 0, silences = 0;
 };
 
-/// Data packets become frames. A frame ends where a block's azimuth is smaller than its forerunner's.
-/// Lost packets are counted and leave a gap; late and repeated ones are counted and thrown away.
+/// Data packets become frames. A frame ends where a block's azimuth is smaller than its forerunner's, and
+/// where a whole turn is missing. Lost packets are counted and leave a gap; late and repeated ones are
+/// counted and thrown away, and so is what a rotor sees that stands or takes longer for a turn than any
+/// VLP-16 may.
 class Assembler {
  public:
   explicit Assembler(FrameSink sink, AssemblerOptions options = {});
@@ -53,6 +57,8 @@ class Assembler {
   [[nodiscard]] PacketFault last_fault() const { return last_fault_; }
   /// "HDL-32E", "VLP-32C" ... while the packets come faster than a VLP-16 can send; empty otherwise.
   [[nodiscard]] const std::string& foreign_sensor() const { return foreign_sensor_; }
+  /// No turn was completed in the time of the slowest one, nor since.
+  [[nodiscard]] bool rotor_stands() const { return rotor_stands_; }
 
  private:
   PushVerdict check_order(Stamp received);
@@ -64,6 +70,7 @@ class Assembler {
   void add_block(std::size_t block);
   void cut_before(std::uint16_t azimuth_cdeg);
   void finish_frame();
+  void drop_frame();
 
   FrameSink sink_;
   AssemblerOptions options_;
@@ -78,6 +85,7 @@ class Assembler {
   std::int64_t seen_us_ = 0;    ///< and of the last one at all
   ReturnMode mode_ = ReturnMode::Strongest;
   bool started_ = false;
+  bool rotor_stands_ = false;
   int impossible_steps_ = 0;
   int possible_steps_ = 0;  ///< in a row, while it counts as another model
   int last_azimuth_cdeg_ = -1;

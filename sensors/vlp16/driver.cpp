@@ -80,6 +80,8 @@ class Driver final : public LidarDriver {
       health.problem = "what sends to " + place() + " is no VLP-16: check its address and its kind";
     else if (health.silence > std::chrono::seconds(1))
       health.problem = "no packets on " + place();
+    else if (receiver_.rotor_stands())
+      health.problem = "its packets come, but its rotor does not turn: look at its motor and its rpm setting";
     return health;
   }
   [[nodiscard]] std::string place() const override { return "UDP " + std::to_string(receiver_.data_port()); }

@@ -40,7 +40,8 @@ struct Return {
   friend bool operator==(const Return&, const Return&) = default;
 };
 
-/// Two firings. In dual-return mode blocks 2k (last) and 2k+1 (strongest) tell of the same two firings.
+/// Two firings. In dual-return mode blocks 2k (last) and 2k+1 (strongest; where that is the last one, the
+/// second strongest) tell of the same two firings.
 struct Block {
   std::uint16_t azimuth_cdeg =
       0;  ///< of the first laser of the first firing, 0.01 deg, clockwise seen from above

@@ -15,7 +15,8 @@ Receiver::Receiver(const ReceiverOptions& options, FrameSink sink, Tap tap)
     const std::lock_guard lock(mutex_);
     counters_ = assembler_.counters();
     foreign_sensor_ = assembler_.foreign_sensor();
-    if (bytes.size() != kDataBytes) refused_at_ = received;
+    rotor_stands_ = assembler_.rotor_stands();
+    if (verdict == PushVerdict::Refused) refused_at_ = received;
     if (verdict != PushVerdict::Taken) return;
     pin_.good(sender, received);
     heard_ = received;
@@ -59,6 +60,11 @@ AssemblerCounters Receiver::counters() const {
 std::string Receiver::foreign_sensor() const {
   const std::lock_guard lock(mutex_);
   return foreign_sensor_;
+}
+
+bool Receiver::rotor_stands() const {
+  const std::lock_guard lock(mutex_);
+  return rotor_stands_;
 }
 
 std::optional<PositionPacket> Receiver::position() const {

@@ -36,6 +36,8 @@ class Receiver {
   [[nodiscard]] Duration silence() const;
   /// Packets come to the data port that are no VLP-16's.
   [[nodiscard]] bool hears_others() const;
+  /// Good packets come, but no revolution.
+  [[nodiscard]] bool rotor_stands() const;
   [[nodiscard]] std::uint16_t data_port() const { return data_->port(); }
   [[nodiscard]] std::uint16_t position_port() const { return position_receiver_->port(); }
 
@@ -48,6 +50,7 @@ class Receiver {
   Assembler assembler_;
   AssemblerCounters counters_;
   std::string foreign_sensor_;
+  bool rotor_stands_ = false;
   std::optional<PositionPacket> position_;
   Stamp heard_{};
   Stamp refused_at_{};  ///< the last packet that was of another length or make

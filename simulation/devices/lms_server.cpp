@@ -8,7 +8,7 @@ namespace {
 namespace lms1xx = sensors::lms1xx;
 
 constexpr std::uint32_t kUnknownCommand = 3;  ///< SOPAS error: method or variable not known
-constexpr std::uint32_t kAccessDenied = 5;
+constexpr std::uint32_t kAccessDenied = 1;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::vector<std::uint8_t> LmsDialogue::answer(const lms1xx::Head& head,
   const auto reply = [&](const char* kind, std::vector<lms1xx::Argument> arguments = {}) {
     return lms1xx::encode(dialect_, {kind, std::string(head.name), std::move(arguments)});
   };
-  const auto refuse = [&](std::uint32_t code) { return lms1xx::encode(dialect_, {"sFA", "", {{code, 1}}}); };
+  const auto refuse = [&](std::uint32_t code) { return lms1xx::encode(dialect_, {"sFA", "", {{code, 2}}}); };
   if (head.kind == "sMN" && head.name == "SetAccessMode") {
     logged_in_ = true;
     return reply("sAN", {{1, 1}});

@@ -25,6 +25,12 @@ struct Echoes {
   Echo first;
   Echo strongest;
   Echo last;
+
+  /// What a VLP-16 in dual return mode tells beside the last: the strongest, and where that is the last one,
+  /// the second strongest, which lies before it.
+  [[nodiscard]] const Echo& beside_last() const {
+    return strongest.range_m == last.range_m ? first : strongest;
+  }
 };
 
 /// Glass answers only a beam that is nearly square on it; the others go through, and one in twelve of those

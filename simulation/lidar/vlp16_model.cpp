@@ -101,7 +101,7 @@ void Vlp16Model::fill(vlp16::DataPacket& packet) const {
       const Echoes echoes = echoes_of(hits, options, bias_[c], azimuth, random);
       const std::size_t index = f % 2 * vlp16::kChannels + c;
       packet.blocks[block].returns[index] = encode_echo(spec_.dual_return ? echoes.last : echoes.strongest);
-      if (spec_.dual_return) packet.blocks[block + 1].returns[index] = encode_echo(echoes.strongest);
+      if (spec_.dual_return) packet.blocks[block + 1].returns[index] = encode_echo(echoes.beside_last());
     }
   }
 }

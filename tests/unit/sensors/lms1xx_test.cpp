@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -121,6 +122,95 @@ TEST(Lms1xx, TheStartDialogueIsTheListings) {
   const Bytes login = encode(Dialect::B, start_dialogue(true)[0]);
   EXPECT_EQ(text_of(std::span(login).subspan(8, 18)), "sMN SetAccessMode ");
   EXPECT_EQ(Bytes(login.begin() + 26, login.end() - 1), (Bytes{0x03, 0xF4, 0x72, 0x47, 0x44}));
+  const Bytes run = encode(Dialect::B, start_dialogue(true)[3]);  // no blank behind a name without arguments
+  EXPECT_EQ(run, bytes_of(std::string("\x02\x02\x02\x02\0\0\0\x07sMN Run\x19", 16)));
+}
+
+/// As a device sends it: the code follows at once in binary, after a blank in text.
+TEST(Lms1xx, ARefusalHasACodeAndNoName) {
+  const Message refusal{"sFA", "", {{10, 2}}};
+  const Bytes binary = bytes_of(std::string("\x02\x02\x02\x02\0\0\0\x05sFA\0\n~", 14));
+  EXPECT_EQ(encode(Dialect::B, refusal), binary);
+  EXPECT_EQ(text_of(encode(Dialect::A, refusal)), "\x02sFA A\x03");
+  for (const Dialect dialect : {Dialect::A, Dialect::B}) {
+    Splitter splitter(dialect);
+    splitter.push(encode(dialect, refusal));
+    const auto payload = splitter.next();
+    ASSERT_TRUE(payload);
+    const auto head = head_of(*payload);
+    ASSERT_TRUE(head);
+    EXPECT_EQ(head->kind, "sFA");
+    EXPECT_EQ(head->name, "");
+  }
+}
+
+TEST(Lms1xx, FiveEchoesWithRssiOf16BitsAreRead) {
+  ScanData data = sample();
+  for (const char kind : {'D', 'R'})
+    for (char echo = '1'; echo <= '5'; ++echo) {
+      Channel<std::uint16_t> channel = sample().channels16[0];
+      channel.name = {kind == 'D' ? 'D' : 'R', kind == 'D' ? 'I' : 'S', 'S', kind == 'D' ? 'T' : 'I', echo};
+      if (kind == 'D' && echo == '1') continue;  // sample() has it
+      data.channels16.push_back(channel);
+    }
+  ASSERT_EQ(data.channels16.size(), 10U);
+  for (const Dialect dialect : {Dialect::A, Dialect::B}) {
+    Splitter splitter(dialect);
+    splitter.push(encode(dialect, data));
+    const auto payload = splitter.next();
+    ASSERT_TRUE(payload);
+    const auto read = decode_scan(dialect, *payload);
+    ASSERT_TRUE(read) << read.reason();
+    EXPECT_EQ(read.value(), data);
+  }
+}
+
+/// Seconds of this thread's own time that a splitter needs for the bytes in such pieces.
+double work_s(Dialect dialect, const Bytes& bytes, std::size_t piece) {
+  const auto now_s = [] {
+    timespec t{};
+    (void)::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double start_s = now_s();
+  Splitter splitter(dialect);
+  for (std::size_t at = 0; at < bytes.size(); at += piece) {
+    splitter.push(std::span(bytes).subspan(at, std::min(piece, bytes.size() - at)));
+    while (splitter.next()) {
+    }
+  }
+  return now_s() - start_s;
+}
+
+Bytes repeated(const Bytes& bytes, std::size_t length) {
+  Bytes all;
+  while (all.size() < length) all.insert(all.end(), bytes.begin(), bytes.end());
+  return all;
+}
+
+/// Every eight bytes the head of a long frame whose check fails; a text that comes byte by byte and never
+/// ends. Where each byte was looked at again and again, this took thousands of times as long as good
+/// telegrams do.
+TEST(Lms1xx, DamageCostsNoMoreThanGoodTelegrams) {
+  const Bytes heads = repeated({2, 2, 2, 2, 0, 0, 0xFF, 0xF0}, 400'000);
+  const Bytes scans = repeated(encode(Dialect::B, sample()), heads.size());
+  EXPECT_LT(work_s(Dialect::B, heads, 16'384), 100.0 * work_s(Dialect::B, scans, 16'384));
+  Bytes endless(130'000, 'x');
+  endless[0] = endless[65'000] = 2;
+  const Bytes answers = repeated(frame(Dialect::A, bytes_of("sAN Run 1")), endless.size());
+  EXPECT_LT(work_s(Dialect::A, endless, 1), 30.0 * work_s(Dialect::A, answers, 1));
+}
+
+TEST(Lms1xx, AGoodTelegramIsFoundBehindManyFalseHeads) {
+  Bytes line = repeated({2, 2, 2, 2, 0, 0, 0xFF, 0xF0}, 100'000);
+  line.insert(line.end(), kMaxPayload, 0);
+  const Bytes good = encode(Dialect::B, sample());
+  line.insert(line.end(), good.begin(), good.end());
+  Splitter splitter(Dialect::B);
+  splitter.push(line);
+  std::size_t last = 0;  // a false frame's check may fit by chance
+  while (const auto payload = splitter.next()) last = payload->size();
+  EXPECT_EQ(last, good.size() - 9);
 }
 
 TEST(Lms1xx, SplitterFindsTelegramsInAnyPiecesAfterNoise) {

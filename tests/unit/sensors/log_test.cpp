@@ -7,6 +7,7 @@
 #include "core/result.hpp"
 #include "sensors/deskew.hpp"
 #include "sensors/open_log.hpp"
+#include "sensors/pcap/reader.hpp"
 #include "sensors/rosbag/bridge.hpp"
 #include "sensors/rosbag/cloud_fields.hpp"
 #include "sensors/rosbag/writer.hpp"
@@ -90,6 +91,22 @@ TEST(Bag, SeveralTopicsOfAKindMustBeChosenFrom) {
   EXPECT_THAT(error_of(file, options), HasSubstr("has no topic /none"));
 }
 
+TEST(Bag, AnOrientationOfAnyLengthIsReadAndNoneIsRefused) {
+  const test::TemporaryFolder folder;
+  const auto write = [&](const char* name, double qz, double qw) {
+    rosbag_bridge::Output output((folder.path() / name).string());
+    rosbag_bridge::Pose pose;
+    pose.stamp_ns = 5'000'000'000;
+    pose.qz = qz, pose.qw = qw;
+    output.write_odometry("/odom", pose);
+    output.close();
+    return folder.path() / name;
+  };
+  const auto log = open_log(write("long.bag", 2.0, 2.0));
+  EXPECT_NEAR(std::get<OdometryReading>(log->next().value()).odom_from_base.yaw_rad(), kPi / 2.0, 1e-12);
+  EXPECT_THAT(error_of(write("none.bag", 0.0, 0.0)), HasSubstr("no orientation"));
+}
+
 TEST(Bag, RefusesWhatIsNone) {
   const test::TemporaryFolder folder;
   EXPECT_THAT(error_of(folder.write("a.bag", "no bag at all")), HasSubstr("no readable ROS 1 bag"));
@@ -110,6 +127,57 @@ TEST(PointCloud2, RefusesRowsAndFieldsOutsideItsData) {
   EXPECT_TRUE(broken([](auto& c) { c.fields[0].offset = 0xFFFFFFFEU; }));
   EXPECT_TRUE(broken([](auto& c) { c.fields[2].name = "w"; }));
   EXPECT_TRUE(broken([](auto& c) { c.big_endian = true; }));
+}
+
+/// As velodyne_pointcloud stamps a revolution unless it is told otherwise: at its last packet.
+TEST(PointCloud2, TimesBeforeItsStampAreOfASweepThatEndsThere) {
+  PointCloud<Lidar> sent = sample_cloud(stamp_from_seconds(100.0));
+  for (CloudPoint& p : sent.points) p.time_offset_s -= 0.1F;
+  const auto got = cloud_from_fields(fields_from_cloud(sent));
+  ASSERT_TRUE(got);
+  EXPECT_NEAR(to_seconds(got.value().stamp), 99.9, 1e-6);
+  for (std::size_t i = 0; i < sent.points.size(); ++i)
+    ASSERT_NEAR(got.value().points[i].time_offset_s, 0.001 * static_cast<double>(i), 1e-6);
+}
+
+/// A capture of little-endian numbers, raw IPv4, with one UDP packet of each length.
+std::string capture_of(const std::vector<std::size_t>& lengths) {
+  std::string file;
+  const auto put = [&file](std::uint32_t value, int bytes = 4) {
+    for (int i = 0; i < bytes; ++i) file += static_cast<char>((value >> (8 * i)) & 0xFFU);
+  };
+  put(0xA1B2C3D4U), put(2, 2), put(4, 2), put(0), put(0), put(65'535), put(101);
+  for (const std::size_t length : lengths) {
+    const auto all = static_cast<std::uint32_t>(28 + length);
+    put(1'000), put(0), put(all), put(all);
+    std::string packet(all, '\0');
+    packet[0] = 0x45, packet[9] = 17;
+    packet[24] = static_cast<char>((8 + length) >> 8U), packet[25] = static_cast<char>((8 + length) & 0xFFU);
+    file += packet;
+  }
+  return file;
+}
+
+int packets_of(const std::filesystem::path& file) {
+  pcap::PcapReader reader(file);
+  int packets = 0;
+  while (reader.next()) ++packets;
+  return packets;
+}
+
+TEST(Capture, OneThatWasCutShortEndsThereAndADamagedOneIsRefused) {
+  const test::TemporaryFolder folder;
+  const std::string good = capture_of({100, 200, 300});
+  EXPECT_EQ(packets_of(folder.write("good.pcap", good)), 3);
+  EXPECT_EQ(packets_of(folder.write("short.pcap", good.substr(0, good.size() - 10))), 2);
+  std::string damaged = good;
+  for (std::size_t i = 0; i < 4; ++i) damaged[24 + 16 + 128 + 8 + i] = '\xFF';  // the second one's length
+  try {
+    (void)packets_of(folder.write("damaged.pcap", damaged));
+    FAIL() << "half a capture was taken for a whole one";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("is damaged after 1 packets"));
+  }
 }
 
 TEST(OpenLog, NamesTheMend) {
@@ -150,10 +218,53 @@ TEST(OpenLog, MergesACaptureWithItsWheels) {
   EXPECT_EQ(readings, 400);
   options.wheels = folder.write("late.csv", "time_s,left_rad,right_rad\n1500000000,0,0\n");
   EXPECT_THAT(error_of(file, options), HasSubstr("on the clock of the capture"));
+  options.wheels = folder.write("since_power_up.csv", "time_s,left_rad,right_rad\n0,0,0\n600,1,1\n");
+  EXPECT_THAT(error_of(file, options), HasSubstr("ends before the capture begins"));
   options.wheels = folder.write("bad.csv", "time_s,left_rad,right_rad\n1415069209,0,nan\n");
   EXPECT_THAT(error_of(file, options), HasSubstr("bad.csv:2"));
   options.wheels = folder.write("back.csv", "time_s,left_rad,right_rad\n1415069209,0,0\n1415069208,0,0\n");
   EXPECT_THAT(error_of(file, options), HasSubstr("back.csv:3"));
+}
+
+TEST(Bag, ARevolutionIsDeskewedByTheOdometryBesideIt) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "run.bag";
+  const auto at = [](double seconds) { return stamp_from_seconds(1'700'000'000.0 + seconds); };
+  const Transform2<Base, Lidar> base_from_lidar(0.2, 0.0, 0.0);
+  const auto pose_at = [](double t) { return Transform2<Odom, Base>(1.0 * t, 0.0, 0.5 * t); };
+  const Point2<Odom> post{5.0, 1.0};
+  {
+    BagWriter writer(file);
+    PointCloud<Lidar> cloud{at(0.2), {}};  // stamped at its end, as velodyne_pointcloud does
+    for (int i = 0; i <= 10; ++i) {
+      const auto seen = (pose_at(0.1 + 0.01 * i) * base_from_lidar).inverse() * post;
+      cloud.points.push_back({static_cast<float>(seen.x_m), static_cast<float>(seen.y_m), 0.5F,
+                              -0.1F + 0.01F * static_cast<float>(i)});
+    }
+    for (int i = 0; i < 20; ++i) writer.write("/odom", OdometryReading{at(0.02 * i), pose_at(0.02 * i)});
+    writer.write("/points", cloud);
+    for (int i = 20; i < 40; ++i) writer.write("/odom", OdometryReading{at(0.02 * i), pose_at(0.02 * i)});
+    writer.close();
+  }
+  LogOptions options;
+  options.base_from_lidar = base_from_lidar;
+  const auto log = open_log(file, options);
+  const auto first = (pose_at(0.1) * base_from_lidar).inverse() * post;
+  int clouds = 0;
+  Stamp last{};
+  while (const auto record = log->next()) {
+    EXPECT_GE(stamp_of(*record), last);
+    last = stamp_of(*record);
+    const auto* cloud = std::get_if<CloudRecord>(&*record);
+    if (cloud == nullptr) continue;
+    ++clouds;
+    EXPECT_NEAR(to_seconds(cloud->cloud.stamp - at(0.1)), 0.0, 1e-6);
+    for (const CloudPoint& p : cloud->cloud.points) {
+      EXPECT_NEAR(p.x_m, first.x_m, 1e-3);
+      EXPECT_NEAR(p.y_m, first.y_m, 1e-3);
+    }
+  }
+  EXPECT_EQ(clouds, 1);
 }
 
 TEST(Deskew, StraightensAWallThatWasSeenWhileTurningAndDriving) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "sensors/lidar/registry.hpp"
 #include "sensors/lms1xx/client.hpp"
 #include "sensors/lms1xx/encode.hpp"
 #include "sensors/s300/encode.hpp"
@@ -123,10 +124,38 @@ TEST(Vlp16Receiver, ASecondProgramOnItsPortIsRefused) {
                  Error);
 }
 
+TEST(Vlp16Driver, TellsAnotherModelOfTheMakerAndAStandingRotorFromSilence) {
+  LidarSettings settings;
+  settings.name = "top";
+  settings.address = "127.0.0.1:0";
+  settings.values["position_port"] = "0";
+  const auto driver = lidar_of("vlp16", "").open(settings, [](LidarSweep&) {}, {});
+  const auto says = [&](const char* words) {
+    return driver->health().problem.find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(says("no packets on UDP"));
+  UdpLidar lidar;
+  vlp16::DataPacket packet;
+  packet.product = 0x24;  // Puck Hi-Res
+  const auto send = [&] {
+    const auto bytes = vlp16::encode(packet);
+    lidar.send(driver->port(), {bytes.begin(), bytes.end()});
+  };
+  send();
+  EXPECT_TRUE(eventually([&] { return says("is no VLP-16"); })) << driver->health().problem;
+  packet.product = 0x22;
+  EXPECT_TRUE(eventually([&] {
+    packet.time_us += 1327;
+    send();
+    return says("its rotor does not turn");
+  })) << driver->health().problem;
+}
+
 /// An LMS1xx that answers each command, sends three scans, and hangs up.
 class FakeScanner {
  public:
-  explicit FakeScanner(lms1xx::Dialect dialect, bool refuses = false)
+  enum class Refuses { Nothing, ByAnswer, ByErrorCode };
+  explicit FakeScanner(lms1xx::Dialect dialect, Refuses refuses = Refuses::Nothing)
       : dialect_(dialect),
         refuses_(refuses),
         acceptor_(context_, tcp::endpoint(asio::ip::make_address("127.0.0.1"), 0)) {
@@ -162,8 +191,11 @@ class FakeScanner {
   bool answer(tcp::socket& socket, std::span<const std::uint8_t> payload) {
     const auto head = lms1xx::head_of(payload);
     boost::system::error_code problem;
-    const bool login = head->name == "SetAccessMode";
-    std::vector<lms1xx::Argument> result{{head->name == "LMCstartmeas" || (login && refuses_) ? 0U : 1U, 1}};
+    const bool refused = head->name == "SetAccessMode" && refuses_ != Refuses::Nothing;
+    if (refused && refuses_ == Refuses::ByErrorCode)
+      return asio::write(socket, asio::buffer(encode(dialect_, lms1xx::Message{"sFA", "", {{1, 2}}})),
+                         problem) > 0;
+    std::vector<lms1xx::Argument> result{{head->name == "LMCstartmeas" || refused ? 0U : 1U, 1}};
     if (head->kind == "sWN") result.clear();
     const std::string kind = head->kind == "sMN" ? "sAN" : head->kind == "sWN" ? "sWA" : "sEA";
     asio::write(socket,
@@ -182,7 +214,7 @@ class FakeScanner {
   }
 
   lms1xx::Dialect dialect_;
-  bool refuses_;
+  Refuses refuses_;
   asio::io_context context_;
   tcp::acceptor acceptor_;
   std::atomic<bool> stop_ = false;
@@ -211,10 +243,16 @@ TEST(Lms1xxClient, StartsReadsAndComesBackAfterALoss) {
 }
 
 TEST(Lms1xxClient, SaysWhatTheScannerRefuses) {
-  FakeScanner scanner(lms1xx::Dialect::B, true);
-  lms1xx::Client client({.host = "127.0.0.1", .port = scanner.port()}, [](const auto&, const auto&) {});
-  EXPECT_TRUE(
-      eventually([&] { return client.problem().find("refuses SetAccessMode") != std::string::npos; }));
+  using enum FakeScanner::Refuses;
+  for (const auto dialect : {lms1xx::Dialect::A, lms1xx::Dialect::B})
+    for (const auto how : {ByAnswer, ByErrorCode}) {
+      FakeScanner scanner(dialect, how);
+      lms1xx::Client client({.host = "127.0.0.1", .port = scanner.port(), .dialect = dialect},
+                            [](const auto&, const auto&) {});
+      EXPECT_TRUE(eventually([&] {
+        return client.problem().find("refuses SetAccessMode") != std::string::npos;
+      })) << client.problem();
+    }
 }
 
 TEST(Lms1xxClient, SaysThatSomebodyElseAnswers) {

@@ -6,6 +6,7 @@
 #include "core/angle.hpp"
 #include "core/crc16.hpp"
 #include "sensors/s300/encode.hpp"
+#include "sensors/s300/scan_clock.hpp"
 
 namespace madori::sensors::s300 {
 namespace {
@@ -92,6 +93,18 @@ TEST(S300, FieldsStopTheVehicle) {
   telegram = scan_of(Variant::V0301, 1);
   telegram.status = 0x0100;
   EXPECT_TRUE(fields_of(telegram).must_stop());
+}
+
+TEST(S300, AScannerThatIsSwitchedOnAnewBeginsANewTime) {
+  ScanClock clock(kBitsPerSecond);
+  const auto off_s = [&](std::uint32_t number, double received_s) {
+    const Stamp received = stamp_from_seconds(received_s);
+    return to_seconds(received - clock.stamp_of(scan_of(Variant::V0301, number), received));
+  };
+  EXPECT_NEAR(off_s(100'000, 5'000.0), 0.052, 0.001);
+  EXPECT_NEAR(off_s(100'025, 5'001.0), 0.052, 0.001);
+  EXPECT_NEAR(off_s(2, 5'012.0), 0.052, 0.001);
+  EXPECT_NEAR(off_s(27, 5'013.0), 0.052, 0.001);
 }
 
 TEST(S300, BecomesAScanThatLooksForward) {

@@ -40,17 +40,19 @@ class Sensor {
     for (std::size_t b = 0; b < kBlocks; ++b) {
       packet.blocks[b].azimuth_cdeg = static_cast<std::uint16_t>(azimuth_);
       packet.blocks[b].returns.fill({static_cast<std::uint16_t>(distance + (b % stride)), 7});
-      if ((b + 1) % stride == 0) azimuth_ = (azimuth_ + 40) % 36'000;
+      if ((b + 1) % stride == 0) azimuth_ = (azimuth_ + step_cdeg_) % 36'000;
     }
     time_us_ += packet_us(mode_);
     return encode(packet);
   }
   void set_time_us(double time_us) { time_us_ = time_us; }
+  void set_step_cdeg(int step_cdeg) { step_cdeg_ = step_cdeg; }
   [[nodiscard]] double time_us() const { return time_us_; }
 
  private:
   ReturnMode mode_;
   int azimuth_ = 0;
+  int step_cdeg_ = 40;  ///< a block, of 10 Hz
   double time_us_ = 1'000'000.0;
 };
 
@@ -206,6 +208,47 @@ TEST(Vlp16Assembler, CountsAndSurvivesLossRepetitionAndDelay) {
   EXPECT_EQ(assembler.counters().duplicates, 6U);
   EXPECT_EQ(assembler.counters().late, 6U);
   EXPECT_EQ(got.frames.size(), 4U);
+}
+
+TEST(Vlp16Assembler, AStandingRotorMakesNoFramesAndGathersNothing) {
+  Collected got;
+  Assembler assembler(got.sink);
+  Sensor sensor;
+  for (int i = 0; i < 100; ++i) assembler.push(sensor.next(), {});
+  ASSERT_EQ(got.frames.size(), 1U);
+  EXPECT_FALSE(assembler.rotor_stands());
+  sensor.set_step_cdeg(0);
+  for (int i = 0; i < 3'000; ++i) assembler.push(sensor.next(), {});  // four seconds
+  EXPECT_EQ(got.frames.size(), 1U);
+  EXPECT_TRUE(assembler.rotor_stands());
+  sensor.set_step_cdeg(40);
+  for (int i = 0; i < 150; ++i) assembler.push(sensor.next(), {});
+  EXPECT_FALSE(assembler.rotor_stands());
+  ASSERT_GE(got.frames.size(), 2U);
+  for (const Frame& frame : got.frames)
+    for (const CloudPoint& p : frame.cloud.points) ASSERT_LT(p.time_offset_s, 0.26F);
+}
+
+TEST(Vlp16Assembler, TheSlowestTurnIsAFrame) {
+  Collected got;
+  Assembler assembler(got.sink);
+  Sensor sensor;
+  sensor.set_step_cdeg(20);  // 5 Hz
+  for (int i = 0; i < 460; ++i) assembler.push(sensor.next(), {});
+  ASSERT_EQ(got.frames.size(), 3U);
+  EXPECT_EQ(got.frames[1].blocks, 1'800);
+}
+
+TEST(Vlp16Assembler, TwoTurnsWithAWholeOneMissingBetweenThemAreTwoFrames) {
+  Collected got;
+  Assembler assembler(got.sink);
+  Sensor sensor;
+  for (int i = 0; i < 40; ++i) assembler.push(sensor.next(), {});
+  for (int i = 0; i < 80; ++i) (void)sensor.next();  // goes on a little beyond where it was lost
+  for (int i = 0; i < 40; ++i) assembler.push(sensor.next(), {});
+  ASSERT_GE(got.frames.size(), 1U);
+  EXPECT_EQ(got.frames[0].blocks, 480);
+  EXPECT_EQ(assembler.counters().lost, 80U);
 }
 
 TEST(Vlp16Assembler, NoPointIsOlderThanItsFrame) {

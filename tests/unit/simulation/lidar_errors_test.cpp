@@ -23,6 +23,14 @@ Hit wall_at(float range_m, float incidence_cos = 1.0F) {
   return hit;
 }
 
+/// VLP-16 manual, 9.3.2: the odd block holds the second strongest where the strongest is the last as well.
+TEST(DualReturn, TellsTwoEchoesWhereThereAreTwo) {
+  const Echo near{2.0F, Material::Wall}, far{5.0F, Material::Wall};
+  EXPECT_FLOAT_EQ((Echoes{near, near, far}.beside_last().range_m), 2.0F);
+  EXPECT_FLOAT_EQ((Echoes{near, far, far}.beside_last().range_m), 2.0F);
+  EXPECT_FLOAT_EQ((Echoes{far, far, far}.beside_last().range_m), 5.0F);
+}
+
 TEST(BeamSpot, LiesEvenlyAroundItsMiddle) {
   for (const std::size_t asked : {1U, 2U, 5U}) {
     const BeamSpot spot(0.008, 0.015, asked);

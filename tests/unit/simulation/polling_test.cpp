@@ -48,6 +48,30 @@ TEST(Lms1xxClient, AsksForEachScanWhereItIsPolled) {
   EXPECT_EQ(client.counters().lost, 0U) << "what was not asked for is not lost";
 }
 
+/// 5 of an LMS5xx: the error's bit and the screen's.
+TEST(Lms1xxClient, TellsADirtyScreenFromAnotherError) {
+  DeviceHubOptions options;
+  const test::TemporaryFolder folder;
+  options.folder = folder.path();
+  DeviceHub hub(options);
+  lms1xx::Client client({.host = "127.0.0.1", .port = hub.lms_port()}, [](const auto&, const auto&) {});
+  lms1xx::ScanData data;
+  data.channels16.push_back({{'D', 'I', 'S', 'T', '1'}, 1.0F, 0.0F, -450'000, 5'000, {1000, 2000, 3}});
+  for (const auto& [status, words] : {std::pair<std::uint8_t, const char*>{5, "too dirty to measure"},
+                                      {4, "too dirty to measure"},
+                                      {1, "device error"},
+                                      {2, "clean it soon"}}) {
+    data.status = {0, status};
+    EXPECT_TRUE(eventually([&, words = words] {
+      ++data.telegram_counter;
+      data.transmit_time_us = data.scan_time_us += 1'000;
+      hub.send({Device::Lms1xx, {}, lms1xx::encode(lms1xx::Dialect::B, data), 0});
+      (void)hub.poll();
+      return client.problem().find(words) != std::string::npos;
+    })) << client.problem();
+  }
+}
+
 /// Bytes of a stream that nobody asked for: a decoder takes as many scans as would have been asked for.
 TEST(Lms1xxDecoder, TakesOfAStreamWhatWouldBeAskedFor) {
   sensors::LidarSettings settings;
