@@ -13,7 +13,8 @@ double turn_rate(double error_rad, const PursuitOptions& options) {
   const double lost = options.turn_acceleration_radps2 * options.speed.reaction_s;
   const double rate =
       std::sqrt(lost * lost + 2.0 * options.turn_acceleration_radps2 * std::abs(error_rad)) - lost;
-  return std::copysign(std::clamp(rate, options.creep_radps, options.speed.max_turn_rate_radps), error_rad);
+  return std::copysign(std::min(std::max(rate, options.creep_radps), options.speed.max_turn_rate_radps),
+                       error_rad);
 }
 
 double allowed_by_uncertainty(double sigma_m, const PursuitOptions& options) {
@@ -25,6 +26,12 @@ double allowed_by_uncertainty(double sigma_m, const PursuitOptions& options) {
 /// Where the front points as a piece begins; of a piece of one point it is the heading asked for.
 double facing_of(const TrackedPath& path, const PathPiece& piece) {
   return path.points()[piece.first].facing_rad();
+}
+
+/// Who looks away from where the path leads gets no nearer to it by driving on.
+bool looks_away(const TrackedPath& path, const PathPlace& place, const PursuitInput& input) {
+  const double off_rad = wrap_angle(path.points()[place.index].facing_rad() - input.map_from_base.yaw_rad());
+  return std::abs(off_rad) > kPi / 2.0;
 }
 
 /// A vehicle that looks the other way drives forward.
@@ -57,7 +64,7 @@ VelocityCommand aim(const TrackedPath& path, const PathPiece& piece, const PathP
   const double square = target.x_m * target.x_m + target.y_m * target.y_m;
   const double curvature = square > 1e-9 ? 2.0 * target.y_m / square : 0.0;
   speed = std::min({speed, options.speed.speed_to_stop_within(input.free_distance_m),
-                    options.speed.max_turn_rate_radps / std::max(std::abs(curvature), 1e-6)});
+                    options.speed.speed_on_curve(curvature)});
   if (left_m <= options.goal_tolerance_m) speed = 0.0;
   return {speed, speed * curvature};
 }
@@ -86,7 +93,7 @@ PursuitOutput pursue(const TrackedPath& path, const PursuitState& before, const 
       state.index = place.index;
       out.along_m = place.along_m;
       out.cross_track_m = place.cross_track_m;
-      if (std::abs(place.cross_track_m) > options.off_path_m) {
+      if (std::abs(place.cross_track_m) > options.off_path_m || looks_away(path, place, input)) {
         out.status = PursuitStatus::OffPath;
         return out;
       }

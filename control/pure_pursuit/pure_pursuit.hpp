@@ -20,7 +20,7 @@ struct PursuitOptions {
   double goal_tolerance_m = 0.004;  ///< left along the path where the vehicle counts as standing at the end
   double creep_mps = 0.03;          ///< slowest speed of the last centimetres
   double creep_radps = 0.05;        ///< slowest rate of the last degrees
-  double off_path_m = 0.6;          ///< further from the path the vehicle gives up
+  double off_path_m = 0.6;          ///< further from the path the vehicle gives up; so it does facing away
   double sure_sigma_m = 0.05;       ///< position uncertainty up to which full speed is allowed
   double unsure_sigma_m = 0.30;     ///< ... and from which only `unsure_speed_mps` is
   double unsure_speed_mps = 0.2;

@@ -20,6 +20,11 @@ double SpeedLimits::speed_to_stop_within(double distance_m) const {
   return std::sqrt(lost * lost + 2.0 * deceleration_mps2 * distance_m) - lost;
 }
 
+double SpeedLimits::speed_on_curve(double curvature_per_m) const {
+  const double curvature = std::max(std::abs(curvature_per_m), 1e-6);
+  return std::min(std::sqrt(lateral_acceleration_mps2 / curvature), max_turn_rate_radps / curvature);
+}
+
 TrackedPath::TrackedPath(Path path, const SpeedLimits& limits) : path_(std::move(path)) {
   find_pieces();
   make_speed_profile(limits);
@@ -45,14 +50,12 @@ void TrackedPath::make_speed_profile(const SpeedLimits& limits) {
   for (const PathPiece& piece : pieces_) {
     for (std::size_t i = piece.end - 1; i-- > piece.first;) {
       const PathPoint& point = path_.points[i];
-      const double curvature = std::max(std::abs(point.curvature_per_m), 1e-6);
       const double step_m = along_m_[i + 1] - along_m_[i];
       const double next = speed_mps_[i + 1];
       const double braking = std::sqrt(next * next + 2.0 * limits.deceleration_mps2 * step_m);
       const double to_end = limits.speed_to_stop_within(along_m_[piece.end - 1] - along_m_[i]);
       speed_mps_[i] = std::min({limits.max_speed_mps, point.speed_limit_mps, braking, to_end,
-                                std::sqrt(limits.lateral_acceleration_mps2 / curvature),
-                                limits.max_turn_rate_radps / curvature});
+                                limits.speed_on_curve(point.curvature_per_m)});
     }
   }
 }
@@ -90,7 +93,7 @@ PathPlace TrackedPath::locate(const PathPiece& piece, std::size_t hint,
   const double dy = here.y_m - point.position.y_m;
   const double forward_m = dx * std::cos(direction) + dy * std::sin(direction);
   const double left_m = -dx * std::sin(direction) + dy * std::cos(direction);
-  return {best, along_m_[best] + forward_m, left_m, wrap_angle(direction - map_from_base.yaw_rad())};
+  return {best, along_m_[best] + forward_m, left_m};
 }
 
 Point2<Map> TrackedPath::point_at(const PathPiece& piece, std::size_t hint, double along_m) const {

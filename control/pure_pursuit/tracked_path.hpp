@@ -18,6 +18,8 @@ struct SpeedLimits {
 
   /// The greatest speed from which the vehicle stands still after `distance_m`, reaction included.
   [[nodiscard]] double speed_to_stop_within(double distance_m) const;
+  /// ... on a curve, by its turn rate and what it does to the load. Any sign of the curvature.
+  [[nodiscard]] double speed_on_curve(double curvature_per_m) const;
 };
 
 /// A stretch of the path that is driven without a turn on the spot: points [first, end).
@@ -31,7 +33,6 @@ struct PathPlace {
   std::size_t index = 0;       ///< the point before it
   double along_m = 0.0;        ///< from the beginning of the path; beyond its end where the piece was passed
   double cross_track_m = 0.0;  ///< positive left of the path
-  double heading_error_rad = 0.0;
 };
 
 /// A path made ready to be followed: distances, pieces between turns on the spot, and the speed that every

@@ -32,8 +32,10 @@ Transform2<Map, Base> pose_at(const PathPoint& point) {
   return {point.position.x_m, point.position.y_m, point.facing_rad()};
 }
 
-/// What comes on the route after the point at which it was come back to.
+/// What comes on the route after the point at which it was come back to. Where the route goes on the other
+/// way, forward or backward, the place is repeated: there a new stroke begins.
 void append_rest(Path& way, const Path& route, std::size_t point) {
+  if (way.points.back().reverse != route.points[point].reverse) way.points.push_back(route.points[point]);
   way.points.insert(way.points.end(), route.points.begin() + static_cast<std::ptrdiff_t>(point) + 1,
                     route.points.end());
 }

@@ -74,7 +74,7 @@ class Search {
       open_.pop();
       const Node node = nodes_[at];
       if (node.cost_m > best_[key(node)] + 1e-9) continue;
-      if (node.kind != Kind::Start && !is_free_at(node)) continue;
+      if (node.kind != Kind::Start && !is_free_to(node)) continue;
       if (const auto goal = goal_at(node.pose)) return std::pair{at, *goal};
       for (const Move& move : moves) expand(node, at, move);
     }
@@ -133,16 +133,20 @@ class Search {
     return least;
   }
 
+  /// Near enough to a goal, from where the last degrees into its heading are free.
   [[nodiscard]] std::optional<std::size_t> goal_at(const Pose& pose) const {
     for (std::size_t i = 0; i < goals_.size(); ++i)
       if (distance_m(goals_[i].pose.translation(), pose.translation()) <= options_.near_m &&
-          std::abs(wrap_angle(goals_[i].pose.yaw_rad() - pose.yaw_rad())) <= 1.01 * kPi / options_.headings)
+          std::abs(wrap_angle(goals_[i].pose.yaw_rad() - pose.yaw_rad())) <= 1.01 * kPi / options_.headings &&
+          is_free_between(pose, {pose.x_m(), pose.y_m(), goals_[i].pose.yaw_rad()}, obstacles_, walls_,
+                          turning_))
         return i;
     return std::nullopt;
   }
 
-  [[nodiscard]] bool is_free_at(const Node& node) {
-    return is_free(node.pose, obstacles_, walls_, node.kind == Kind::Turn ? turning_ : driving_);
+  [[nodiscard]] bool is_free_to(const Node& node) const {
+    return is_free_between(nodes_[node.parent].pose, node.pose, obstacles_, walls_,
+                           node.kind == Kind::Turn ? turning_ : driving_);
   }
 
   Pose start_;

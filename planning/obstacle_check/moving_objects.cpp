@@ -45,7 +45,8 @@ void MovingObjects::update(const std::vector<Column>& columns, Stamp stamp) {
     track.sightings.push_back({stamp, group.centre});
     track.radius_m = group.radius_m;
     track.high_m = std::max(track.high_m, group.high_m);
-    while (to_seconds(stamp - track.sightings.front().stamp) > options_.history_s)
+    while (static_cast<int>(track.sightings.size()) > options_.fewest_sightings &&
+           to_seconds(stamp - track.sightings.front().stamp) > options_.history_s)
       track.sightings.pop_front();
     followed_.push_back(std::move(track));
   }
@@ -129,6 +130,7 @@ PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, doubl
                        const std::vector<Mover<Map>>& movers, const CheckOptions& check,
                        const MoverOptions& options) {
   PathCheck result;
+  const double pace_mps = std::abs(speed_mps);  // strokes are driven backward, too
   double along_m = 0.0;
   double checked_m = -check.step_m;
   for (std::size_t i = from; i < path.points.size() && along_m <= ahead_m && !movers.empty(); ++i) {
@@ -141,8 +143,8 @@ PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, doubl
     checked_m = along_m;
     const PathPoint& point = path.points[i];
     const Transform2<Map, Base> pose(point.position.x_m, point.position.y_m, point.facing_rad());
-    const double begin_s = std::max(0.0, earliest_s(along_m, speed_mps, options) - options.window_s);
-    const double end_s = std::min(options.foresight_s, latest_s(along_m, speed_mps) + options.window_s);
+    const double begin_s = std::max(0.0, earliest_s(along_m, pace_mps, options) - options.window_s);
+    const double end_s = std::min(options.foresight_s, latest_s(along_m, pace_mps) + options.window_s);
     for (const Mover<Map>& m : movers) {
       const auto where = meets(m, pose, turns, begin_s, end_s, check, options);
       if (!where) continue;

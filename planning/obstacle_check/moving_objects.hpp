@@ -33,7 +33,7 @@ struct MoverOptions {
   double slowest_mps = 0.35;  ///< slower ones are measured as if they stood
   double fastest_mps = 3.0;
   double match_m = 0.45;   ///< furthest from where it was expected
-  double history_s = 0.5;  ///< over which a velocity is measured
+  double history_s = 0.5;  ///< over which a velocity is measured, and over fewest_sightings at least
   int fewest_sightings = 4;
   double margin_m = 0.15;  ///< around the disc
   double window_s = 1.0;   ///< before and after the vehicle would be at a place
@@ -95,8 +95,8 @@ class MovingObjects {
 };
 
 /// Points [from, ...] of the path against where the movers will be when the vehicle gets there: at the
-/// earliest gaining speed from `speed_mps`, at the latest keeping it. free_m, first_blocked and where as in
-/// check_path().
+/// earliest gaining speed from `speed_mps` (negative backward), at the latest keeping it. free_m,
+/// first_blocked and where as in check_path().
 [[nodiscard]] PathCheck check_movers(const Path& path, std::size_t from, double ahead_m, double speed_mps,
                                      const std::vector<Mover<Map>>& movers, const CheckOptions& check,
                                      const MoverOptions& options);

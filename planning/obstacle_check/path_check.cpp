@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/angle.hpp"
 #include "core/segment_distance.hpp"
@@ -98,26 +99,60 @@ void find_near(const Path& path, std::size_t from, std::size_t end, const std::v
       near.push_back(p);
 }
 
-Transform2<Map, Base> placed(const PathPoint& point, double heading_rad) {
-  return {point.position.x_m, point.position.y_m, heading_rad};
+Transform2<Map, Base> placed(const PathPoint& point) {
+  return {point.position.x_m, point.position.y_m, point.facing_rad()};
 }
 
-/// The headings in which the vehicle stands at a point: one, or all of a turn on the spot that begins there.
-template <class Visit>
-bool any_heading(const Path& path, std::size_t i, double turn_step_rad, Visit&& visit) {
-  const PathPoint& point = path.points[i];
-  const bool turns = i > 0 && distance_m(path.points[i - 1].position, point.position) < kSamePointM;
-  if (!turns) return visit(placed(point, point.facing_rad()));
-  const double from_rad = path.points[i - 1].facing_rad();
-  constexpr double kEitherWayRad =
-      3.0;  // nearly about: noise decides which way it turns, so both must be free
-  double turn = wrap_angle(point.facing_rad() - from_rad);
-  if (std::abs(turn) > kEitherWayRad) turn = 2.0 * kPi;
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / turn_step_rad)));
-  for (int k = 1; k <= steps; ++k)
-    if (visit(placed(point, from_rad + turn * k / steps))) return true;
-  return false;
+/// Between two checked headings the corner of a vehicle that turns on the spot cuts at most half the margin.
+double heading_step_rad(const CheckOptions& options) {
+  constexpr double kMostRad = 2.0 * kPi / kCheckedHeadings;
+  constexpr double kFinest = 32.0;  // of no margin half can be kept
+  const double wanted_rad = options.turn_margin_m / options.vehicle.half_width_m;
+  return kMostRad / std::clamp(std::ceil(kMostRad / wanted_rad), 1.0, kFinest);
 }
+
+/// The placements on the way to another one that turns by so much, the first left out.
+template <class Visit>
+bool any_between(const Transform2<Map, Base>& from, const Transform2<Map, Base>& to, double turn_rad,
+                 double step_rad, Visit&& visit) {
+  constexpr double kRounding = 1e-6;
+  const int steps = static_cast<int>(std::ceil(std::abs(turn_rad) / step_rad - kRounding));
+  for (int k = 1; k < steps; ++k) {
+    const double share = static_cast<double>(k) / steps;
+    if (visit({from.x_m() + share * (to.x_m() - from.x_m()), from.y_m() + share * (to.y_m() - from.y_m()),
+               from.yaw_rad() + share * turn_rad}))
+      return true;
+  }
+  return visit(to);
+}
+
+/// Which points of a path are checked: all turns on the spot, and of a way what is not both near to the
+/// last one that was, and on a straight with it.
+struct Pick {
+  const Path& path;
+  std::size_t from, end;
+  double step_m, step_rad;
+
+  [[nodiscard]] bool turns(std::size_t i) const {
+    return i > 0 && distance_m(path.points[i - 1].position, path.points[i].position) < kSamePointM;
+  }
+  [[nodiscard]] bool skips(std::size_t i, std::size_t checked, double since_m) const {
+    if (i == from || i + 1 == end || turns(i) || since_m >= step_m) return false;
+    const double turn_rad = path.points[i + 1].facing_rad() - path.points[checked].facing_rad();
+    return std::abs(wrap_angle(turn_rad)) <= step_rad;  // else this one lies between
+  }
+  /// Every placement from the point before on, or all of a turn on the spot that begins there.
+  template <class Visit>
+  bool any_placement(std::size_t i, Visit&& visit) const {
+    constexpr double kEitherWayRad =
+        3.0;  // nearly about: noise decides which way it turns, so both must be free
+    if (i == 0 || (i == from && !turns(i))) return visit(placed(path.points[i]));
+    const auto before = placed(path.points[i - 1]), here = placed(path.points[i]);
+    double turn_rad = wrap_angle(here.yaw_rad() - before.yaw_rad());
+    if (turns(i) && std::abs(turn_rad) > kEitherWayRad) turn_rad = 2.0 * kPi;
+    return any_between(before, here, turn_rad, step_rad, visit);
+  }
+};
 
 /// From the point before to this one; 0 at the first.
 double step_to(const Path& path, std::size_t from, std::size_t i) {
@@ -144,20 +179,20 @@ PathCheck PathChecker::check(const Path& path, std::size_t from, double ahead_m,
   const Zone care(options, options.ends_margin_m + options.care_margin_m,
                   options.sides_margin_m + options.care_margin_m);
   find_near(path, from, end, obstacles, care.reach_m(), near_);
+  const Pick pick{path, from, end, options.step_m, heading_step_rad(options)};
   double here_m = 0.0;
-  double checked_m = -options.step_m;
+  double checked_m = 0.0;
+  std::size_t checked = from;
   for (std::size_t i = from; i < end; ++i) {
     here_m += step_to(path, from, i);
-    const bool turns =
-        i > 0 && distance_m(path.points[i - 1].position, path.points[i].position) < kSamePointM;
-    if (here_m < checked_m + options.step_m && !turns && i + 1 != end) continue;
-    const double previous_m = std::max(0.0, checked_m);
-    checked_m = here_m;
+    if (pick.skips(i, checked, here_m - checked_m)) continue;
+    const double previous_m = std::exchange(checked_m, here_m);
+    checked = i;
+    const Zone zone = pick.turns(i) ? turning : stop_zone(options, path.points[i].speed_limit_mps);
     std::optional<Contact> contact;
     bool slow = false;
-    any_heading(path, i, options.turn_step_rad, [&](const Transform2<Map, Base>& pose) {
-      contact =
-          meets_point(pose, near_, turns ? turning : stop_zone(options, path.points[i].speed_limit_mps));
+    pick.any_placement(i, [&](const Transform2<Map, Base>& pose) {
+      contact = meets_point(pose, near_, zone);
       if (!contact) contact = meets_wall(pose, walls, options);
       slow = slow || contact || meets_point(pose, near_, care);
       return contact.has_value();
@@ -206,6 +241,14 @@ void set_back(std::vector<Point2<Map>>& obstacles, const Transform2<Map, Base>& 
     const double out = std::max(1.0, (zone.radius_m + kSeenWithinM) / std::max(middle_m, kSeenWithinM));
     obstacle = map_from_base * Point2<Base>{p.x_m * out, p.y_m * out};
   }
+}
+
+bool is_free_between(const Transform2<Map, Base>& from, const Transform2<Map, Base>& to,
+                     const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
+                     const CheckOptions& options) {
+  return !any_between(
+      from, to, wrap_angle(to.yaw_rad() - from.yaw_rad()), heading_step_rad(options),
+      [&](const Transform2<Map, Base>& pose) { return !is_free(pose, obstacles, walls, options); });
 }
 
 bool is_free(const Transform2<Map, Base>& pose, const std::vector<Point2<Map>>& obstacles,

@@ -52,8 +52,11 @@ struct CheckOptions {
   double field_margin_m = 0.05;  ///< around it: scanners err, and no path is followed exactly
   double wall_margin_m = 0.03;   ///< to drawn walls, which lie as exactly as the drawing
   double step_m = 0.15;          ///< waypoints nearer together than this are checked once
-  double turn_step_rad = 0.15;   ///< between the checked headings of a turn on the spot
 };
+
+/// Two headings that are checked one after the other are at most a full turn divided by this apart. A lattice
+/// of headings that divides it is checked by a search exactly as it is by check_path().
+inline constexpr int kCheckedHeadings = 48;
 
 /// Kept free before and behind a vehicle of this speed: beside it as much as in a turn, and what it drives
 /// before braking shows.
@@ -106,7 +109,7 @@ class PathChecker {
 /// Checks points [from, ...] of the path as far as `ahead_m` along it: at every waypoint the published
 /// cylinder (its radius half the vehicle's width and a margin; layout-map paper, section 3.4) and the
 /// vehicle's outline at that heading must hold no obstacle and no drawn wall, so that a long vehicle's nose
-/// swings clear too. Turns on the spot are checked through all their headings.
+/// swings clear too. Curves and turns on the spot are checked through all their headings.
 [[nodiscard]] PathCheck check_path(const Path& path, std::size_t from, double ahead_m,
                                    const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
                                    const CheckOptions& options);
@@ -117,6 +120,12 @@ class PathChecker {
 /// protective field, and what is deeper in the outline than what is seen may be off by.
 void set_back(std::vector<Point2<Map>>& obstacles, const Transform2<Map, Base>& map_from_base,
               const CheckOptions& options);
+
+/// Whether the vehicle touches nothing on the way from one placement to another near by, the first left out:
+/// through as many headings as check_path() takes.
+[[nodiscard]] bool is_free_between(const Transform2<Map, Base>& from, const Transform2<Map, Base>& to,
+                                   const std::vector<Point2<Map>>& obstacles, const WallGrid& walls,
+                                   const CheckOptions& options);
 
 /// Whether the vehicle standing so touches nothing.
 [[nodiscard]] bool is_free(const Transform2<Map, Base>& map_from_base,

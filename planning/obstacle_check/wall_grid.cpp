@@ -8,12 +8,12 @@
 namespace madori::planning {
 
 std::int32_t WallGrid::column(double x_m) const {
-  const double at = std::floor((x_m - corner_.x_m) / kCellM);
+  const double at = std::floor((x_m - corner_.x_m) / cell_m_);
   return static_cast<std::int32_t>(std::clamp(at, -1.0, static_cast<double>(columns_)));
 }
 
 std::int32_t WallGrid::row(double y_m) const {
-  const double at = std::floor((y_m - corner_.y_m) / kCellM);
+  const double at = std::floor((y_m - corner_.y_m) / cell_m_);
   return static_cast<std::int32_t>(std::clamp(at, -1.0, static_cast<double>(rows_)));
 }
 
@@ -37,8 +37,8 @@ void WallGrid::for_each_cell(const Segment2<Map>& wall, Visit&& visit) const {
   }
   const double run = wall.b.x_m - wall.a.x_m;
   for (std::int32_t x = x0; x <= x1; ++x) {
-    const double left = (corner_.x_m + x * kCellM - wall.a.x_m) / run;
-    const double right = (corner_.x_m + (x + 1) * kCellM - wall.a.x_m) / run;
+    const double left = (corner_.x_m + x * cell_m_ - wall.a.x_m) / run;
+    const double right = (corner_.x_m + (x + 1) * cell_m_ - wall.a.x_m) / run;
     const auto y_at = [&](double t) {
       return wall.a.y_m + std::clamp(t, 0.0, 1.0) * (wall.b.y_m - wall.a.y_m);
     };
@@ -59,8 +59,12 @@ WallGrid::WallGrid(std::vector<Segment2<Map>> walls) : walls_(std::move(walls)) 
       high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
     }
   corner_ = low;
-  columns_ = static_cast<std::int32_t>((high.x_m - low.x_m) / kCellM) + 1;
-  rows_ = static_cast<std::int32_t>((high.y_m - low.y_m) / kCellM) + 1;
+  constexpr double kMostCells = 4e6;  // 16 MB
+  const double width_m = high.x_m - low.x_m, height_m = high.y_m - low.y_m;
+  cell_m_ =
+      std::max({cell_m_, std::sqrt(width_m / kMostCells * height_m), (width_m + height_m) / kMostCells});
+  columns_ = static_cast<std::int32_t>(width_m / cell_m_) + 1;
+  rows_ = static_cast<std::int32_t>(height_m / cell_m_) + 1;
   first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   const auto index = [&](std::int32_t x, std::int32_t y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);

@@ -28,7 +28,6 @@ class WallGrid {
   }
 
  private:
-  static constexpr double kCellM = 1.0;
   struct Cell {
     const std::uint32_t* first;
     const std::uint32_t* last;
@@ -43,6 +42,7 @@ class WallGrid {
 
   std::vector<Segment2<Map>> walls_;
   Point2<Map> corner_;
+  double cell_m_ = 1.0;  ///< larger where a wall far off would make too many cells
   std::int32_t columns_ = 0;
   std::int32_t rows_ = 0;
   std::vector<std::uint32_t> first_;  ///< cells + 1 entries into items_

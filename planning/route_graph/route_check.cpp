@@ -1,6 +1,7 @@
 #include "planning/route_graph/route_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
@@ -32,17 +33,30 @@ bool is_second_direction(const RouteGraph& graph, const RouteLeg& leg) {
   return leg.to < leg.from && graph.has_leg(leg.to, leg.from);
 }
 
-void check_walls(const RouteGraph& graph, const std::vector<Segment2<Map>>& walls,
-                 const RouteCheckOptions& options, std::vector<RouteFinding>& findings) {
+/// From the way between two nodes to the nearest wall; infinite where that is half the vehicle's width or
+/// more.
+double nearest_wall_m(const RouteGraph& graph, std::size_t from, std::size_t to, const WallGrid& walls,
+                      const RouteCheckOptions& options) {
+  const Segment2<Map> way{graph.nodes()[from].position, graph.nodes()[to].position};
+  const Point2<Map> middle{(way.a.x_m + way.b.x_m) / 2.0, (way.a.y_m + way.b.y_m) / 2.0};
+  const double near_m = options.vehicle.half_width_m;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  walls.any_near(middle, way.length_m() / 2.0 + near_m, [&](const Segment2<Map>& wall) {
+    nearest_m = std::min(nearest_m, distance_m(way, wall));
+    return nearest_m == 0.0;
+  });
+  return nearest_m < near_m ? nearest_m : std::numeric_limits<double>::infinity();
+}
+
+void check_walls(const RouteGraph& graph, const WallGrid& walls, const RouteCheckOptions& options,
+                 std::vector<RouteFinding>& findings) {
   for (const RouteLeg& leg : graph.legs()) {
     if (is_second_direction(graph, leg)) continue;
-    const Segment2<Map> way{graph.nodes()[leg.from].position, graph.nodes()[leg.to].position};
-    double nearest_m = std::numeric_limits<double>::infinity();
-    for (const auto& wall : walls) nearest_m = std::min(nearest_m, distance_m(way, wall));
+    const double nearest_m = nearest_wall_m(graph, leg.from, leg.to, walls, options);
     if (nearest_m == 0.0)
       findings.push_back(
           finding(Fault::ThroughWall, Severity::Error, options.tree_file, leg.line, of_leg(graph, leg)));
-    else if (nearest_m < options.vehicle.half_width_m)
+    else if (std::isfinite(nearest_m))
       findings.push_back(finding(Fault::NarrowAtWall, Severity::Warning, options.tree_file, leg.line,
                                  of_leg(graph, leg,
                                         {{"distance", two_decimals(nearest_m)},
@@ -50,24 +64,16 @@ void check_walls(const RouteGraph& graph, const std::vector<Segment2<Map>>& wall
   }
 }
 
-/// Whether a wall stands nearer to the way between two nodes than half the vehicle: check_walls says so.
-bool is_said_of_leg(const RouteGraph& graph, std::size_t from, std::size_t to,
-                    const std::vector<Segment2<Map>>& walls, const RouteCheckOptions& options) {
-  const Segment2<Map> way{graph.nodes()[from].position, graph.nodes()[to].position};
-  return std::ranges::any_of(
-      walls, [&](const auto& wall) { return distance_m(way, wall) < options.vehicle.half_width_m; });
-}
-
 /// Each node once, however many ways lead round it.
-void check_corners(const RouteGraph& graph, const std::vector<Segment2<Map>>& walls,
-                   const RouteCheckOptions& options, std::vector<RouteFinding>& findings) {
+void check_corners(const RouteGraph& graph, const WallGrid& walls, const RouteCheckOptions& options,
+                   std::vector<RouteFinding>& findings) {
   std::set<std::pair<std::size_t, bool>> said;
-  for (const TightCorner& corner : tight_corners(graph, WallGrid(walls), options.vehicle)) {
+  for (const TightCorner& corner : tight_corners(graph, walls, options.vehicle)) {
     const bool about = corner.from == corner.to;
     const RouteNode& node = graph.nodes()[corner.node];
-    if (is_said_of_leg(graph, corner.from, corner.node, walls, options) ||
-        is_said_of_leg(graph, corner.node, corner.to, walls, options))
-      continue;
+    if (std::isfinite(nearest_wall_m(graph, corner.from, corner.node, walls, options)) ||
+        std::isfinite(nearest_wall_m(graph, corner.node, corner.to, walls, options)))
+      continue;  // check_walls says so
     if (!said.insert({corner.node, about}).second) continue;
     std::map<std::string, std::string> values{
         {"node", id_of(graph, corner.node)},
@@ -115,8 +121,9 @@ std::vector<RouteFinding> one_way_warnings(const RouteGraph& graph, const std::s
 std::vector<RouteFinding> check_routes(const RouteGraph& graph, const std::vector<Segment2<Map>>& walls,
                                        const RouteCheckOptions& options) {
   std::vector<RouteFinding> findings = one_way_warnings(graph, options.tree_file);
-  check_walls(graph, walls, options, findings);
-  check_corners(graph, walls, options, findings);
+  const WallGrid grid(walls);
+  check_walls(graph, grid, options, findings);
+  check_corners(graph, grid, options, findings);
   check_reachability(graph, options, findings);
   check_spots(graph, options, findings);
   return findings;

@@ -62,6 +62,10 @@ Result<Route> find_route(const RouteGraph& routes, std::size_t from, std::size_t
     route.length_m += distance_m(routes.nodes()[at].position, routes.nodes()[parent[at]].position);
     route.nodes.push_back(at);
   }
+  if (!(route.length_m <= kLongestRouteM))
+    return Result<Route>::failure("the way from node " + std::to_string(routes.nodes()[from].id) +
+                                  " to node " + std::to_string(routes.nodes()[to].id) +
+                                  " is longer than 100 km: correct the places of its nodes");
   route.nodes.push_back(from);
   std::reverse(route.nodes.begin(), route.nodes.end());
   return route;

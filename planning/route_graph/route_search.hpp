@@ -16,13 +16,18 @@ enum class RouteMetric { Hops, Metres };
 /// Legs that are left out, as (from, to) of RouteGraph::nodes().
 using BlockedLegs = std::set<std::pair<std::size_t, std::size_t>>;
 
+/// A longer way is none: no factory has it, and twice this is the longest path of waypoints
+/// (waypoints.hpp) at the usual spacing.
+inline constexpr double kLongestRouteM = 100'000.0;
+
 struct Route {
   std::vector<std::size_t> nodes;  ///< of RouteGraph::nodes(), with both ends
   double length_m = 0.0;
 };
 
 /// The best way; among ways of equally few legs the one that the file lists first. Fails, with a reason for
-/// the operator, where there is none. Preconditions: `from` and `to` are nodes of the graph.
+/// the operator, where there is none, or where it is longer than kLongestRouteM. Preconditions: `from` and
+/// `to` are nodes of the graph.
 [[nodiscard]] Result<Route> find_route(const RouteGraph& graph, std::size_t from, std::size_t to,
                                        RouteMetric metric = RouteMetric::Hops,
                                        const BlockedLegs& blocked = {});

@@ -48,6 +48,7 @@ std::vector<TightCorner> tight_corners(const RouteGraph& graph, const WallGrid& 
   };
   for (const RouteLeg& in : graph.legs()) {
     const RouteNode& node = nodes[in.to];
+    if (!walls.any_near(node.position, leg_m + vehicle.reach_m(), [](const auto&) { return true; })) continue;
     const Point2<Map> begin = near_end(node.position, nodes[in.from].position, leg_m);
     const auto ways_on = graph.legs_from(in.to);
     for (const RouteLeg& out : ways_on) {

@@ -128,5 +128,28 @@ TEST(PurePursuit, TheSpeedProfileKeepsLegLimitsAndCurves) {
   EXPECT_EQ(tracked.pieces().size(), 2U);
 }
 
+TEST(PurePursuit, WhoLooksAwayFromThePathDoesNotDriveOn) {
+  const TrackedPath path(bent_path(1.0, kPi / 2.0), {});
+  const PursuitState on_way{0, 10, false, true};
+  for (const double yaw_rad : {kPi, 2.5, -1.7}) {
+    const auto out = pursue(path, on_way, {.map_from_base = {1.0, 0.01, yaw_rad}}, {});
+    EXPECT_EQ(out.status, PursuitStatus::OffPath) << yaw_rad;
+    EXPECT_EQ(out.command, VelocityCommand{});
+  }
+  EXPECT_EQ(pursue(path, on_way, {.map_from_base = {1.0, 0.01, 1.3}}, {}).status, PursuitStatus::Following);
+}
+
+TEST(PurePursuit, ComingBackToThePathKeepsTheLateralAcceleration) {
+  const TrackedPath path(bent_path(1.0, kPi / 2.0), {});
+  const PursuitOptions options;
+  for (const double aside_m : {0.05, 0.1, 0.2, 0.4}) {
+    const auto out =
+        pursue(path, {0, 10, false, true}, {.map_from_base = {1.0, aside_m, 0.0}}, options).command;
+    EXPECT_LE(std::abs(out.linear_mps * out.angular_radps), options.speed.lateral_acceleration_mps2 + 1e-9)
+        << aside_m;
+    EXPECT_GT(out.linear_mps, 0.1);
+  }
+}
+
 }  // namespace
 }  // namespace madori::control

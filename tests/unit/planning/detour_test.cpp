@@ -147,5 +147,28 @@ TEST(DetourPlanner, AnswersFromItsOwnThread) {
   EXPECT_TRUE(answer->path.has_value());
 }
 
+TEST(Detour, AWayThatComesBackToAStrokeBackwardBeginsAStrokeThere) {
+  Path route = straight_way(6);
+  for (int i = 0; i <= 60; ++i)
+    route.points.push_back({{6.0 - 0.1 * i, 0.0}, kPi, 0.0, 0.15, true});  // and back, looking ahead
+  std::vector<Point2<Map>> bodies;
+  for (double y = -2.3; y <= 0.35; y += 0.05) bodies.push_back({4.0, y});
+  DetourRequest request{7, route, 0, {}, {}, bodies};
+  request.check.first_blocked = 25;
+  request.check.last_blocked = 70;  // on the way back
+  request.check.free_m = 2.5;
+  request.turn_free = false;
+  const auto answer = plan_detour(request, kDetourCheck, {});
+  ASSERT_TRUE(answer.path) << answer.reason;
+  const auto& points = answer.path->points;
+  int changes = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].reverse == points[i - 1].reverse) continue;
+    ++changes;
+    EXPECT_LT(distance_m(points[i].position, points[i - 1].position), kSamePointM) << i;
+  }
+  EXPECT_GT(changes, 0);
+}
+
 }  // namespace
 }  // namespace madori::planning

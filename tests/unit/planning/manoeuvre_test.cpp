@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "core/angle.hpp"
 #include "planning/detour/detour_planner.hpp"
@@ -101,6 +102,32 @@ TEST(Manoeuvre, IsTheLastResortOfADetour) {
   ASSERT_TRUE(answer.path) << answer.reason;
   EXPECT_GT(clearance_m(*answer.path, points), 0.03);
   EXPECT_EQ(answer.path->points.back().position, back.points.back().position);
+}
+
+/// Else the cycle refuses what the search finds, which then finds the same again.
+TEST(Manoeuvre, WhatIsFoundPassesTheCheckOfTheWay) {
+  std::mt19937 random(15);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * std::uniform_real_distribution<double>(0.0, 1.0)(random);
+  };
+  int found = 0;
+  for (int round = 0; round < 60; ++round) {
+    const auto points = corridor(between(1.75, 2.25));
+    const double x = between(1.5, 2.5), y = between(-0.3, 0.3), yaw = between(-0.3, 0.3);
+    const Pose start(x, y, yaw);
+    const double goal_x = between(0.5, 1.5), goal_y = between(-0.1, 0.1), goal_yaw = kPi + between(-0.2, 0.2);
+    const Pose goal(goal_x, goal_y, goal_yaw);
+    if (!is_free(start, points, {}, kCheck) || !is_free(goal, points, {}, kCheck)) continue;
+    const auto way = find_manoeuvre(start, {{goal, 0.0}}, points, {}, kCheck);
+    if (!way) continue;
+    ++found;
+    Path path = way.value().path;
+    path.points.push_back(path.points.back());  // the last degrees, on the spot
+    path.points.back().heading_rad = goal.yaw_rad();
+    path.points.back().reverse = false;
+    EXPECT_FALSE(check_path(path, 0, 100.0, points, {}, kCheck).blocked()) << round;
+  }
+  EXPECT_GT(found, 40);
 }
 
 }  // namespace

@@ -114,5 +114,29 @@ TEST(CheckMovers, WhoComesIntoTheCircleOfATurnHoldsIt) {
   EXPECT_FALSE(turn_meets(pose, {{{0.0, -4.0}, 0.0, 1.2, 0.2}}, {}, options)) << "later";
 }
 
+TEST(MovingObjects, ALidarThatTurnsSlowlyMeasuresThemToo) {
+  MovingObjects objects;
+  for (int i = 0; i < 6; ++i) {
+    const Stamp stamp = stamp_from_seconds(1.0 + 0.2 * i);
+    Column c;
+    c.min_x_m = c.max_x_m = static_cast<float>(0.24 * i);
+    c.cell_x = static_cast<std::int32_t>(2.4 * i);
+    c.confirmed = c.entered = true;
+    c.seen = stamp;
+    objects.update({c}, stamp);
+  }
+  ASSERT_EQ(objects.movers().size(), 1U);
+  EXPECT_NEAR(objects.movers()[0].vx_mps, 1.2, 0.01);
+}
+
+TEST(CheckMovers, AVehicleThatDrivesBackwardMeetsTheSame) {
+  Path back = straight_way(3);
+  for (PathPoint& point : back.points) point.reverse = true;
+  const std::vector<Mover<Map>> crossing{{{1.8, -1.6}, 0.0, 1.6, 0.25}};
+  const auto ahead = check_movers(back, 0, 3.0, 0.3, crossing, {}, {});
+  ASSERT_TRUE(ahead.blocked());
+  EXPECT_EQ(check_movers(back, 0, 3.0, -0.3, crossing, {}, {}).free_m, ahead.free_m);
+}
+
 }  // namespace
 }  // namespace madori::planning

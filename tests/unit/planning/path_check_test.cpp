@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "core/angle.hpp"
 #include "core/segment_distance.hpp"
+#include "planning/obstacle_check/clearance.hpp"
 #include "planning/waypoints/waypoints.hpp"
 #include "tests/support/straight_way.hpp"
 
@@ -149,6 +151,53 @@ TEST(PathCheck, WhatIsInTheFieldOrDeepInTheOutlineStaysWhereItIs) {
   std::vector<Point2<Map>> obstacles = seen;
   set_back(obstacles, {}, margins);
   EXPECT_EQ(obstacles, seen);
+}
+
+/// Where the vehicle's map lies as it drives a path, every centimetre or so of a curve.
+std::vector<Transform2<Base, Map>> swept(const Path& path) {
+  constexpr int kParts = 20;
+  std::vector<Transform2<Base, Map>> poses;
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    const PathPoint &a = path.points[i - 1], &b = path.points[i];
+    const double turn = wrap_angle(b.facing_rad() - a.facing_rad());
+    for (int k = 0; k < kParts; ++k) {
+      const double s = static_cast<double>(k) / kParts;
+      const Transform2<Map, Base> pose(a.position.x_m + s * (b.position.x_m - a.position.x_m),
+                                       a.position.y_m + s * (b.position.y_m - a.position.y_m),
+                                       a.facing_rad() + s * turn);
+      poses.push_back(pose.inverse());
+    }
+  }
+  return poses;
+}
+
+TEST(PathCheck, NothingIsPassedInACurveNearerThanHalfTheMargin) {
+  WaypointOptions sharp;
+  sharp.corner_radius_m = sharp.min_radius_m;
+  const Path path = make_waypoints({{{2, 0}}, {{3, 0}}, {{3, 1}}}, sharp).value();
+  const auto poses = swept(path);
+  CheckOptions wide = kOptions;
+  wide.vehicle = {1.6, 0.4, 0.5, 0.8};
+  for (const CheckOptions& options : {kOptions, with_margins(kOptions, {0.2, 0.0}), wide}) {
+    for (double x = 2.5; x < 4.5; x += 0.05)
+      for (double y = -1.2; y < 1.5; y += 0.05) {
+        const Point2<Map> place{x, y};
+        const bool near = std::ranges::any_of(poses, [&](const auto& base_from_map) {
+          return clearance_m(options.vehicle, base_from_map * place) < 0.5 * options.turn_margin_m;
+        });
+        if (!near) continue;
+        EXPECT_TRUE(check_path(path, 0, 10.0, {place}, kNoWalls, options).blocked())
+            << x << ' ' << y << ", margin " << options.turn_margin_m;
+      }
+  }
+}
+
+TEST(WallGrid, AWallFarOffTheDrawingNeedsNoMoreRoom) {
+  const WallGrid grid(std::vector<Segment2<Map>>{{{4.0, -2.0}, {4.0, 2.0}}, {{5e8, 3e8}, {5e8, 3e8 + 1.0}}});
+  const auto all = [](const Segment2<Map>& /*wall*/) { return true; };
+  EXPECT_TRUE(grid.any_near({3.0, 0.0}, 1.5, all));
+  EXPECT_TRUE(grid.any_near({5e8, 3e8}, 1.5, all));
+  EXPECT_FALSE(grid.any_near({2e8, 3e8}, 1.5, all));
 }
 
 }  // namespace

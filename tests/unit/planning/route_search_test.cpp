@@ -49,6 +49,18 @@ TEST(RouteSearch, MetresMayTakeMoreLegs) {
   EXPECT_THAT(find_route(graph, 0, 3, RouteMetric::Metres).value().nodes, ElementsAre(0, 2, 4, 3));
 }
 
+/// Its path would need more waypoints than one may have: a vehicle sent over it has to be told, not stand.
+TEST(RouteSearch, AWayThatNoFactoryHasIsNone) {
+  const auto graph =
+      parse_routes("ID,EDA\n0,1\n1,2\n2,\n", "ID,x,y\n0,0,0\n1,90000,0\n2,90000,20000\n").graph;
+  EXPECT_TRUE(find_route(graph, 0, 1));
+  for (const auto metric : {RouteMetric::Hops, RouteMetric::Metres}) {
+    const auto far = find_route(graph, 0, 2, metric);
+    ASSERT_FALSE(far);
+    EXPECT_THAT(far.reason(), ::testing::HasSubstr("from node 0 to node 2 is longer than 100 km"));
+  }
+}
+
 TEST(RouteSearch, TheStartItselfIsARouteOfLengthZero) {
   const auto route = find_route(published(), 3, 3);
   ASSERT_TRUE(route);
