@@ -69,7 +69,7 @@ SiteInBuilding SiteInBuilding::carried(std::shared_ptr<const localization::BentD
   other.walls_ = drawn_walls_;
   if (other.bent_) {
     std::vector<Segment2<Map>> segments;
-    for (const auto& wall : other.bent_->stands.walls) segments.push_back(wall.segment);
+    for (const auto& wall : other.bent_->stands) segments.push_back(wall.segment);
     other.walls_ = std::make_shared<const planning::WallGrid>(std::move(segments));
   }
   return other;
@@ -77,13 +77,13 @@ SiteInBuilding SiteInBuilding::carried(std::shared_ptr<const localization::BentD
 
 bool SiteInBuilding::differs(const std::shared_ptr<const localization::BentDrawing>& bent) const {
   if (bent == bent_) return false;
-  if (!bent || !bent_ || bent->stands.walls.size() != bent_->stands.walls.size()) return true;
+  if (!bent || !bent_ || bent->stands.size() != bent_->stands.size()) return true;
   const auto moved = [&](const planning::RouteNode& drawn, const planning::RouteNode& carried) {
     return distance_m(bent->place(drawn.position), carried.position) > kFollowedToM;
   };
   if (!std::ranges::equal(drawn_->nodes(), routes_.nodes(), std::not_fn(moved))) return true;
-  const auto& before = bent_->stands.walls;
-  const auto& after = bent->stands.walls;
+  const auto& before = bent_->stands;
+  const auto& after = bent->stands;
   for (std::size_t i = 0; i < after.size(); ++i)
     if (distance_m(before[i].segment.a, after[i].segment.a) > kFollowedToM ||
         distance_m(before[i].segment.b, after[i].segment.b) > kFollowedToM)

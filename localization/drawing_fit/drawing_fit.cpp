@@ -73,7 +73,8 @@ double DrawingFit::walls_seen(const MemoryCloud& cloud) {
 }
 
 void DrawingFit::learn(const MemoryCloud& cloud) {
-  constexpr double kPriorCount = 10.0;  // walls' worth of belief in the first guess
+  constexpr double kLeastSigmaM = 0.02;  // no drawing is more exact
+  constexpr double kPriorCount = 10.0;   // walls' worth of belief in the first guess
   constexpr double kPriorSigmaM = 0.2;
   const double all = kPriorCount + walls_seen(cloud);
   for (int round = 0; round < 5; ++round) {
@@ -94,6 +95,7 @@ std::vector<UnaryFactor> DrawingFit::pulls(const MemoryCloud& cloud,
                                            const std::vector<Transform2<Map, Base>>& poses,
                                            const SharedError& shared) const {
   const Neighbourhoods around(cloud, shared.range_m);
+  const WallMixture mixture(model_, model_.sigma_m);
   std::vector<UnaryFactor> factors(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     factors[i].node = static_cast<int>(i);
@@ -101,11 +103,9 @@ std::vector<UnaryFactor> DrawingFit::pulls(const MemoryCloud& cloud,
   }
   for_each_hit(*index_, cloud, {}, [&](const CloudSurface& p, const auto& q, const auto& hit) {
     UnaryFactor& f = factors[static_cast<std::size_t>(p.keyframe)];
-    const double sigma = sigma_of(hit);
-    const double variance =
-        sigma * sigma + std::max(0.0, around.walls_at(p) - 1.0) * shared.sigma_m * shared.sigma_m;
-    const double information =
-        p.weight * kShareOfObservation * WallMixture(model_, sigma).is_wall(hit) / variance;
+    const double variance = model_.sigma_m * model_.sigma_m +
+                            std::max(0.0, around.walls_at(p) - 1.0) * shared.sigma_m * shared.sigma_m;
+    const double information = p.weight * kShareOfObservation * mixture.is_wall(hit) / variance;
     const Eigen::Vector3d j = jacobian(hit, q, f.at.translation());
     f.hessian += information * j * j.transpose();
     f.gradient += information * hit.distance_m * j;

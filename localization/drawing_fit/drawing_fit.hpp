@@ -1,9 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "localization/drawing_fit/alignment.hpp"
@@ -27,11 +25,9 @@ class DrawingFit {
   /// Where it is known from which sides each can be seen.
   DrawingFit(const mapping::Walls& walls, const std::vector<VisibleFace>& faces)
       : index_(std::make_shared<const WallIndex>(walls, faces)) {}
-  /// `sigma_m`: of each wall along its normal, where walls are known unequally well.
-  DrawingFit(const mapping::Walls& walls, std::vector<double> sigma_m, const DrawingModel& model)
-      : index_(std::make_shared<const WallIndex>(walls)),
-        sigma_m_(std::make_shared<const std::vector<double>>(std::move(sigma_m))),
-        model_(model) {}
+  /// Of which it is known how exactly it describes what is seen.
+  DrawingFit(const mapping::Walls& walls, const DrawingModel& model)
+      : index_(std::make_shared<const WallIndex>(walls)), model_(model) {}
 
   [[nodiscard]] const WallIndex& index() const { return *index_; }
   [[nodiscard]] const DrawingModel& model() const { return model_; }
@@ -62,15 +58,7 @@ class DrawingFit {
             Eigen::Vector3d& gradient) const;
 
  private:
-  /// What a wall's distances are off by.
-  [[nodiscard]] double sigma_of(const WallIndex::Hit& hit) const {
-    return sigma_m_ ? std::max((*sigma_m_)[static_cast<std::size_t>(hit.wall)], kLeastSigmaM)
-                    : model_.sigma_m;
-  }
-  static constexpr double kLeastSigmaM = 0.02;  ///< no drawing is more exact
-
-  std::shared_ptr<const WallIndex> index_;              ///< copies share it
-  std::shared_ptr<const std::vector<double>> sigma_m_;  ///< null: the model's for all
+  std::shared_ptr<const WallIndex> index_;  ///< copies share it
   DrawingModel model_;
 };
 

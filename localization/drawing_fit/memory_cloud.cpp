@@ -42,10 +42,8 @@ void add_keyframe(const Memory& memory, std::size_t k, Voxels& voxels) {
     if (!p.has_normal()) {
       continue;
     }
-    const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
-    const CloudSurface surface{q.x_m, q.y_m, pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y,
-                               pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y,
-                               static_cast<int>(k)};
+    const SurfacePoint q = moved(pose, p);
+    const CloudSurface surface{q.x_m, q.y_m, q.normal_x, q.normal_y, static_cast<int>(k)};
     const int seer = static_cast<int>(k);
     const double dx = p.x_m - scan.sensor.x_m;
     const double dy = p.y_m - scan.sensor.y_m;
@@ -108,12 +106,9 @@ MemoryCloud memory_cloud(const Memory& memory, std::size_t first, std::size_t en
 MemoryCloud moved(const MemoryCloud& cloud, const Transform2<Map, Map>& by) {
   MemoryCloud out = cloud;
   for (CloudSurface& p : out) {
-    const Point2<Map> q = by * Point2<Map>{p.x_m, p.y_m};
-    const double nx = by.cos_yaw() * p.normal_x - by.sin_yaw() * p.normal_y;
-    p.normal_y = by.sin_yaw() * p.normal_x + by.cos_yaw() * p.normal_y;
-    p.normal_x = nx;
-    p.x_m = q.x_m;
-    p.y_m = q.y_m;
+    const SurfacePoint q = moved(by, SurfacePoint{p.x_m, p.y_m, p.normal_x, p.normal_y});
+    p.x_m = q.x_m, p.y_m = q.y_m;
+    p.normal_x = q.normal_x, p.normal_y = q.normal_y;
     p.direction = WallIndex::direction_of(p.normal_x, p.normal_y);
   }
   return out;

@@ -14,6 +14,9 @@ namespace madori::localization {
 /// Errors of a drawing persist along a wall: its pieces within two metres are one observation, of which a
 /// surface of the cloud is this share.
 inline constexpr double kShareOfObservation = kVoxelM / 2.0;
+/// What an observation, and a nat of the likelihood of all, is worth: rooms and aisles repeat, and so do the
+/// errors of a drawing.
+inline constexpr double kTrust = 0.4;
 inline constexpr double kBeyondM = 0.3;  ///< a surface may overshoot a drawn wall's end by this
 
 /// Score of a surface by its distance to a wall, WallIndex::centimetres; 255, no wall at all, is none.
@@ -53,13 +56,11 @@ void for_each_surface(const WallIndex& index, const SurfaceScan& scan, const Tra
   for (std::size_t i = 1; i < scan.points.size(); ++i) {
     const SurfacePoint& p = scan.points[i];
     if (!p.has_normal()) continue;
-    const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
-    const double nx = pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y;
-    const double ny = pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y;
-    WallIndex::Hit hit = index.nearest(q.x_m, q.y_m, WallIndex::direction_of(nx, ny));
+    const SurfacePoint q = moved(pose, p);
+    WallIndex::Hit hit = index.nearest(q.x_m, q.y_m, WallIndex::direction_of(q.normal_x, q.normal_y));
     if (hit.beyond_m > kBeyondM) hit.wall = -1;
     const double gap = std::hypot(p.x_m - scan.points[i - 1].x_m, p.y_m - scan.points[i - 1].y_m);
-    visit(q, hit, std::min(kVoxelM, gap));
+    visit(Point2<Map>{q.x_m, q.y_m}, hit, std::min(kVoxelM, gap));
   }
 }
 

@@ -45,19 +45,6 @@ class WallIndex {
                ? kFar
                : tables_[static_cast<std::size_t>(direction)].centimetres[static_cast<std::size_t>(cell)];
   }
-  /// Calls visit(i, centimetres) for the places (x_m + shifts_m[i], y_m) that have such a wall.
-  template <class Visit>
-  void for_each_shift(double x_m, double y_m, int direction, const std::vector<double>& shifts_m,
-                      Visit&& visit) const {
-    const std::int64_t row = frame_.find({frame_.origin.x_m, y_m});
-    if (row < 0) return;
-    const std::uint8_t* cells =
-        &tables_[static_cast<std::size_t>(direction)].centimetres[static_cast<std::size_t>(row)];
-    for (std::size_t i = 0; i < shifts_m.size(); ++i) {
-      const double u = (x_m + shifts_m[i] - frame_.origin.x_m) / frame_.cell_m;
-      if (u >= 0.0 && u < frame_.width) visit(i, cells[static_cast<std::size_t>(u)]);
-    }
-  }
 
  private:
   static constexpr std::uint8_t kFar = 255;

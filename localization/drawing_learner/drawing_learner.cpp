@@ -5,6 +5,9 @@
 namespace madori::localization {
 namespace {
 
+constexpr std::size_t kMostKeyframes = 400;  // then every other one is dropped, and the spacing doubles
+constexpr double kRangeMaxM = 80.0;          // far walls tell the scale best
+
 std::vector<Point2<Base>> places(const ScanPoints& points) {
   std::vector<Point2<Base>> list;
   list.reserve(points.size());
@@ -15,11 +18,7 @@ std::vector<Point2<Base>> places(const ScanPoints& points) {
 
 }  // namespace
 
-DrawingLearner::DrawingLearner(const mapping::Walls& walls, const DrawingLearnerOptions& options)
-    : options_(options),
-      walls_(walls),
-      reliability_(walls, options.reliability),
-      spacing_m_(options.keyframe_m) {}
+DrawingLearner::DrawingLearner(const mapping::Walls& walls) : walls_(walls), reliability_(walls) {}
 
 bool DrawingLearner::is_keyframe(const PoseEstimate& pose) const {
   const auto state = pose.health.state;
@@ -34,13 +33,12 @@ bool DrawingLearner::is_due(const PoseEstimate& pose) const {
 
 void DrawingLearner::observe(const ScanPoints& points, const Point2<Base>& sensor, const PoseEstimate& pose) {
   if (!is_due(pose)) return;
-  const SurfaceScan scan =
-      make_surface_scan(pose.stamp, sensor, places(points), {.range_max_m = options_.range_max_m});
+  const SurfaceScan scan = make_surface_scan(pose.stamp, sensor, places(points), {.range_max_m = kRangeMaxM});
   if (scan.points.empty()) return;
   reliability_.observe(scan, pose);
   if (!is_keyframe(pose)) return;
   keyframes_.push_back({pose.map_from_base, surface_pieces(scan)});
-  if (keyframes_.size() > options_.most_keyframes) thin();
+  if (keyframes_.size() > kMostKeyframes) thin();
 }
 
 void DrawingLearner::thin() {
@@ -51,7 +49,7 @@ void DrawingLearner::thin() {
 }
 
 SelfCalibration DrawingLearner::calibrate() const {
-  return self_calibrate(WallIndex(walls_), keyframes_, {}, options_.calibration);
+  return self_calibrate(WallIndex(walls_), keyframes_, {});
 }
 
 }  // namespace madori::localization

@@ -9,20 +9,12 @@
 
 namespace madori::localization {
 
-struct DrawingLearnerOptions {
-  ReliabilityOptions reliability;
-  CalibrationOptions calibration;
-  double keyframe_m = 1.0;           ///< of driving between two scans kept for the calibration
-  std::size_t most_keyframes = 400;  ///< then every other one is dropped, and the spacing doubles
-  double range_max_m = 80.0;         ///< far walls tell the scale best
-};
-
 /// What driving teaches of the drawing: which walls are right (WallReliability), and how the drawing is
 /// stretched (self_calibrate). Looks on only: nothing that it learns changes the poses of the drive under
 /// way, so that recordings replay bit for bit. Bounded memory, deterministic.
 class DrawingLearner {
  public:
-  explicit DrawingLearner(const mapping::Walls& walls, const DrawingLearnerOptions& options = {});
+  explicit DrawingLearner(const mapping::Walls& walls);
 
   /// Is a scan wanted at this pose? Cheap; spares making the points.
   [[nodiscard]] bool is_due(const PoseEstimate& pose) const;
@@ -39,11 +31,10 @@ class DrawingLearner {
   [[nodiscard]] bool is_keyframe(const PoseEstimate& pose) const;
   void thin();
 
-  DrawingLearnerOptions options_;
   mapping::Walls walls_;
   WallReliability reliability_;
   std::vector<CalibrationKeyframe> keyframes_;
-  double spacing_m_;
+  double spacing_m_ = 1.0;  ///< of driving between two scans kept for the calibration
 };
 
 }  // namespace madori::localization

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "localization/health/reasons.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 namespace {
@@ -69,12 +70,6 @@ GlobalAnswer decide(std::vector<Hypothesis> hypotheses, const GlobalOptions& opt
   fill_in_probabilities(answer.hypotheses);
   believe_or_doubt(answer, options);
   return answer;
-}
-
-bool same_place(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b, double limit_m,
-                double limit_rad) {
-  return distance_m(a.translation(), b.translation()) < limit_m &&
-         std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < limit_rad;
 }
 
 std::vector<Hypothesis> distinct(std::vector<Hypothesis> all, double same_m, double same_rad) {

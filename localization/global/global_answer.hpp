@@ -31,9 +31,6 @@ struct GlobalAnswer {
 /// is to be believed, else why not.
 [[nodiscard]] GlobalAnswer decide(std::vector<Hypothesis> hypotheses, const GlobalOptions& options);
 
-/// Nearer than `limit_m` and `limit_rad`, both.
-[[nodiscard]] bool same_place(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b, double limit_m,
-                              double limit_rad);
 /// The hypotheses by falling likelihood, none at the same place as one before.
 [[nodiscard]] std::vector<Hypothesis> distinct(std::vector<Hypothesis> all, double same_m, double same_rad);
 

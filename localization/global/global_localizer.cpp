@@ -5,6 +5,7 @@
 
 #include "localization/global/refinement.hpp"
 #include "localization/global/view_search.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 namespace {

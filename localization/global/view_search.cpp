@@ -6,6 +6,7 @@
 #include "localization/global/circular_match.hpp"
 #include "localization/global/global_answer.hpp"
 #include "localization/particle_filter/sensor_kernel.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 namespace {

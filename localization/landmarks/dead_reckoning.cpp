@@ -1,19 +1,17 @@
 #include "localization/landmarks/dead_reckoning.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "localization/localizer/options.hpp"
+#include "localization/pose_axes.hpp"
+
 namespace madori::localization::landmarks {
 namespace {
 
-constexpr double kKeyframe_m = 0.4;
-constexpr double kKeyframe_rad = 0.25;
-constexpr double kLeastInliers =
-    0.25;                             ///< share of a scan on the recent ones; below, the wheels are believed
-constexpr double kSureInliers = 0.6;  ///< below, a wider search follows
-constexpr double kFarMargin = 0.1;    ///< by which that must explain more
+const LocalizerOptions kAsTheLocalizer;
+constexpr double kFarMargin = 0.1;  ///< by which a wider search must explain more
 
 Transform2<Odom, Base> in_odom(const Transform2<Map, Base>& pose) {
   return {pose.x_m(), pose.y_m(), pose.yaw_rad()};
@@ -24,12 +22,6 @@ Matrix3 matrix(const Eigen::Matrix3d& m) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) out(i, j) = m(i, j);
   return out;
-}
-
-Eigen::Matrix3d in_map_axes(const Eigen::Matrix3d& covariance, double yaw_rad) {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
-  return turn * covariance * turn.transpose();
 }
 
 }  // namespace
@@ -54,7 +46,7 @@ Transform2<Odom, Base> DeadReckoning::on_scan(Stamp stamp, const ScanPoints& poi
     motion_ = added(motion_, {{m.x_m(), m.y_m(), m.yaw_rad()}, {matrix(step.covariance)}});
   }
   last_scan_ = stamp;
-  since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
+  since_scan_ = track_.since(stamp, model_);
   return in_odom(at_scan_ * since_scan_.motion);
 }
 
@@ -79,13 +71,13 @@ void DeadReckoning::match(const SurfaceScan& scan, const OdometryStep& step) {
       return map.refine(scan, map.search(scan, prediction, window).map_from_base, prior);
     };
     MatchResult found = search_and_refine();
-    if (found.inlier_share < kSureInliers) {  // the wheels may have slipped
+    if (found.inlier_share < kAsTheLocalizer.sure_inliers) {  // the wheels may have slipped
       window.half_m = 0.5 + 0.5 * std::min(2.0, step.path_m);
       window.half_rad = 0.8;
       const MatchResult far = search_and_refine();
       if (far.inlier_share > found.inlier_share + kFarMargin) found = far;
     }
-    if (found.inlier_share > kLeastInliers) {
+    if (found.inlier_share > kAsTheLocalizer.lost_inliers) {
       here = found.map_from_base;
       const Eigen::Vector3d grown =
           path_m * Eigen::Vector3d(options_.chain_m * options_.chain_m, options_.chain_m * options_.chain_m,
@@ -94,18 +86,14 @@ void DeadReckoning::match(const SurfaceScan& scan, const OdometryStep& step) {
       // Keyframes a few metres back are matched against: the fit's own error does not add up scan by scan.
       error = in_map_axes(fit, -at_scan_.yaw_rad()) * std::min(1.0, path_m / options_.window_path_m);
       error.diagonal() += grown;
-      model_.learn(step, at_scan_.inverse() * here, 0.02, 0.005);
+      model_.learn(step, at_scan_.inverse() * here);
     }
   }
   const Transform2<Base, Base> moved = at_scan_.inverse() * here;
   motion_ = added(motion_, {{moved.x_m(), moved.y_m(), moved.yaw_rad()}, {matrix(error)}});
   at_scan_ = here;
   since_keyframe_m_ += step.path_m;
-  const Transform2<Base, Base> since =
-      recent_.empty() ? Transform2<Base, Base>() : recent_.poses().back().inverse() * here;
-  if (!recent_.empty() && std::hypot(since.x_m(), since.y_m()) < kKeyframe_m &&
-      std::abs(since.yaw_rad()) < kKeyframe_rad)
-    return;
+  if (!recent_.empty() && !is_new_view(recent_.poses().back().inverse() * here, kAsTheLocalizer)) return;
   recent_.add(scan, since_keyframe_m_, here, MeasuredMotion{});
   since_keyframe_m_ = 0.0;
 }

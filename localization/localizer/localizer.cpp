@@ -9,7 +9,7 @@
 namespace madori::localization {
 Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPose>& initial,
                      const LocalizerOptions& options)
-    : options_(options), model_(options.odometry), surroundings_(options.surroundings) {
+    : options_(options), model_(options.odometry) {
   if (!walls.empty()) map_.drawing.emplace(walls);
   begin_anew(initial);
 }
@@ -149,7 +149,7 @@ void Localizer::go_on(const MatchResult& recent, const Transform2<Map, Base>& pl
   if (recent.inlier_share > options_.lost_inliers) {
     const Transform2<Base, Base> motion = anchor_.inverse() * recent.map_from_base;
     since_keyframe_.add_matched(motion, recent.information, recent.inlier_share);
-    model_.learn(step, motion, 0.02, 0.005);
+    model_.learn(step, motion);
   } else {
     since_keyframe_.add_unmatched(anchor_.inverse() * place, recent.inlier_share);
   }
@@ -211,16 +211,13 @@ PoseEstimate Localizer::on_scan(Stamp stamp, const ScanPoints& points, const Poi
     start(scan);
   else if (started_)
     remember_if_new(scan);
-  since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
+  since_scan_ = track_.since(stamp, model_);
   if (started_) think_if_due(stamp);
   return estimate(stamp, anchor_);
 }
 
 void Localizer::remember_if_new(const SurfaceScan& scan) {
-  const Transform2<Base, Base> moved = map_.memory.poses().back().inverse() * anchor_;
-  if (std::hypot(moved.x_m(), moved.y_m()) > options_.keyframe_m ||
-      std::abs(moved.yaw_rad()) > options_.keyframe_rad)
-    return remember(scan);
+  if (is_new_view(map_.memory.poses().back().inverse() * anchor_, options_)) return remember(scan);
   if (!wants_another_look(scan.stamp)) return;
   remember(scan);
   map_.next_survey_walls = 0.0;  // all places are looked at with it

@@ -72,8 +72,6 @@ class Localizer {
   /// At the end of a log: the memory after a last thorough look at all of it. Waits for it.
   [[nodiscard]] Memory finished_memory();
   [[nodiscard]] const HealthEvidence& evidence() const { return map_.evidence; }
-  /// Share of the surfaces that the newest two scans have in common; 1 where they cannot be compared.
-  [[nodiscard]] double kept() const { return surroundings_.kept(); }
   [[nodiscard]] const OdometryModel& odometry_model() const { return model_; }
 
  private:

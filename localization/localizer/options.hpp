@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "core/frames.hpp"
 #include "core/transform2.hpp"
 #include "localization/health/health.hpp"
@@ -7,7 +9,6 @@
 #include "localization/memory/surface_scan.hpp"
 #include "localization/motion_model/odometry_model.hpp"
 #include "localization/placement/placement.hpp"
-#include "localization/surroundings/surroundings.hpp"
 
 namespace madori::localization {
 
@@ -45,7 +46,6 @@ struct LocalizerOptions {
   double same_place_m = 0.3;  ///< where that puts the scan in the same place
   int restart_scans = 8;  ///< of no agreement, after which the memory is given up and the place sought anew
   double another_look_s = 3.0;  ///< a standing vehicle that does not know its place looks again
-  SurroundingsOptions surroundings;
   HealthLimits health;
   double lost_inliers = 0.25;  ///< a scan that fits the memory less than this leaves the pose to the wheels
   /// What is thought over beside the cycle is taken in at the first scan this much later, by the stamps of
@@ -55,6 +55,12 @@ struct LocalizerOptions {
   double young_s = 0.5;       ///< and of a memory of fewer keyframes than
   std::size_t young_size = 20;
 };
+
+/// Whether a view `moved` from the newest keyframe is a keyframe of its own.
+[[nodiscard]] inline bool is_new_view(const Transform2<Base, Base>& moved, const LocalizerOptions& options) {
+  return std::hypot(moved.x_m(), moved.y_m()) > options.keyframe_m ||
+         std::abs(moved.yaw_rad()) > options.keyframe_rad;
+}
 
 /// For a vehicle with encoders on its driven wheels.
 [[nodiscard]] inline LocalizerOptions driving_options() {

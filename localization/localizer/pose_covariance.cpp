@@ -2,17 +2,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 namespace madori::localization {
-
-Eigen::Matrix3d in_map_axes(const Eigen::Matrix3d& covariance, double yaw_rad) {
-  Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
-  r(0, 0) = r(1, 1) = std::cos(yaw_rad);
-  r(0, 1) = -std::sin(yaw_rad);
-  r(1, 0) = std::sin(yaw_rad);
-  return r * covariance * r.transpose();
-}
 
 Eigen::Matrix3d with_floor(const Eigen::Matrix3d& covariance) {
   return covariance + Eigen::Matrix3d(Eigen::Vector3d(2.5e-5, 2.5e-5, 2.5e-5).asDiagonal());

@@ -3,11 +3,9 @@
 #include <Eigen/Core>
 
 #include "localization/localizer/map_state.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
-
-/// A covariance (or information) of (x, y, yaw) in the axes of a pose of the given heading, in Map axes.
-[[nodiscard]] Eigen::Matrix3d in_map_axes(const Eigen::Matrix3d& covariance, double yaw_rad);
 
 /// What a step of the wheels never gets more exact than: 5 mm, 0.3 degrees.
 [[nodiscard]] Eigen::Matrix3d with_floor(const Eigen::Matrix3d& covariance);

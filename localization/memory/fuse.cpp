@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "localization/pose_axes.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -24,15 +26,6 @@ Eigen::Vector2d translation(const Transform2<Base, Base>& t) {
 
 Eigen::Matrix3d covariance_of(const RelativeFactor& factor) {
   return (factor.information + 1e-6 * Eigen::Matrix3d::Identity()).inverse();
-}
-
-/// A loop whose error, in sigmas squared, is beyond this was wrong.
-constexpr double kContradiction = 25.0;
-
-bool contradicts(const RelativeFactor& f, const std::vector<Transform2<Map, Base>>& poses) {
-  const Eigen::Vector3d e =
-      relative_error(f, poses[static_cast<std::size_t>(f.from)], poses[static_cast<std::size_t>(f.to)]);
-  return f.loop && e.dot(f.information * e) > kContradiction;
 }
 
 /// The strongest tie of the node, seen from its neighbour; motions of the chain before loops.
@@ -61,6 +54,13 @@ Eigen::Matrix3d limited(const Eigen::Matrix3d& information, const Eigen::Vector3
   return (regular.inverse() + Eigen::Matrix3d(floor.asDiagonal())).inverse();
 }
 
+bool contradicts(const RelativeFactor& f, const std::vector<Transform2<Map, Base>>& poses) {
+  constexpr double kContradiction = 25.0;  // sigmas squared
+  const Eigen::Vector3d e =
+      relative_error(f, poses[static_cast<std::size_t>(f.from)], poses[static_cast<std::size_t>(f.to)]);
+  return f.loop && e.dot(f.information * e) > kContradiction;
+}
+
 RelativeFactor reversed(const RelativeFactor& factor) {
   const Eigen::Matrix2d back = rotation(factor.motion).transpose();
   Eigen::Matrix3d j = -Eigen::Matrix3d::Identity();
@@ -83,8 +83,7 @@ RelativeFactor chained(const RelativeFactor& first, const RelativeFactor& second
 
 RelativeFactor merged(const RelativeFactor& a, const RelativeFactor& b) {
   const Eigen::Matrix3d sum = a.information + b.information;
-  const Eigen::Vector3d apart(b.motion.x_m() - a.motion.x_m(), b.motion.y_m() - a.motion.y_m(),
-                              wrap_angle(b.motion.yaw_rad() - a.motion.yaw_rad()));
+  const Eigen::Vector3d apart = pose_difference(b.motion, a.motion);
   const Eigen::Vector3d step = (sum + 1e-6 * Eigen::Matrix3d::Identity()).inverse() * (b.information * apart);
   return {a.from, a.to,
           Transform2<Base, Base>(a.motion.x_m() + step[0], a.motion.y_m() + step[1],

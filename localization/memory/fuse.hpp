@@ -13,6 +13,9 @@ namespace madori::localization {
 /// Two measurements of the same motion as one; never more exact than a scan match can be.
 [[nodiscard]] RelativeFactor merged(const RelativeFactor& a, const RelativeFactor& b);
 
+/// Whether it is a loop that the solved `poses` show to be wrong.
+[[nodiscard]] bool contradicts(const RelativeFactor& factor, const std::vector<Transform2<Map, Base>>& poses);
+
 /// Takes one pose out of the graph: what tied it to others ties the neighbour that it was tied to best
 /// instead, so the graph stays as sparse as it was. Loops that contradict the solved `poses` are forgotten.
 /// The numbers of the other poses stay. Returns false, nothing changed, when no factor touches the pose.

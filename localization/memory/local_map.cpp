@@ -5,20 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "localization/pose_axes.hpp"
+
 namespace madori::localization {
 namespace {
 
 constexpr double kCellM = 0.2;
-constexpr double kSameDirection = 0.7;  // cosine of the angle between normals of the same surface
-/// Sigma of one residual. Range noise is a third of it; the rest stands for what neighbouring beams share
-/// (mixed pixels, the surface's own roughness), so that the information is not overrated.
-constexpr double kResidualSigmaM = 0.08;
-
-SurfacePoint moved(const Transform2<Map, Base>& pose, const SurfacePoint& p) {
-  const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
-  return {q.x_m, q.y_m, pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y,
-          pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y};
-}
 
 }  // namespace
 
@@ -104,7 +96,7 @@ const LocalMap::Entry* LocalMap::nearest(double x_m, double y_m, double normal_x
       const SurfacePoint& q = points_[i].point;
       const double sq = (q.x_m - x_m) * (q.x_m - x_m) + (q.y_m - y_m) * (q.y_m - y_m);
       if (sq < best_sq && q.has_normal() &&
-          (!directed || q.normal_x * normal_x + q.normal_y * normal_y > kSameDirection)) {
+          (!directed || q.normal_x * normal_x + q.normal_y * normal_y > kSameSurfaceCosine)) {
         best_sq = sq;
         best = &points_[i];
       }
@@ -161,7 +153,6 @@ struct NormalEquations {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   int covered = 0;
   int inliers = 0;
-  double squares = 0.0;
   double trust_sum = 0.0;
 
   void add(double residual, const Eigen::Vector3d& jacobian, double kernel_m, double trust) {
@@ -171,16 +162,9 @@ struct NormalEquations {
     trust_sum += trust;
     hessian += information * jacobian * jacobian.transpose();
     gradient += information * residual * jacobian;
-    if (std::abs(residual) < 0.1) {
-      ++inliers;
-      squares += residual * residual;
-    }
+    if (std::abs(residual) < 0.1) ++inliers;
   }
 };
-
-Eigen::Vector3d difference(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b) {
-  return {a.x_m() - b.x_m(), a.y_m() - b.y_m(), wrap_angle(a.yaw_rad() - b.yaw_rad())};
-}
 
 }  // namespace
 
@@ -219,18 +203,16 @@ MatchResult LocalMap::refine(const SurfaceScan& scan, const Transform2<Map, Base
     if (extra && i >= 4) {  // once near: far off, it would draw to the wrong walls
       extra(pose, sums.hessian, sums.gradient);
     }
-    const Eigen::Vector3d off = difference(pose, prior.map_from_base);
+    const Eigen::Vector3d off = pose_difference(pose, prior.map_from_base);
     // Slipping wheels are far off at once: beyond three sigmas the prediction lets go (Cauchy).
     const Eigen::Matrix3d lean = prior.information / (1.0 + off.dot(prior.information * off) / 9.0);
     const Eigen::Matrix3d total = sums.hessian + lean + 1e-6 * Eigen::Matrix3d::Identity();
     const Eigen::Vector3d slope = sums.gradient + lean * off;
     const Eigen::Vector3d step = -total.ldlt().solve(slope);
     result.information = sums.hessian;
-    result.iterations = i + 1;
     const double points = static_cast<double>(scan.points.size());
     result.covered_share = sums.covered / points;
     result.inlier_share = sums.covered > 0 ? static_cast<double>(sums.inliers) / points : 0.0;
-    result.rms_m = sums.inliers > 0 ? std::sqrt(sums.squares / sums.inliers) : 0.0;
     result.map_from_base =
         Transform2<Map, Base>(pose.x_m() + step[0], pose.y_m() + step[1], pose.yaw_rad() + step[2]);
     if (i >= kShrunk && step.head<2>().norm() < 1e-4 && std::abs(step[2]) < 1e-5) {

@@ -11,16 +11,18 @@
 
 namespace madori::localization {
 
+/// Sigma of one residual. Range noise is a third of it; the rest stands for what neighbouring beams share
+/// (mixed pixels, the surface's own roughness), so that the information is not overrated.
+inline constexpr double kResidualSigmaM = 0.08;
+
 /// How a scan fits a piece of the memory.
 struct MatchResult {
   bool converged = false;
-  int iterations = 0;
   Transform2<Map, Base> map_from_base;
   /// Of (x, y, yaw) at the pose, Map axes; from the scan alone, without the prediction.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   double inlier_share = 0.0;   ///< of the points that had the map around them
   double covered_share = 0.0;  ///< of the points, those that had the map around them
-  double rms_m = 0.0;          ///< of the inliers
 };
 
 /// Another pull on the scan's pose: adds its Gauss-Newton terms of (x, y, yaw) at the pose, Map axes.

@@ -5,18 +5,10 @@
 
 #include "localization/memory/fuse.hpp"
 #include "localization/memory/local_map.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 namespace {
-
-/// Map-axes information of a pose, expressed in the axes of another pose.
-Eigen::Matrix3d turned_into(const Eigen::Matrix3d& information, double yaw_rad) {
-  Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
-  r(0, 0) = r(1, 1) = std::cos(yaw_rad);
-  r(0, 1) = -std::sin(yaw_rad);
-  r(1, 0) = std::sin(yaw_rad);
-  return r.transpose() * information * r;
-}
 
 /// How far the chain may have drifted after so much driving.
 SearchWindow window_after(double open_m, const MemoryOptions& options) {
@@ -87,7 +79,7 @@ std::optional<RelativeFactor> match_loop(const std::vector<Keyframe>& keyframes,
   factor.from = static_cast<int>(candidate.nearest);
   factor.to = static_cast<int>(newest);
   factor.motion = old.inverse() * match.map_from_base;
-  factor.information = turned_into(limited(match.information), old.yaw_rad());
+  factor.information = in_map_axes(limited(match.information), -old.yaw_rad());
   factor.loop = true;
   return factor;
 }
@@ -95,7 +87,7 @@ std::optional<RelativeFactor> match_loop(const std::vector<Keyframe>& keyframes,
 double loops_against(const std::vector<RelativeFactor>& factors,
                      const std::vector<Transform2<Map, Base>>& poses, const Transform2<Map, Map>& by,
                      std::size_t first) {
-  constexpr double kLossSq = 9.0;  // GraphOptions::loop_loss
+  constexpr double kLossSq = GraphOptions().loop_loss * GraphOptions().loop_loss;
   const auto nats = [](const RelativeFactor& f, const auto& from, const auto& to) {
     const Eigen::Vector3d e = relative_error(f, from, to);
     return 0.5 * kLossSq * std::log1p(e.dot(f.information * e) / kLossSq);

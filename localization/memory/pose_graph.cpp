@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "localization/pose_axes.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -99,9 +101,7 @@ RelativeJacobians relative_jacobians(double yaw_rad, double dx_m, double dy_m) {
 
 Eigen::Vector3d relative_error(const RelativeFactor& factor, const Transform2<Map, Base>& from,
                                const Transform2<Map, Base>& to) {
-  const Transform2<Base, Base> motion = from.inverse() * to;
-  return {motion.x_m() - factor.motion.x_m(), motion.y_m() - factor.motion.y_m(),
-          wrap_angle(motion.yaw_rad() - factor.motion.yaw_rad())};
+  return pose_difference(from.inverse() * to, factor.motion);
 }
 
 bool optimise_graph(std::vector<Transform2<Map, Base>>& poses, const std::vector<RelativeFactor>& relative,

@@ -5,6 +5,7 @@
 #include "core/frames.hpp"
 #include "core/point2.hpp"
 #include "core/stamp.hpp"
+#include "core/transform2.hpp"
 
 namespace madori::localization {
 
@@ -19,12 +20,26 @@ struct SurfacePoint {
   [[nodiscard]] bool has_normal() const { return normal_x != 0.0 || normal_y != 0.0; }
 };
 
+/// Cosine of the angle between normals of the same surface, at least.
+inline constexpr double kSameSurfaceCosine = 0.7;
+
+/// The point, and where it looks, in the frame To.
+template <class To, class From>
+[[nodiscard]] SurfacePoint moved(const Transform2<To, From>& pose, const SurfacePoint& p) {
+  const Point2<To> q = pose * Point2<From>{p.x_m, p.y_m};
+  return {q.x_m, q.y_m, pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y,
+          pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y};
+}
+
 /// One scan, ready for matching: Base frame, thinned, with normals.
 struct SurfaceScan {
   Stamp stamp{};
   Point2<Base> sensor;  ///< where the lidar sits
   std::vector<SurfacePoint> points;
 };
+
+/// Of a point from its surface, sigma, at the least: real surfaces are no lines.
+inline constexpr double kLeastNoiseM = 0.03;
 
 /// Sigma of a point, at most, of the lidars that there are.
 inline constexpr double kUsualNoiseM = 0.04;

@@ -1,20 +1,9 @@
 #include "localization/memory/thinning.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "localization/memory/fuse.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
-namespace {
-
-bool same_place(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b,
-                const MemoryOptions& options) {
-  return distance_m(a.translation(), b.translation()) < options.place_m &&
-         std::abs(wrap_angle(a.yaw_rad() - b.yaw_rad())) < options.place_rad;
-}
-
-}  // namespace
 
 /// Only what stays covers a place: a keyframe is taken out for one that survives, never for one that is about
 /// to be taken out itself. Of one visit the first at a place stays, else each new one would erase its
@@ -31,7 +20,7 @@ std::vector<char> thin_out(const std::vector<Keyframe>& keyframes,
     std::vector<std::size_t> older;
     bool covered = false;
     for (std::size_t i = 0; i < k && !covered; ++i) {
-      if (gone[i] != 0 || !same_place(poses[i], poses[k], options)) continue;
+      if (gone[i] != 0 || !same_place(poses[i], poses[k], options.place_m, options.place_rad)) continue;
       covered = keyframes[k].path_m - keyframes[i].path_m < options.window_path_m;
       if (i > 0) older.push_back(i);  // the first stays: the start pose is tied to it
     }

@@ -55,13 +55,13 @@ class OdometryModel {
 
   /// Appends the small motion between two readings to `step`, corrected.
   void extend(OdometryStep& step, const Transform2<Base, Base>& raw) const;
-  /// Learns from a step whose motion was measured otherwise, with the given sigmas.
-  void learn(const OdometryStep& step, const Transform2<Base, Base>& measured, double sigma_m,
-             double sigma_rad);
+  /// Learns from a step whose motion was measured otherwise, with the given sigmas; by default those of a
+  /// scan matched to what was seen just before.
+  void learn(const OdometryStep& step, const Transform2<Base, Base>& measured, double sigma_m = 0.02,
+             double sigma_rad = 0.005);
 
   /// a (share of the turn), b (rad a metre), c (share of the distance).
   [[nodiscard]] const Eigen::Vector3d& systematic() const { return systematic_; }
-  [[nodiscard]] const Eigen::Matrix3d& systematic_covariance() const { return covariance_; }
 
  private:
   OdometryNoise noise_;

@@ -24,6 +24,10 @@ class OdometryTrack {
   /// The corrected motion from one moment to a later one. Before the first reading, and later than kCarryOn
   /// after the newest, it stands: silent wheels tell nothing of what was before them.
   [[nodiscard]] OdometryStep between(Stamp from, Stamp to, const OdometryModel& model) const;
+  /// The same from a moment to the newest reading; none where nothing was read.
+  [[nodiscard]] OdometryStep since(Stamp from, const OdometryModel& model) const {
+    return empty() ? OdometryStep{} : between(from, newest().stamp, model);
+  }
 
  private:
   [[nodiscard]] Transform2<Odom, Base> clipped(Stamp stamp) const;

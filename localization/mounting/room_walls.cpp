@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/angle.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 namespace {
@@ -28,9 +29,7 @@ Transform2<Room, Lidar> step_pose(const RoomWalls& room, const std::vector<WallP
                                   const Eigen::Vector3d& guess_sigma, const WallGates& gates,
                                   const LidarModel& lidar) {
   Eigen::Matrix3d information = guess_sigma.cwiseProduct(guess_sigma).cwiseInverse().asDiagonal();
-  const Eigen::Vector3d off(pose.x_m() - guess.x_m(), pose.y_m() - guess.y_m(),
-                            wrap_angle(pose.yaw_rad() - guess.yaw_rad()));
-  Eigen::Vector3d side = -information * off;
+  Eigen::Vector3d side = -information * pose_difference(pose, guess);
   for (const WallPiece& piece : pieces) {
     const auto found = room.find(piece, pose, gates);
     if (!found) continue;

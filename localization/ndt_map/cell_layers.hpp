@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/stamp.hpp"
@@ -42,6 +43,11 @@ struct CellLayers {
   /// One look's evidence, at `stamp`. A look that is not later than the last one tells of *now* only.
   /// `same_thing`, 0..1: how surely what it sees is what was known there.
   void take(double evidence, Stamp stamp, const LayerOptions& options, double same_thing = 1.0);
+  /// All beams so far passed above what is seen now: of that they said nothing.
+  void forget_free() {
+    now = std::max(now, 0.0F);
+    stands = std::max(stands, 0.0F);
+  }
   /// As they count at `stamp`: out of view, each falls back to the slower one; what is not known to be
   /// permanent is not known to be there on another day.
   [[nodiscard]] CellLayers at(Stamp stamp, const LayerOptions& options) const;

@@ -22,6 +22,7 @@ struct MapCell {
   CellLayers layers;
   CellGaussian lasting;  ///< of what is known to be permanent, which may be hidden or gone
   std::array<std::int32_t, 2> drawn{-1, -1};  ///< lines nearest to its middle, walls first, which have faces
+  float clear_above_m = std::numeric_limits<float>::infinity();  ///< lowest beam through it; not kept
 };
 
 /// Cells in a quadtree of fixed depth; a cell exists once it was asked for with at(). Indices stay as they

@@ -115,6 +115,8 @@ void HybridMap::pass(const Ray& ray) {
   walk(ray.beam, ray.way, options_.cell_m, [&](const CellPlace& place, double from, double to) {
     if (ray.ends_here && place == ray.end) return;
     const auto cell = cells_.at(place);
+    const double low_m = ray.beam.z_m + (ray.beam.dz_m < 0.0 ? to : from) * ray.beam.dz_m;
+    cells_[cell].clear_above_m = std::min(cells_[cell].clear_above_m, static_cast<float>(low_m));
     const CellGaussian& gaussian = cells_[cell].gaussian;
     const double surely = gaussian.empty() ? 1.0 : refutes(ray.beam, from, to, gaussian, options_.surface_m);
     sighting(cell).evidence -= options_.pass * surely;
@@ -164,6 +166,8 @@ void HybridMap::settle(Stamp stamp) {
   newest_ = std::max(newest_, stamp);
   for (const Sighting& seen : sightings_) {
     MapCell& cell = cells_[seen.cell];
+    const bool is_below = seen.ends.z_m + static_cast<float>(options_.surface_m) < cell.clear_above_m;
+    if (!seen.ends.empty() && is_below) cell.layers.forget_free();
     cell.layers.take(seen.evidence, stamp, options_.layers, seen.same_thing);
     if (!cell.layers.lasts(options_.layers)) {
       cell.lasting = {};

@@ -80,15 +80,14 @@ Sum sum_at(const Level& level, const Pose& pose) {
 struct Climb {
   Pose pose;
   Sum sum;
-  int iterations = 0;
   bool converged = false;
 };
 
 /// Levenberg-Marquardt uphill: a step that does not raise the sum is tried again shorter.
 Climb climb(const Level& level, const Pose& from, const MapRegistrationOptions& options) {
-  Climb c{from, sum_at(level, from), 0, false};
+  Climb c{from, sum_at(level, from), false};
   double damping = 1e-3;
-  for (; c.iterations < options.max_iterations && !c.converged; ++c.iterations) {
+  for (int i = 0; i < options.max_iterations && !c.converged; ++i) {
     if (c.sum.hessian.isZero()) break;  // nothing meets
     Eigen::Matrix3d damped = c.sum.hessian;
     damped.diagonal() *= 1.0 + damping;
@@ -154,16 +153,12 @@ MapRegistration lay_on(const GaussianPyramid& target, const GaussianPyramid& sou
   best.score = -1.0;
   for (const Pose& start :
        best_starts(levels[options.first_level], starts(guess, source, options), options.carried)) {
-    Climb c{start, {}, 0, false};
-    for (std::size_t level = options.first_level + 1; level-- > 0;) {
-      c = climb(levels[level], c.pose, options);
-      best.iterations += c.iterations;
-    }
+    Climb c{start, {}, false};
+    for (std::size_t level = options.first_level + 1; level-- > 0;) c = climb(levels[level], c.pose, options);
     const double score = c.sum.score / static_cast<double>(levels[0].source.size());
     if (score <= best.score) continue;
-    best = {c.pose.x_m(),    c.pose.y_m(), c.pose.yaw_rad(), c.converged && c.sum.matched > 2,
-            best.iterations, score,        c.sum.matched,    c.sum.chi2,
-            c.sum.hessian};
+    best = {c.pose.x_m(), c.pose.y_m(),  c.pose.yaw_rad(), c.converged && c.sum.matched > 2,
+            score,        c.sum.matched, c.sum.chi2,       c.sum.hessian};
   }
   return best;
 }

@@ -24,7 +24,6 @@ struct MapRegistrationOptions {
 struct MapRegistration {
   double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
   bool converged = false;
-  int iterations = 0;
   double score = 0.0;  ///< 0..1, mean over the source's finest cells of how well each meets a Gaussian
   int matched = 0;     ///< finest cells with a Gaussian of the target within three standard deviations
   double chi2 = 0.0;   ///< of those, squared distances in standard deviations; 2 a cell is usual

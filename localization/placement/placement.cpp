@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "localization/drawing_fit/wall_hits.hpp"
-#include "localization/global/global_answer.hpp"
 #include "localization/placement/survey.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 namespace {
@@ -22,8 +22,6 @@ constexpr double kWrongPriors = 0.05;
 /// A vehicle that said to be surer of its place was right in so many cases
 /// (docs/reference/buildings-figures.md).
 constexpr double kSurest = 0.95;
-/// What an observation is worth: rooms and aisles repeat, and so do the errors of a drawing.
-constexpr double kTrust = 0.4;
 constexpr std::size_t kSurveyed = 30;  // places that are refined, and half as many of the mirror image
 constexpr std::size_t kKept = 64;
 constexpr double kForgotten = 1e-6;      // a hypothesis of less comes back with the next survey, if at all

@@ -1,13 +1,16 @@
 #include "localization/placement/survey.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "localization/drawing_fit/wall_hits.hpp"
-#include "localization/global/global_answer.hpp"
+#include "localization/pose_axes.hpp"
+#include "mapping/wall_map/grid_frame.hpp"
 
 namespace madori::localization {
 namespace {
@@ -30,7 +33,7 @@ struct Box {
 };
 
 struct Candidate {
-  double score = 0.0;
+  float score = 0.0F;
   double x_m = 0.0, y_m = 0.0;
   int turn = 0;  ///< in steps
 
@@ -49,15 +52,46 @@ MemoryCloud strongest(const MemoryCloud& cloud, std::size_t count) {
   return sample;
 }
 
-/// How well the sample lies on walls after the shifts (shifts_m[i], dy).
-void score_row(const WallIndex& index, const MemoryCloud& sample, const std::vector<double>& shifts_m,
-               double dy, std::vector<double>& scores) {
-  static const auto blur = scores_by_centimetre(40.0F);
-  scores.assign(shifts_m.size(), 0.0);
-  for (const CloudSurface& p : sample)
-    index.for_each_shift(p.x_m, p.y_m + dy, p.direction, shifts_m,
-                         [&](std::size_t i, std::uint8_t centimetres) { scores[i] += blur[centimetres]; });
-}
+/// Scores of surfaces by where they come to lie, a layer a direction. In a row the even columns stand before
+/// the odd ones, so that steps of two cells along x lie side by side.
+class Lattice {
+ public:
+  Lattice(const WallIndex& index, double cell_m)
+      : frame_(mapping::GridFrame::around(index.walls(), WallIndex::kRadiusM, cell_m)),
+        half_(frame_.width / 2 + 1),
+        scores_(static_cast<std::size_t>(WallIndex::kDirections) * frame_.height * 2 * half_, 0.0F) {
+    const auto blur = scores_by_centimetre(40.0F);
+    for (int direction = 0; direction < WallIndex::kDirections; ++direction)
+      for (int row = 0; row < frame_.height; ++row)
+        for (int column = 0; column < frame_.width; ++column) {
+          const Point2<Map> p = frame_.centre(column, row);
+          scores_[at(direction, row, column % 2) + column / 2] =
+              blur[index.centimetres(p.x_m, p.y_m, direction)];
+        }
+  }
+
+  /// Adds to scores[i] what the surface gets after the shift of (x_m + 2 i cells, y_m).
+  void add(const CloudSurface& p, double x_m, double y_m, Eigen::ArrayXf& scores) const {
+    const int row = cell(p.y_m + y_m - frame_.origin.y_m);
+    if (row < 0 || row >= frame_.height) return;
+    const int column = cell(p.x_m + x_m - frame_.origin.x_m);
+    const int odd = column & 1, from = (column - odd) / 2;
+    const int first = std::max(0, -from), last = std::min(static_cast<int>(scores.size()), half_ - from);
+    if (first >= last) return;
+    scores.segment(first, last - first) +=
+        Eigen::Map<const Eigen::ArrayXf>(&scores_[at(p.direction, row, odd) + (from + first)], last - first);
+  }
+
+ private:
+  [[nodiscard]] int cell(double m) const { return static_cast<int>(std::floor(m / frame_.cell_m)); }
+  [[nodiscard]] std::size_t at(int direction, int row, int odd) const {
+    return ((static_cast<std::size_t>(direction) * frame_.height + row) * 2 + odd) * half_;
+  }
+
+  mapping::GridFrame frame_;
+  int half_;  ///< columns that are even, with one of nothing where the width is
+  std::vector<float> scores_;
+};
 
 /// The best, no two of the same place.
 std::vector<Transform2<Map, Map>> distinct(std::vector<Candidate> found, const Transform2<Map, Base>& at,
@@ -90,6 +124,7 @@ MemoryCloud mirror_image(const MemoryCloud& cloud) {
 
 std::vector<Transform2<Map, Map>> survey(const WallIndex& index, const MemoryCloud& cloud,
                                          const Transform2<Map, Base>& at, std::size_t wanted) {
+  if (index.walls().empty()) return {};
   const MemoryCloud sample = strongest(cloud, 120);
   Box drawing;
   for (const mapping::Wall& wall : index.walls()) {
@@ -98,23 +133,27 @@ std::vector<Transform2<Map, Map>> survey(const WallIndex& index, const MemoryClo
   }
   const double area = (drawing.x2 - drawing.x1) * (drawing.y2 - drawing.y1);
   const double step = std::max(0.4, std::sqrt(area * kTurns * static_cast<double>(sample.size()) / kWork));
+  const Lattice lattice(index, 0.5 * step);
   std::vector<Candidate> best;
-  std::vector<double> shifts_m, scores;
+  float least = 0.0F;
+  Eigen::ArrayXf scores(static_cast<Eigen::Index>((drawing.x2 - drawing.x1) / step) + 1);
   for (int r = 0; r < kTurns; ++r) {
     const Transform2<Map, Map> turn(0.0, 0.0, r * kStepRad);
     const MemoryCloud turned = moved(sample, turn);
     const Point2<Map> here = turn * at.translation();
-    shifts_m.clear();
-    for (double x = drawing.x1 - here.x_m; x <= drawing.x2 - here.x_m; x += step) shifts_m.push_back(x);
+    const double x = drawing.x1 - here.x_m;
     for (double y = drawing.y1 - here.y_m; y <= drawing.y2 - here.y_m; y += step) {
-      score_row(index, turned, shifts_m, y, scores);
-      for (std::size_t i = 0; i < shifts_m.size(); ++i) best.push_back({scores[i], shifts_m[i], y, r});
+      scores.setZero();
+      for (const CloudSurface& p : turned) lattice.add(p, x, y, scores);
+      for (Eigen::Index i = 0; i < scores.size(); ++i)
+        if (scores[i] >= least) best.push_back({scores[i], x + static_cast<double>(i) * step, y, r});
     }
     if (best.size() < kBuffer && r + 1 < kTurns) continue;
     const auto kept = static_cast<std::ptrdiff_t>(std::min(kBuffer, best.size()));
     std::nth_element(best.begin(), best.begin() + kept - 1, best.end(),
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
     best.resize(static_cast<std::size_t>(kept));
+    least = best.back().score;
   }
   return distinct(std::move(best), at, wanted);
 }

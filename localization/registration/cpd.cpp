@@ -105,7 +105,6 @@ RegistrationResult cpd(const ScanPoints& points, const PointMap& map, const Pose
   }
   RegistrationResult result = point_fit(points, map, pose);
   result.converged = converged && pose.is_finite() && result.inliers > 2;
-  result.iterations = iteration;
   return result;
 }
 

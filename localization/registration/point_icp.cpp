@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/pose_axes.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -91,10 +93,8 @@ RegistrationResult point_icp(const ScanPoints& points, const PointMap& map, cons
     const bool last = scale <= options.last_scale_m;
     Sums sums = pair_up(points, map, pose, scale, last ? std::size_t{1} : coarse, options.along_surface);
     ++iteration;
-    const Eigen::Vector3d off(pose.x_m() - options.prior.x_m(), pose.y_m() - options.prior.y_m(),
-                              wrap_angle(pose.yaw_rad() - options.prior.yaw_rad()));
     sums.hessian += options.prior_information;
-    sums.gradient += options.prior_information * off;
+    sums.gradient += options.prior_information * pose_difference(pose, options.prior);
     const Eigen::Matrix3d regular =
         sums.hessian + 1e-6 * (1.0 + sums.hessian.trace()) * Eigen::Matrix3d::Identity();
     const Eigen::Vector3d step = -regular.ldlt().solve(sums.gradient);
@@ -105,7 +105,6 @@ RegistrationResult point_icp(const ScanPoints& points, const PointMap& map, cons
   }
   RegistrationResult result = point_fit(points, map, pose, options.inlier_distance_m);
   result.converged = converged && pose.is_finite() && result.inliers > 2;
-  result.iterations = iteration;
   return result;
 }
 

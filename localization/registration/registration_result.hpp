@@ -11,8 +11,7 @@ namespace madori::localization {
 struct RegistrationResult {
   Transform2<Map, Base> map_from_base;
   bool converged = false;  ///< the last step was below the limits; false also when nothing could be matched
-  int iterations = 0;
-  int inliers = 0;               ///< points that ended close to the map
+  int inliers = 0;         ///< points that ended close to the map
   double inlier_fraction = 0.0;  ///< of the weight of all points
   double rmse_m = 0.0;           ///< of the inliers' residuals
   /// Registration error, Eq. (1) of Kis, Csemesz, Csáji, "A SLAM algorithm for sensors with low sampling

@@ -164,7 +164,6 @@ RegistrationResult segment_icp(const ScanPoints& points, const SegmentGrid& grid
   }
   RegistrationResult result = segment_fit(points, grid, pose, options);
   result.converged = converged && pose.is_finite() && result.inliers > 2;
-  result.iterations = iteration;
   return result;
 }
 

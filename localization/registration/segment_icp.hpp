@@ -29,7 +29,7 @@ struct SegmentIcpOptions {
                                              const Transform2<Map, Base>& initial,
                                              const SegmentIcpOptions& options = {});
 
-/// Only measures how well `points` fit at `map_from_base`: iterations 0, converged false, the rest filled in.
+/// Only measures how well `points` fit at `map_from_base`: converged false, the rest filled in.
 [[nodiscard]] RegistrationResult segment_fit(const ScanPoints& points, const SegmentGrid& grid,
                                              const Transform2<Map, Base>& map_from_base,
                                              const SegmentIcpOptions& options = {});

@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "localization/drawing_fit/wall_hits.hpp"
+
 namespace madori::localization {
 namespace {
 
-constexpr double kBeyondM = 0.3;
 constexpr double kParallelCosine = 0.97;
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/pose_axes.hpp"
+
 namespace madori::localization {
 namespace {
 
@@ -88,8 +90,7 @@ Transform2<Map, Base> fit_keyframe(const WallIndex& drawing, const StrainAbout& 
                                     .asDiagonal();
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d a = prior;
-    Eigen::Vector3d b = -prior * Eigen::Vector3d(pose.x_m() - start.x_m(), pose.y_m() - start.y_m(),
-                                                 wrap_angle(pose.yaw_rad() - start.yaw_rad()));
+    Eigen::Vector3d b = -prior * pose_difference(pose, start);
     for (const SurfacePiece& piece : pieces)
       if (const auto row = strain_row(drawing, strained, pose, piece, options.beside_m)) {
         const double weight = piece.length_m * geman_mcclure(row->residual_m, scale);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/pose_axes.hpp"
 #include "localization/self_calibration/strain_search.hpp"
 
 namespace madori::localization {
@@ -202,11 +203,8 @@ StrainSolution StrainSystem::solve(double scale_m, double wall_sigma_m) {
   }
   for (const RelativeFactor& f : motions_)
     eq.add(f, poses_[static_cast<std::size_t>(f.from)], poses_[static_cast<std::size_t>(f.to)]);
-  for (std::size_t k = 0; k < poses_.size(); ++k) {
-    const Transform2<Map, Base>& first = first_poses_[k];
-    eq.add_pose_prior(static_cast<int>(k), {poses_[k].x_m() - first.x_m(), poses_[k].y_m() - first.y_m(),
-                                            wrap_angle(poses_[k].yaw_rad() - first.yaw_rad())});
-  }
+  for (std::size_t k = 0; k < poses_.size(); ++k)
+    eq.add_pose_prior(static_cast<int>(k), pose_difference(poses_[k], first_poses_[k]));
   eq.rest.topLeftCorner<3, 3>().diagonal().array() += 1.0 / (kStrainPrior * kStrainPrior);
   eq.rest_side.head<3>() -= strained_.strain / (kStrainPrior * kStrainPrior);
   for (std::size_t w = 0; w < offsets_.size(); ++w) {

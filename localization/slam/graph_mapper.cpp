@@ -7,6 +7,7 @@
 
 #include "localization/localizer/pose_covariance.hpp"
 #include "localization/memory/local_map.hpp"
+#include "localization/pose_axes.hpp"
 #include "localization/slam/final_fit.hpp"
 #include "localization/slam/grid_match.hpp"
 
@@ -18,6 +19,15 @@ double sigmas_squared(const OdometryStep& step, const Transform2<Base, Base>& mo
                       const JointOptions& options) {
   const Eigen::Vector3d e = pose_difference(motion, step.motion);
   return e.dot(wheels_covariance(step, options).inverse() * e);
+}
+
+/// The piece of most keyframes, `of` having the piece of each; of several the oldest.
+std::size_t largest_piece(const std::vector<std::size_t>& of) {
+  std::map<std::size_t, std::size_t> sizes;
+  for (const std::size_t piece : of) ++sizes[piece];
+  return std::max_element(sizes.begin(), sizes.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 }  // namespace
@@ -96,11 +106,7 @@ void GraphMapper::cut(std::size_t first) {
 
 void GraphMapper::note_piece() {
   const std::vector<std::size_t> of = map_.memory.pieces();
-  std::map<std::size_t, std::size_t> sizes;
-  for (const std::size_t piece : of) ++sizes[piece];
-  const auto largest = std::max_element(sizes.begin(), sizes.end(),
-                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  is_apart_ = of.back() != largest->first;
+  is_apart_ = of.back() != largest_piece(of);
   shown_from_memory_ = shown_from_piece_[of.back()];
 }
 
@@ -108,8 +114,7 @@ void GraphMapper::close_loops(bool at_end) {
   Memory& memory = map_.memory;
   const Transform2<Map, Base> newest = memory.poses().back();
   bool changed = memory.close_loops([this](const Memory& m, const RelativeFactor& loop) {
-    constexpr double kMostThrough = 0.2;
-    return is_seen_alike(m, loop, kMostThrough, finder_.options().stretch);
+    return is_seen_alike(m, loop, finder_.options().stretch);
   }) > 0;
   if (changed) memory.optimise({});
   for (auto groups = finder_.look(memory, at_end); !groups.empty(); groups = finder_.look(memory, at_end)) {
@@ -164,9 +169,7 @@ PoseEstimate GraphMapper::on_scan(Stamp stamp, const ScanPoints& points, const P
     remember(scan);
   } else {
     follow(scan);
-    const Transform2<Base, Base> moved = memory.poses().back().inverse() * anchor_;
-    if (std::hypot(moved.x_m(), moved.y_m()) > options_.keyframe_m ||
-        std::abs(moved.yaw_rad()) > options_.keyframe_rad || sees_through_newest(scan)) {
+    if (is_new_view(memory.poses().back().inverse() * anchor_, options_) || sees_through_newest(scan)) {
       remember(scan);
       if (memory.size() > joints_.keyframes) judge_joints(memory.size() - joints_.keyframes + 1);
       close_loops(false);
@@ -217,12 +220,8 @@ void GraphMapper::untie_what_is_doubtful() {
 int GraphMapper::keep_largest_piece() {
   Memory& memory = map_.memory;
   const std::vector<std::size_t> of = memory.pieces();
-  std::map<std::size_t, std::size_t> sizes;
-  for (const std::size_t piece : of) ++sizes[piece];
-  if (sizes.size() == 1) return 0;
-  const std::size_t largest = std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
-                                return a.second < b.second;
-                              })->first;
+  const std::size_t largest = largest_piece(of);
+  if (std::count(of.begin(), of.end(), largest) == std::ssize(of)) return 0;
   std::vector<std::size_t> scan_of;
   std::vector<ReckonedPose> reckoned;
   std::vector<std::shared_ptr<const SurfaceScan>> scans;

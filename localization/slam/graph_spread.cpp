@@ -6,11 +6,13 @@
 #include <queue>
 #include <utility>
 
+#include "localization/memory/fuse.hpp"
+#include "localization/pose_axes.hpp"
+
 namespace madori::localization {
 namespace {
 
-constexpr double kContradiction = 25.0;  // sigmas squared, as when keyframes are fused
-constexpr double kRadianM = 5.0;         // of turn, when one spread is compared with another
+constexpr double kRadianM = 5.0;  // of turn, when one spread is compared with another
 
 /// One end of a factor seen from the other.
 struct Tie {
@@ -18,31 +20,14 @@ struct Tie {
   Eigen::Matrix3d covariance;  ///< of (x, y, yaw), Map axes
 };
 
-Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad) {
-  Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
-  r(0, 0) = r(1, 1) = std::cos(yaw_rad);
-  r(1, 0) = std::sin(yaw_rad);
-  r(0, 1) = -r(1, 0);
-  return r * covariance * r.transpose();
-}
-
-/// An error of heading at `a` swings `b` by their distance.
-Eigen::Matrix3d swing(const Transform2<Map, Base>& a, const Transform2<Map, Base>& b) {
-  Eigen::Matrix3d j = Eigen::Matrix3d::Identity();
-  j(0, 2) = a.y_m() - b.y_m();
-  j(1, 2) = b.x_m() - a.x_m();
-  return j;
-}
-
 std::vector<std::vector<Tie>> ties_of(const std::vector<Transform2<Map, Base>>& poses,
                                       const std::vector<RelativeFactor>& factors) {
   std::vector<std::vector<Tie>> ties(poses.size());
   for (const RelativeFactor& f : factors) {
     const auto from = static_cast<std::size_t>(f.from), to = static_cast<std::size_t>(f.to);
-    const Eigen::Vector3d e = relative_error(f, poses[from], poses[to]);
-    if (f.loop && e.dot(f.information * e) > kContradiction) continue;
+    if (contradicts(f, poses)) continue;
     const Eigen::Matrix3d own = (f.information + 1e-9 * Eigen::Matrix3d::Identity()).inverse();
-    const Eigen::Matrix3d forth = turned(own, poses[from].yaw_rad());
+    const Eigen::Matrix3d forth = in_map_axes(own, poses[from].yaw_rad());
     const Eigen::Matrix3d j = swing(poses[to], poses[from]);
     ties[from].push_back({to, forth});
     ties[to].push_back({from, j * forth * j.transpose()});
@@ -83,15 +68,14 @@ GraphSpread::GraphSpread(std::size_t from, const std::vector<Transform2<Map, Bas
     }
   }
   for (auto& spread : spread_)
-    if (spread) *spread = turned(*spread, -here_.yaw_rad());
+    if (spread) *spread = in_map_axes(*spread, -here_.yaw_rad());
 }
 
 double GraphSpread::chi_squared(std::size_t keyframe, const Transform2<Base, Base>& motion,
                                 const Eigen::Matrix3d& covariance) const {
   if (!spread_[keyframe]) return 0.0;
   const Transform2<Base, Base> by_graph = here_.inverse() * (*poses_)[keyframe];
-  const Eigen::Vector3d e(motion.x_m() - by_graph.x_m(), motion.y_m() - by_graph.y_m(),
-                          wrap_angle(motion.yaw_rad() - by_graph.yaw_rad()));
+  const Eigen::Vector3d e = pose_difference(motion, by_graph);
   const Eigen::Matrix3d sum = *spread_[keyframe] + covariance + 1e-9 * Eigen::Matrix3d::Identity();
   return e.dot(sum.inverse() * e);
 }

@@ -4,21 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/memory/local_map.hpp"
+
 namespace madori::localization {
 namespace {
 
-constexpr double kSigmaM = 0.08;        // of one residual, as in LocalMap: neighbours share their errors
 constexpr double kLikelySigmaM = 0.05;  // of a point from its surface
 // What a point is worth that lies on no surface: looked through, never looked at; and the share of points
 // that are anything (people, glass).
 constexpr double kInFree = 0.05;
 constexpr double kInUnknown = 0.3;
-
-SurfacePoint moved(const Transform2<Map, Base>& pose, const SurfacePoint& p) {
-  const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
-  return {q.x_m, q.y_m, pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y,
-          pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y};
-}
 
 double off_surface(const SurfacePoint& p, const SurfaceGrid::Surface& s) {
   return s.normal_x * (p.x_m - s.x_m) + s.normal_y * (p.y_m - s.y_m);
@@ -51,16 +46,16 @@ GridMatch match_to_grid(const SurfaceScan& scan, const SurfaceGrid& map, const T
     const Transform2<Map, Base> pose = match.map_from_base;
     Eigen::Matrix3d hessian = prior.weight(pose) * prior.information;
     Eigen::Vector3d gradient = hessian * pose_difference(pose, prior.map_from_base);
-    int known = 0, inliers = 0;
+    int inliers = 0;
     for (const SurfacePoint& p : scan.points) {
       const SurfacePoint q = moved(pose, p);
       SurfaceGrid::Surface s;
       if (!map.nearest(q, reach, s)) continue;
       const double r = off_surface(q, s);
-      ++known;
       inliers += std::abs(r) < 0.1;
       const double ratio = r / kernel_m;
-      const double weight = 1.0 / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio)) / (kSigmaM * kSigmaM);
+      const double weight =
+          1.0 / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio)) / (kResidualSigmaM * kResidualSigmaM);
       const Eigen::Vector3d j(s.normal_x, s.normal_y,
                               -s.normal_x * (q.y_m - pose.y_m()) + s.normal_y * (q.x_m - pose.x_m()));
       hessian += weight * j * j.transpose();
@@ -69,9 +64,7 @@ GridMatch match_to_grid(const SurfaceScan& scan, const SurfaceGrid& map, const T
     const Eigen::Vector3d step = -(hessian + 1e-6 * Eigen::Matrix3d::Identity()).ldlt().solve(gradient);
     match.map_from_base = {pose.x_m() + step[0], pose.y_m() + step[1], pose.yaw_rad() + step[2]};
     match.information = hessian;
-    const auto points = static_cast<double>(std::max<std::size_t>(scan.points.size(), 1));
-    match.known_share = known / points;
-    match.inlier_share = inliers / points;
+    match.inlier_share = inliers / static_cast<double>(std::max<std::size_t>(scan.points.size(), 1));
     if (i >= 4 && step.head<2>().norm() < 5e-4 && std::abs(step[2]) < 5e-5) break;
   }
   return match;

@@ -2,16 +2,10 @@
 
 #include <Eigen/Core>
 
-#include "core/angle.hpp"
+#include "localization/pose_axes.hpp"
 #include "localization/slam/surface_grid.hpp"
 
 namespace madori::localization {
-
-/// x, y and the wrapped yaw, in the axes of frame To.
-template <class To, class From>
-[[nodiscard]] Eigen::Vector3d pose_difference(const Transform2<To, From>& a, const Transform2<To, From>& b) {
-  return {a.x_m() - b.x_m(), a.y_m() - b.y_m(), wrap_angle(a.yaw_rad() - b.yaw_rad())};
-}
 
 /// The wheels' word on a pose: mean, and information of (x, y, yaw) in Map axes. Student's t with four
 /// degrees of freedom: wheels that slip, and logs whose clocks leap, are far off more often than a Gaussian
@@ -29,8 +23,7 @@ struct PosePrior {
 struct GridMatch {
   Transform2<Map, Base> map_from_base;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the scan and the prior together, Map axes
-  double known_share = 0.0;   ///< of the points, those with the map's surfaces near them
-  double inlier_share = 0.0;  ///< of the points, those on a surface, within 0.1 m
+  double inlier_share = 0.0;                              ///< of the points, those on a surface, within 0.1 m
 };
 
 /// Gauss-Newton on the distances to the surfaces from `start` on, robust (Geman-McClure), leaning on the

@@ -2,27 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
+#include "localization/memory/surface_scan.hpp"
 #include "localization/slam/range_ring.hpp"
 
 namespace madori::localization {
 namespace {
 
-std::uint64_t key_of(const Point2<Map>& p, double voxel_m) {
+constexpr double kVoxelOfMapM = 0.05;   // at most one point a voxel
+constexpr double kThroughSigmas = 3.0;  // a beam that ends so much farther has passed a point by,
+constexpr double kLeastThroughM = 0.3;  // or so much at the least
+constexpr double kLeastSurfaceM = 0.2;  // the points this near make the surface at one,
+constexpr double kSurfaceSigmas = 2.0;  // or in so many sigmas
+constexpr int kForgottenAfter = 2;      // beams that passed a point by, more than saw it
+
+std::uint64_t key_of(const Point2<Map>& p) {
   constexpr std::int64_t kOffset = 1LL << 30;
   const auto ix =
-      static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(p.x_m / voxel_m)) + kOffset);
+      static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(p.x_m / kVoxelOfMapM)) + kOffset);
   const auto iy =
-      static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(p.y_m / voxel_m)) + kOffset);
+      static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(p.y_m / kVoxelOfMapM)) + kOffset);
   return (ix << 32U) | iy;
 }
 
 }  // namespace
-
-GrowingMap::GrowingMap(const GrowingMapOptions& options) : options_(options) {}
 
 void GrowingMap::look_through(const ScanPoints& scan, const Transform2<Map, Base>& map_from_base,
                               const Point2<Base>& sensor, double margin_m) {
@@ -33,17 +38,16 @@ void GrowingMap::look_through(const ScanPoints& scan, const Transform2<Map, Base
     const Point2<Base> p = base_from_map * Point2<Map>{voxel.sum_x / voxel.seen, voxel.sum_y / voxel.seen};
     std::size_t direction = 0;
     if (ring.passes(p, margin_m, direction)) ++voxel.passed;
-    entry = voxel.passed >= voxel.seen + options_.forgotten_after ? voxels_.erase(entry) : std::next(entry);
+    entry = voxel.passed >= voxel.seen + kForgottenAfter ? voxels_.erase(entry) : std::next(entry);
   }
 }
 
 void GrowingMap::add(const ScanPoints& scan, const Transform2<Map, Base>& map_from_base,
                      const Point2<Base>& sensor, double noise_m) {
-  look_through(scan, map_from_base, sensor,
-               std::max(options_.least_through_m, options_.through_sigmas * noise_m));
+  look_through(scan, map_from_base, sensor, std::max(kLeastThroughM, kThroughSigmas * noise_m));
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const Point2<Map> p = map_from_base * scan.point(i);
-    Voxel& voxel = voxels_[key_of(p, options_.voxel_m)];
+    Voxel& voxel = voxels_[key_of(p)];
     voxel.sum_x += p.x_m;
     voxel.sum_y += p.y_m;
     ++voxel.seen;
@@ -56,17 +60,8 @@ void GrowingMap::add(const ScanPoints& scan, const Transform2<Map, Base>& map_fr
     cloud.weights.push_back(v.seen);
   }
   noise_m_ += (noise_m - noise_m_) / static_cast<double>(++scans_);
-  cloud.noise_m = std::max(options_.least_noise_m, noise_m_);
-  points_ =
-      PointMap(std::move(cloud), std::max(options_.least_surface_m, options_.surface_sigmas * noise_m_));
-}
-
-double GrowingMap::density_per_m2() const {
-  constexpr double kCellM = 0.5;
-  std::unordered_set<std::uint64_t> cells;
-  for (const Point2<Map>& p : points_.points()) cells.insert(key_of(p, kCellM));
-  const double area_m2 = static_cast<double>(cells.size()) * kCellM * kCellM;
-  return area_m2 > 0.0 ? static_cast<double>(points_.points().size()) / area_m2 : 0.0;
+  cloud.noise_m = std::max(kLeastNoiseM, noise_m_);
+  points_ = PointMap(std::move(cloud), std::max(kLeastSurfaceM, kSurfaceSigmas * noise_m_));
 }
 
 }  // namespace madori::localization

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "localization/localizer/pose_covariance.hpp"
+#include "localization/pose_axes.hpp"
 #include "localization/slam/stretch.hpp"
 
 namespace madori::localization {
@@ -34,7 +35,7 @@ double most_through(double agreement, double off_wheels, const JointOptions& o) 
   };
   if (agreement < o.doubted_agreement)
     return between(o.no_agreement, o.doubted_agreement, o.most_through_alone, o.most_through_doubted);
-  if (off_wheels > o.off_wheels) return o.most_through_doubted;
+  if (off_wheels > kOneInAThousand) return o.most_through_doubted;
   return between(o.doubted_agreement, o.fair_agreement, o.most_through_doubted, o.most_through);
 }
 

@@ -22,7 +22,6 @@ struct JointOptions {
   double no_agreement = 0.15;        ///< no neighbour is near by chance alone, either
   double more_through = 0.1;         ///< where the wheels lead: than on either side among neighbours
   double aside_m = 0.05;             ///< sigma of the place about which it turns, a root-radian
-  double off_wheels = 16.3;          ///< sigmas squared: chi-squared of three, one in a thousand,
   double least_agreement = 0.55;     ///< of the scan: no joint is doubted
 };
 

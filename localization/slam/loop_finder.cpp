@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "localization/memory/fuse.hpp"
+#include "localization/pose_axes.hpp"
+#include "localization/slam/joints.hpp"
 
 namespace madori::localization {
 namespace {
@@ -41,7 +43,7 @@ std::size_t to_of(const RelativeFactor& f) {
 }  // namespace
 
 bool LoopFinder::is_complete(const Memory& memory, std::size_t k) const {
-  constexpr std::size_t kUntilJudged = 3;  // keyframes that follow a joint before it is judged
+  constexpr std::size_t kUntilJudged = JointOptions().keyframes;
   const std::size_t last = stretch_around(memory.keyframes(), k, options_.stretch).last;
   for (std::size_t i = k + 1; i <= last + 1 && i < memory.size(); ++i)
     if (memory.keyframes()[i].cut) return true;
@@ -65,7 +67,7 @@ std::vector<LoopFinder::Candidate> LoopFinder::candidates(const Memory& memory, 
     const ViewDifference alike = compare_views(views_[newest], views_[k]);
     if (alike.difference > options_.most_unlike) continue;
     const Transform2<Base, Base> motion(0.0, 0.0, alike.turn_rad());
-    if (spread.chi_squared(k, motion.inverse(), of_guess) > options_.most_sigmas2) continue;
+    if (spread.chi_squared(k, motion.inverse(), of_guess) > kOneInAThousand) continue;
     found.push_back({k, alike.difference, motion});
   }
   const std::vector<std::size_t> pieces = memory.pieces();
@@ -97,7 +99,7 @@ std::optional<LoopFinder::Laid> LoopFinder::lay(const Memory& memory, const Grap
   if (!match) return std::nullopt;
   const RelativeFactor back = reversed(match->factor);
   const double off = spread.chi_squared(c.keyframe, back.motion, back.information.inverse());
-  return Laid{match->factor, off <= options_.most_sigmas2};
+  return Laid{match->factor, off <= kOneInAThousand};
 }
 
 void LoopFinder::seek(const Memory& memory, std::size_t newest) {
@@ -121,7 +123,7 @@ void LoopFinder::survey(const Memory& memory, std::size_t k) {
     const ViewDifference alike = compare_views(views_[k], views_[i]);
     const Transform2<Base, Base> motion(0.0, 0.0, alike.turn_rad());
     if (alike.difference <= options_.most_unlike &&
-        spread.chi_squared(i, motion.inverse(), of_guess) > options_.most_sigmas2)
+        spread.chi_squared(i, motion.inverse(), of_guess) > kOneInAThousand)
       elsewhere.push_back({i, alike.difference, motion});
   }
   const Stretch here = stretch_around(memory.keyframes(), k, stretch);
@@ -212,7 +214,7 @@ bool LoopFinder::agree(const Memory& memory, const RelativeFactor& a, const Rela
   const double lever2 = rad2 * driven_m * driven_m / 4.0;
   return (off.x_m() * off.x_m() + off.y_m() * off.y_m()) / (m2 + lever2) +
              off.yaw_rad() * off.yaw_rad() / rad2 <
-         options_.most_sigmas2;
+         kOneInAThousand;
 }
 
 /// The loops that agree with one of them.

@@ -24,7 +24,6 @@ struct LoopFinderOptions {
   std::size_t tried_apart = 10;  ///< and where a piece is tied to nothing yet
   double joint_m = 1.5;          ///< around the wheels' word where a drive was cut
   double joint_rad = 0.5;
-  double most_sigmas2 = 16.3;      ///< chi-squared of three, one right loop in a thousand is refused
   std::size_t together = 3;        ///< loops that must lead to the same place, and what must have been driven
   double span_m = 1.0;             ///< from the first to the last of them;
   double span_apart_m = 4.0;       ///< between pieces, of which the graph knows nothing, on either side,

@@ -11,6 +11,7 @@
 #include "localization/localizer/pose_covariance.hpp"
 #include "localization/particle_filter/motion_kernel.hpp"
 #include "localization/particle_filter/resampling.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 namespace {
@@ -186,7 +187,6 @@ void RbpfMapper::resample_where_needed() {
   draw_systematically(w, count, offset(engine_), [&](std::size_t i) { next.push_back(particles_[i]); });
   for (Particle& p : next) p.log_weight = 0.0;
   particles_ = std::move(next);
-  ++resamplings_;
 }
 
 void RbpfMapper::remember(const SurfaceScan& scan) {
@@ -220,10 +220,7 @@ PoseEstimate RbpfMapper::on_scan(Stamp stamp, const ScanPoints& points, const Po
     remember(scan);
   } else {
     follow(scan);
-    const Transform2<Base, Base> moved = memory.poses().back().inverse() * anchor_;
-    if (std::hypot(moved.x_m(), moved.y_m()) > front.keyframe_m ||
-        std::abs(moved.yaw_rad()) > front.keyframe_rad)
-      remember(scan);
+    if (is_new_view(memory.poses().back().inverse() * anchor_, front)) remember(scan);
   }
   follower_.note_scan(stamp);
   return estimate(stamp);

@@ -43,7 +43,6 @@ class RbpfMapper final : public Mapper {
 
   /// What the weights are worth, of all particles. For whoever watches the filter.
   [[nodiscard]] double effective_particles() const;
-  [[nodiscard]] int resamplings() const { return resamplings_; }
 
  private:
   /// A way, newest pose first; particles share what they have in common.
@@ -86,7 +85,6 @@ class RbpfMapper final : public Mapper {
   bool is_lost_ = false;
   std::vector<Particle> particles_;
   std::mt19937 engine_;
-  int resamplings_ = 0;
   std::vector<ReckonedPose> reckoned_;  ///< one a scan
   std::vector<std::size_t> scan_of_;    ///< the scan that each keyframe is
 };

@@ -26,7 +26,7 @@ ScanFollower::Followed ScanFollower::follow(const SurfaceScan& scan, const Trans
   if (followed.is_known) {
     followed.motion = from.inverse() * recent.map_from_base;
     since_keyframe_.add_matched(followed.motion, recent.information, recent.inlier_share);
-    model_.learn(followed.wheels, followed.motion, 0.02, 0.005);
+    model_.learn(followed.wheels, followed.motion);
   } else {
     followed.motion = followed.found ? from.inverse() * place.map_from_base : followed.wheels.motion;
     since_keyframe_.add_unmatched(followed.motion, recent.inlier_share);
@@ -36,7 +36,7 @@ ScanFollower::Followed ScanFollower::follow(const SurfaceScan& scan, const Trans
 
 void ScanFollower::note_scan(Stamp stamp) {
   scan_stamp_ = stamp;
-  since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
+  since_scan_ = track_.since(stamp, model_);
 }
 
 }  // namespace madori::localization

@@ -8,6 +8,7 @@
 
 #include "localization/global/scan_noise.hpp"
 #include "localization/localizer/pose_covariance.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 namespace {
@@ -27,16 +28,14 @@ const Eigen::Matrix3d kFitted = Eigen::Vector3d(2.5e-3, 2.5e-3, 3e-4).asDiagonal
 /// Whether a pose that was found and what was believed may be one: chi-squared of three, of 1 in 10,000.
 bool agree(const Transform2<Map, Base>& found, const Belief& believed) {
   constexpr double kChiSquared = 21.1;
-  const auto& at = believed.map_from_base;
-  const Eigen::Vector3d off(found.x_m() - at.x_m(), found.y_m() - at.y_m(),
-                            wrap_angle(found.yaw_rad() - at.yaw_rad()));
+  const Eigen::Vector3d off = pose_difference(found, believed.map_from_base);
   return off.dot((believed.covariance + 2.0 * kFitted).ldlt().solve(off)) < kChiSquared;
 }
 
 }  // namespace
 
 SlowLidarMapper::SlowLidarMapper(const SlowLidarOptions& options)
-    : options_(options), model_(options.odometry), map_(options.map) {}
+    : options_(options), model_(options.odometry) {}
 
 PoseEstimate SlowLidarMapper::estimate(Stamp stamp) const {
   PoseEstimate estimate;
@@ -73,11 +72,9 @@ StrategyOptions SlowLidarMapper::strategies_for(const ScanPoints& points) const 
 /// What the wheels say of a pose, and how surely: the uncertainty of the heading swings the way that follows.
 Belief SlowLidarMapper::carried(const Belief& from, const OdometryStep& step) const {
   const Transform2<Map, Base> to = from.map_from_base * step.motion;
-  Eigen::Matrix3d swing = Eigen::Matrix3d::Identity();
-  swing(0, 2) = from.map_from_base.y_m() - to.y_m();
-  swing(1, 2) = to.x_m() - from.map_from_base.x_m();
-  return {to, swing * from.covariance * swing.transpose() +
-                  in_map_axes(step.covariance, from.map_from_base.yaw_rad())};
+  const Eigen::Matrix3d j = swing(from.map_from_base, to);
+  return {to,
+          j * from.covariance * j.transpose() + in_map_axes(step.covariance, from.map_from_base.yaw_rad())};
 }
 
 /// A pose far from where the wheels say is not believed on one scan: halls are alike in places, and a noisy
@@ -129,7 +126,7 @@ PoseEstimate SlowLidarMapper::on_scan(Stamp stamp, const ScanPoints& points, con
   lost_ += is_lost_;
   started_ = started_ || accepted;
   anchor_stamp_ = stamp;
-  since_scan_ = track_.empty() ? OdometryStep{} : track_.between(stamp, track_.newest().stamp, model_);
+  since_scan_ = track_.since(stamp, model_);
   return estimate(stamp);
 }
 
@@ -144,10 +141,10 @@ void SlowLidarMapper::note_motion(const Belief& assumed, bool is_believed) {
 }
 
 FinishedMap SlowLidarMapper::finish() {
-  poses_ = bundle_scans(scans_, std::move(poses_), motions_, map_.noise_m(), options_.bundle);
+  poses_ = bundle_scans(scans_, std::move(poses_), motions_, map_.noise_m());
   FinishedMap finished;
   finished.lost_scans = lost_;
-  map_ = GrowingMap(options_.map);
+  map_ = {};
   const Eigen::Matrix3d information = Eigen::Vector3d(400.0, 400.0, 2500.0).asDiagonal();
   LidarNoise noise;
   SurfaceScanOptions how = options_.scan;

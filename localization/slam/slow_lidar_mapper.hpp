@@ -18,10 +18,8 @@ namespace madori::localization {
 
 struct SlowLidarOptions {
   StrategyOptions strategies;  ///< most_e_psr_m is what e_max is at the least
-  GrowingMapOptions map;
   OdometryNoise odometry;
   SurfaceScanOptions scan;
-  BundleOptions bundle;          ///< the last look
   double e_max_of_noise = 1.0;   ///< e_max is at least so many sigmas of the scan's own noise,
   double e_max_of_recent = 2.0;  ///< and so many times the mean e_psr of the scans accepted last;
   std::size_t recent = 10;

@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "localization/pose_axes.hpp"
 #include "localization/registration/cpd.hpp"
 #include "localization/slam/range_ring.hpp"
 
@@ -69,8 +70,7 @@ std::vector<RegistrationResult> distinct(const std::vector<RegistrationResult>& 
     if (kept.size() == most) break;
     const Pose& at = fit.map_from_base;
     if (std::none_of(kept.begin(), kept.end(), [&](const RegistrationResult& k) {
-          return distance_m(k.map_from_base.translation(), at.translation()) < kSameM &&
-                 std::abs(wrap_angle(k.map_from_base.yaw_rad() - at.yaw_rad())) < kSameRad;
+          return same_place(k.map_from_base, at, kSameM, kSameRad);
         }))
       kept.push_back(fit);
   }

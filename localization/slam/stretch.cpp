@@ -11,6 +11,7 @@
 #include "localization/localizer/pose_covariance.hpp"
 #include "localization/memory/fuse.hpp"
 #include "localization/memory/local_map.hpp"
+#include "localization/pose_axes.hpp"
 #include "localization/slam/grid_match.hpp"
 
 namespace madori::localization {
@@ -169,10 +170,8 @@ SurfaceScan stretch_scan(const Memory& memory, const Stretch& stretch, double sp
   for (std::size_t k = stretch.first; k <= stretch.last; ++k) {
     const auto by = memory.poses()[stretch.middle].inverse() * memory.poses()[k];
     for (const SurfacePoint& p : memory.keyframes()[k].scan->points) {
-      const Point2<Base> q = by * Point2<Base>{p.x_m, p.y_m};
-      const SurfacePoint moved{q.x_m, q.y_m, by.cos_yaw() * p.normal_x - by.sin_yaw() * p.normal_y,
-                               by.sin_yaw() * p.normal_x + by.cos_yaw() * p.normal_y};
-      if (taken.insert(cell_of(moved, spacing_m)).second) all.points.push_back(moved);
+      const SurfacePoint q = moved(by, p);
+      if (taken.insert(cell_of(q, spacing_m)).second) all.points.push_back(q);
     }
   }
   return all;
@@ -183,12 +182,12 @@ SightCount stretch_sights(const Memory& memory, const Stretch& from, const Stret
   return Witnesses(memory, from, to, witnesses).at(motion);
 }
 
-bool is_seen_alike(const Memory& memory, const RelativeFactor& loop, double most_through,
-                   const StretchOptions& options) {
+bool is_seen_alike(const Memory& memory, const RelativeFactor& loop, const StretchOptions& options) {
   const auto& keyframes = memory.keyframes();
   const Stretch from = stretch_around(keyframes, static_cast<std::size_t>(loop.from), options);
   const Stretch to = stretch_around(keyframes, static_cast<std::size_t>(loop.to), options);
-  return stretch_sights(memory, from, to, loop.motion, options.witnesses).contradiction() <= most_through;
+  return stretch_sights(memory, from, to, loop.motion, options.witnesses).contradiction() <=
+         options.most_through;
 }
 
 StretchMatch lean_stretches(const Memory& memory, const Stretch& from, const Stretch& to,

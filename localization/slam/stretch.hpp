@@ -44,7 +44,7 @@ struct Stretch {
                                         const Transform2<Base, Base>& motion, std::size_t witnesses);
 
 /// Whether the stretches around the ends of a loop contradict each other no more than two of one place do.
-[[nodiscard]] bool is_seen_alike(const Memory& memory, const RelativeFactor& loop, double most_through,
+[[nodiscard]] bool is_seen_alike(const Memory& memory, const RelativeFactor& loop,
                                  const StretchOptions& options = {});
 
 struct StretchMatch {

@@ -15,6 +15,17 @@ namespace {
 
 using Pose = Transform2<Map, Base>;
 
+constexpr double kPieceLengthM = 0.3;       // of a piece of surface at the least, and in sigmas of the noise:
+constexpr double kPieceLengthSigmas = 2.0;  // what its points are averaged over
+constexpr double kStartReachM = 0.5;        // how far from its surface a point may start at the least,
+constexpr double kStartSigmas = 4.0;        // and in sigmas of the noise;
+constexpr double kEndSigmas = 2.5;          // the same in the end: scale of the Geman-McClure loss
+constexpr double kShrinkARound = 0.7;       // of that reach
+constexpr int kBundleRounds = 14;
+constexpr double kMostSpread = 1.2;    // of a piece's points about its line, in sigmas: wider is a corner
+constexpr double kFewestPoints = 8.0;  // of a piece of surface
+constexpr double kBeamsAPoint = 0.2;   // neighbouring points share errors: a point tells as much as this many
+
 /// What lies where, by square cells.
 class Cells {
  public:
@@ -324,26 +335,25 @@ std::vector<Blot> cloud_of(const std::vector<ScanPoints>& scans, const std::vect
 }  // namespace
 
 std::vector<Pose> bundle_scans(const std::vector<ScanPoints>& scans, std::vector<Pose> poses,
-                               const std::vector<RelativeFactor>& wheels, double noise_m,
-                               const BundleOptions& options) {
-  const double noise = std::max(noise_m, options.least_noise_m);
-  const double length_m = std::max(options.length_m, options.length_sigmas * noise);
-  const double last_m = options.last_sigmas * noise;
-  double reach_m = std::max(options.first_reach_m, options.first_sigmas * noise);
-  for (int round = 0; round < options.rounds; ++round) {
+                               const std::vector<RelativeFactor>& wheels, double noise_m) {
+  const double noise = std::max(noise_m, kLeastNoiseM);
+  const double length_m = std::max(kPieceLengthM, kPieceLengthSigmas * noise);
+  const double last_m = kEndSigmas * noise;
+  double reach_m = std::max(kStartReachM, kStartSigmas * noise);
+  for (int round = 0; round < kBundleRounds; ++round) {
     const double width_m = std::max(noise, 0.4 * reach_m);
     const std::vector<Piece> pieces =
-        ridges(blots(cloud_of(scans, poses), 0.1 * length_m), 0.5 * length_m, width_m, options.least_points);
+        ridges(blots(cloud_of(scans, poses), 0.1 * length_m), 0.5 * length_m, width_m, kFewestPoints);
     Equations equations(poses.size());
     for (const Heard& scans_of_piece : listen(scans, poses, pieces, 0.5 * length_m, reach_m))
-      if (is_one_line(scans_of_piece, options.most_spread * noise * reach_m / last_m))
-        equations.add_piece(scans_of_piece, options.beams_a_point / (noise * noise));
+      if (is_one_line(scans_of_piece, kMostSpread * noise * reach_m / last_m))
+        equations.add_piece(scans_of_piece, kBeamsAPoint / (noise * noise));
     for (const RelativeFactor& motion : wheels) equations.add_motion(motion, poses);
     for (std::uint32_t i = 0; i < poses.size(); ++i) equations.hold(i, i == 0 ? 1e9 : 1e-3);
     const Eigen::VectorXd step = equations.solve();
     for (std::size_t i = 0; i < poses.size(); ++i)
       poses[i] = stepped(poses[i], step.segment<3>(3 * static_cast<Eigen::Index>(i)), reach_m);
-    reach_m = std::max(last_m, options.shrink * reach_m);
+    reach_m = std::max(last_m, kShrinkARound * reach_m);
   }
   return poses;
 }

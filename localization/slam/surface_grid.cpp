@@ -7,9 +7,8 @@
 namespace madori::localization {
 namespace {
 
-constexpr double kSameDirection = 0.7;  // cosine of the angle between normals of the same surface
-constexpr double kLeastHits = 0.25;     // share of looks at a cell that must have met its surface
-constexpr std::size_t kRayEvery = 2;    // points of a scan whose way is looked along
+constexpr double kLeastHits = 0.25;   // share of looks at a cell that must have met its surface
+constexpr std::size_t kRayEvery = 2;  // points of a scan whose way is looked along
 
 int cell_of(double m) {
   return static_cast<int>(std::floor(m / SurfaceGrid::kCellM));
@@ -53,17 +52,15 @@ void SurfaceGrid::add(const SurfaceScan& scan, const Transform2<Map, Base>& pose
   const Point2<Map> eye = pose * scan.sensor;
   Cursor at_point, on_ray;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const SurfacePoint& p = scan.points[i];
-    const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
-    const double nx = pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y;
-    const double ny = pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y;
+    const SurfacePoint q = moved(pose, scan.points[i]);
     const int ix = cell_of(q.x_m), iy = cell_of(q.y_m);
     Cell& cell = touch(ix, iy, at_point);
-    if (cell.normal_x * nx + cell.normal_y * ny >= 0.0) {  // a thin wall's other face is another surface
+    // A thin wall's other face is another surface.
+    if (cell.normal_x * q.normal_x + cell.normal_y * q.normal_y >= 0.0) {
       cell.sum_x += static_cast<float>(q.x_m - ix * kCellM);
       cell.sum_y += static_cast<float>(q.y_m - iy * kCellM);
-      cell.normal_x += static_cast<float>(nx);
-      cell.normal_y += static_cast<float>(ny);
+      cell.normal_x += static_cast<float>(q.normal_x);
+      cell.normal_y += static_cast<float>(q.normal_y);
       count(cell.hits);
     }
     if (i % kRayEvery != 0) continue;
@@ -93,7 +90,7 @@ bool SurfaceGrid::nearest(const SurfacePoint& p, int reach, Surface& found) cons
       const double length = std::hypot(cell->normal_x, cell->normal_y);
       if (length <= 0.0) continue;
       const double nx = cell->normal_x / length, ny = cell->normal_y / length;
-      if (directed && nx * p.normal_x + ny * p.normal_y < kSameDirection) continue;
+      if (directed && nx * p.normal_x + ny * p.normal_y < kSameSurfaceCosine) continue;
       best = sq;
       found = {x, y, nx, ny};
     }

@@ -35,8 +35,6 @@ class SurfaceGrid {
   /// (any way where it is zero). False where there is none.
   [[nodiscard]] bool nearest(const SurfacePoint& p, int reach, Surface& found) const;
   [[nodiscard]] Content content(double x_m, double y_m) const;
-  /// Tiles of its own and shared ones, for the memory that many of them take.
-  [[nodiscard]] std::size_t tiles() const { return tiles_.size(); }
 
  private:
   static constexpr int kTileBits = 5;

@@ -24,13 +24,13 @@ std::vector<Beam> beams_of(const SurfaceScan& scan, const Transform2<Map, Base>&
   std::vector<Beam> beams;
   beams.reserve(scan.points.size());
   for (const SurfacePoint& p : scan.points) {
-    const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
-    const double range = distance_m(q, sensor);
+    const SurfacePoint q = moved(pose, p);
+    const double range = distance_m(Point2<Map>{q.x_m, q.y_m}, sensor);
     if (range <= 0.0) continue;
     Beam b{0.0, (q.x_m - sensor.x_m) / range, (q.y_m - sensor.y_m) / range, range};
     b.bearing_rad = std::atan2(b.dy, b.dx);
-    b.normal_x = pose.cos_yaw() * p.normal_x - pose.sin_yaw() * p.normal_y;
-    b.normal_y = pose.sin_yaw() * p.normal_x + pose.cos_yaw() * p.normal_y;
+    b.normal_x = q.normal_x;
+    b.normal_y = q.normal_y;
     beams.push_back(b);
   }
   std::sort(beams.begin(), beams.end(), [](const Beam& a, const Beam& b) {

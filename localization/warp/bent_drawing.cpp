@@ -70,8 +70,8 @@ void BendingDrawing::take(const WarpFit& fit, const MemoryCloud& cloud) {
     return;
   }
   const mapping::Walls& walls = drawn_.index().walls();
-  BuildingWalls stands = walls_in_building(walls, fit);
-  standing_ = DrawingFit(stands.walls, stands.sigma_m, standing_.model());
+  mapping::Walls stands = walls_in_building(walls, fit);
+  standing_ = DrawingFit(stands, standing_.model());
   BentDrawing bent{fit, std::move(stands), {}};
   for (const Point2<Map>& drawn : places_) {
     const Point2<Building> carried = fit.warp.building(drawn);

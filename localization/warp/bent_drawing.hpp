@@ -10,8 +10,8 @@ namespace madori::localization {
 
 /// The drawing as it is believed to stand. Immutable, shared.
 struct BentDrawing {
-  WarpFit fit;           ///< of the drawn walls
-  BuildingWalls stands;  ///< the walls where they stand, Building metres
+  WarpFit fit;            ///< of the drawn walls
+  mapping::Walls stands;  ///< the walls where they stand, Building metres
   /// Where a place is drawn, and where it lies between what was seen around it: place_by_clearances().
   struct Place {
     Point2<Map> drawn;

@@ -26,29 +26,22 @@ int pieces_of(const Segment2<Map>& s, const DrawingWarp& warp) {
   return 1;
 }
 
-/// A face of a wall: where it stands beside the warped wall, and how surely.
-struct Face {
-  double offset_m;
-  double sigma_m;
-  bool seen;
-};
-
-std::vector<Face> faces_of(const WallDeviation& wall, const WarpStatistics& statistics) {
+/// Where the faces of a wall stand beside the warped wall: two where they were seen to be apart.
+std::vector<double> offsets_of(const WallDeviation& wall, const WarpStatistics& statistics) {
   const auto sigma = [&](double seen_m) {  // a wall of two metres is one observation
     return statistics.residual_m * std::sqrt(1.0 + kBentPieceM / std::max(0.2, seen_m));
   };
   const double seen[2] = {wall.sides[0].seen_m, wall.sides[1].seen_m};
-  if (wall.seen_m() <= 0.0) return {{0.0, std::hypot(statistics.offset_m, statistics.residual_m), false}};
   const double apart = std::abs(wall.sides[0].offset_m - wall.sides[1].offset_m);
   if (seen[0] > 0.0 && seen[1] > 0.0 && apart > 2.0 * std::hypot(sigma(seen[0]), sigma(seen[1])))
-    return {{wall.sides[0].offset_m, sigma(seen[0]), true}, {wall.sides[1].offset_m, sigma(seen[1]), true}};
-  return {{wall.offset_m(), sigma(wall.seen_m()), true}};
+    return {wall.sides[0].offset_m, wall.sides[1].offset_m};
+  return {wall.offset_m()};
 }
 
 }  // namespace
 
-BuildingWalls walls_in_building(const mapping::Walls& drawn, const WarpFit& fit) {
-  BuildingWalls made;
+mapping::Walls walls_in_building(const mapping::Walls& drawn, const WarpFit& fit) {
+  mapping::Walls made;
   const DrawingWarp& warp = fit.warp;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const Segment2<Map>& s = drawn[i].segment;
@@ -57,19 +50,17 @@ BuildingWalls walls_in_building(const mapping::Walls& drawn, const WarpFit& fit)
     const double ny = length > 0.0 ? (s.b.x_m - s.a.x_m) / length : 0.0;
     const int pieces = pieces_of(s, warp);
     const WallDeviation deviation = i < fit.walls.size() ? fit.walls[i] : WallDeviation{};
-    for (const Face& face : faces_of(deviation, warp.statistics())) {
+    for (const double offset_m : offsets_of(deviation, warp.statistics())) {
       const auto stands = [&](const Point2<Map>& p) {
         const Point2<Building> q = warp.building(p);
         const double turn = warp.turn_rad(p);
-        return Point2<Map>{q.x_m + face.offset_m * (std::cos(turn) * nx - std::sin(turn) * ny),
-                           q.y_m + face.offset_m * (std::sin(turn) * nx + std::cos(turn) * ny)};
+        return Point2<Map>{q.x_m + offset_m * (std::cos(turn) * nx - std::sin(turn) * ny),
+                           q.y_m + offset_m * (std::sin(turn) * nx + std::cos(turn) * ny)};
       };
       for (int k = 0; k < pieces; ++k) {
         const Point2<Map> a = between(s, static_cast<double>(k) / pieces);
         const Point2<Map> b = between(s, (k + 1.0) / pieces);
-        made.walls.push_back({drawn[i].id, {stands(a), stands(b)}, drawn[i].probability});
-        const double carried = face.seen ? 0.0 : warp.sigma_m(between(s, (k + 0.5) / pieces));
-        made.sigma_m.push_back(std::hypot(face.sigma_m, carried));
+        made.push_back({drawn[i].id, {stands(a), stands(b)}, drawn[i].probability});
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace madori::localization {
 
@@ -23,5 +24,23 @@ struct CubicBasis {
     slope = {-0.5 * s * s, -2.0 * t + 1.5 * t * t, 2.0 * s - 1.5 * s * s, 0.5 * t * t};
   }
 };
+
+/// Calls visit(control point, weight, slope along u, slope along v) for those of a lattice, row by row, that
+/// reach the place (u, v); slopes by spacing.
+template <class Visit>
+void visit_controls(int width, int height, double u, double v, Visit&& visit) {
+  const CubicBasis x(u);
+  const CubicBasis y(v);
+  for (std::size_t j = 0; j < 4; ++j) {
+    const int row = y.first + static_cast<int>(j);
+    if (row < 0 || row >= height) continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int column = x.first + static_cast<int>(i);
+      if (column < 0 || column >= width) continue;
+      visit(row * width + column, x.weight[i] * y.weight[j], x.slope[i] * y.weight[j],
+            x.weight[i] * y.slope[j]);
+    }
+  }
+}
 
 }  // namespace madori::localization

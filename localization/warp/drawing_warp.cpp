@@ -22,20 +22,11 @@ void for_each_control(const WarpField& field, const Point2<Map>& p, Visit&& visi
   const double u = (p.x_m - field.origin.x_m) / field.spacing_m;
   const double v = (p.y_m - field.origin.y_m) / field.spacing_m;
   if (!is_near(field, u, v)) return;
-  const CubicBasis x(u);
-  const CubicBasis y(v);
-  for (std::size_t j = 0; j < 4; ++j) {
-    const int row = y.first + static_cast<int>(j);
-    if (row < 0 || row >= field.height) continue;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const int column = x.first + static_cast<int>(i);
-      if (column < 0 || column >= field.width) continue;
-      visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(field.width) +
-                static_cast<std::size_t>(column),
-            x.weight[i] * y.weight[j], x.slope[i] * y.weight[j] / field.spacing_m,
-            x.weight[i] * y.slope[j] / field.spacing_m);
-    }
-  }
+  visit_controls(field.width, field.height, u, v,
+                 [&](int control, double weight, double slope_u, double slope_v) {
+                   visit(static_cast<std::size_t>(control), weight, slope_u / field.spacing_m,
+                         slope_v / field.spacing_m);
+                 });
 }
 
 }  // namespace
@@ -120,6 +111,20 @@ Transform2<Building, Base> DrawingWarp::building(const Transform2<Map, Base>& po
 Transform2<Map, Base> DrawingWarp::map(const Transform2<Building, Base>& pose) const {
   const Point2<Map> at = map(pose.translation());
   return {at.x_m, at.y_m, pose.yaw_rad() - turn_rad(at)};
+}
+
+double steepest_step_m(const WarpField& field) {
+  const auto step = [&](int a, int b) {
+    const auto i = static_cast<std::size_t>(2 * a), k = static_cast<std::size_t>(2 * b);
+    return std::hypot(field.control_m[i] - field.control_m[k],
+                      field.control_m[i + 1] - field.control_m[k + 1]);
+  };
+  double steepest = 0.0;
+  for (int p = 0; p < field.width * field.height; ++p) {
+    if (p % field.width > 0) steepest = std::max(steepest, step(p, p - 1));
+    if (p >= field.width) steepest = std::max(steepest, step(p, p - field.width));
+  }
+  return steepest;
 }
 
 double DrawingWarp::sigma_m(const Point2<Map>& p) const {

@@ -32,6 +32,9 @@ struct WarpField {
   friend bool operator==(const WarpField&, const WarpField&) = default;
 };
 
+/// The largest step between neighbouring control points. Up to half of their spacing nothing folds.
+[[nodiscard]] double steepest_step_m(const WarpField& field);
+
 /// What the walls seen so far say of the drawing's errors (empirical Bayes); where the next fit starts.
 struct WarpStatistics {
   double amplitude_m = 0.3;  ///< standard deviation of the field; the prior of a drawing never seen before

@@ -107,19 +107,6 @@ double correlation(double distance_m, double range_m) {
   return z < 1e-6 ? 1.0 : z * boost::math::cyl_bessel_k(1, z);
 }
 
-bool folds(const WarpField& field) {
-  const auto step = [&](int a, int b) {
-    const auto i = static_cast<std::size_t>(2 * a), k = static_cast<std::size_t>(2 * b);
-    return std::hypot(field.control_m[i] - field.control_m[k],
-                      field.control_m[i + 1] - field.control_m[k + 1]);
-  };
-  for (int p = 0; p < field.width * field.height; ++p) {
-    if (p % field.width > 0 && step(p, p - 1) > kAlmostFolded * field.spacing_m) return true;
-    if (p >= field.width && step(p, p - field.width) > kAlmostFolded * field.spacing_m) return true;
-  }
-  return false;
-}
-
 /// What is expected of the field where its value at a place is another by `shift` (on the drawing, so that
 /// the displacement changes by the opposite).
 WarpField expected(WarpField field, double range_m, const Shift& shift) {
@@ -173,7 +160,7 @@ void add_starts(const DrawingWarp& warp, const std::vector<Shift>& shifts, std::
   for (const Shift& shift : shifts) {
     if (added == most || shift.nats < kHopelessNats) return;
     WarpField field = expected(warp.field(), warp.statistics().range_m, shift);
-    if (folds(field)) continue;
+    if (steepest_step_m(field) > kAlmostFolded * field.spacing_m) continue;
     starts.emplace_back(warp.similarity(), std::move(field), warp.statistics());
     ++added;
   }

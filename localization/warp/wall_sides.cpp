@@ -6,6 +6,7 @@
 #include "core/angle.hpp"
 #include "core/segment_distance.hpp"
 #include "localization/drawing_fit/visible_faces.hpp"
+#include "localization/drawing_fit/wall_hits.hpp"
 
 namespace madori::localization {
 namespace {

@@ -12,8 +12,7 @@ namespace madori::localization {
 /// can be seen.
 class WallSides {
  public:
-  static constexpr double kReachM = 1.2;   ///< a surface farther from a wall's line does not belong to it
-  static constexpr double kBeyondM = 0.3;  ///< a surface may overshoot a wall's end by this
+  static constexpr double kReachM = 1.2;  ///< a surface farther from a wall's line does not belong to it
 
   /// A wall that a surface may belong to.
   struct Candidate {

@@ -56,20 +56,6 @@ class Lines {
   int number_ = 0;
 };
 
-/// Would fold, or is no number of control points.
-bool is_possible(const WarpField& field) {
-  for (int p = 0; p < field.width * field.height; ++p) {
-    for (const int other : {p % field.width > 0 ? p - 1 : p, p >= field.width ? p - field.width : p}) {
-      const double dx = field.control_m[2 * static_cast<std::size_t>(p)] -
-                        field.control_m[2 * static_cast<std::size_t>(other)];
-      const double dy = field.control_m[2 * static_cast<std::size_t>(p) + 1] -
-                        field.control_m[2 * static_cast<std::size_t>(other) + 1];
-      if (std::hypot(dx, dy) > 0.5 * field.spacing_m) return false;
-    }
-  }
-  return true;
-}
-
 std::optional<WarpField> read_field(Lines& lines) {
   WarpField field;
   const auto head = lines.values<5>("field");
@@ -87,7 +73,7 @@ std::optional<WarpField> read_field(Lines& lines) {
     field.control_m.push_back((*control)[1]);
     field.sigma_m.push_back((*control)[2]);
   }
-  if (!is_possible(field)) return std::nullopt;
+  if (steepest_step_m(field) > 0.5 * field.spacing_m) return std::nullopt;  // folds
   return field;
 }
 

@@ -16,6 +16,8 @@
 namespace madori::localization {
 namespace {
 
+constexpr int kRounds = 3;          ///< of association and least squares
+constexpr double kLeastNats = 3.0;  ///< of evidence before a warp is believed: odds of 20 to 1
 constexpr double kFreedom = 3.0;    ///< of Student's t of the offsets: some walls are drawn quite wrong
 constexpr double kStretchM = 8.0;   ///< a longer wall has several offsets
 constexpr double kFinestM = 2.5;    ///< spacing of control points, a fifth of the range;
@@ -29,9 +31,6 @@ constexpr double kLeastSigmaM = 0.01;  ///< residual: no memory is more exact
 constexpr double kLeastOffsetM = 0.003;
 constexpr double kLeastVotes = 0.2;  ///< walls of two metres: less cannot move a wall
 constexpr double kVoteM = 0.05;      ///< bins of the search for a wall that stands elsewhere
-/// What a nat of the marginal likelihood is worth (as in placement.cpp): rooms and aisles repeat, and so do
-/// the errors of a drawing.
-constexpr double kTrust = 0.4;
 /// Of the fits that follow a growing memory so many have taken walls for their neighbours: 35 of 500 places
 /// in buildings bent by 1 m, seeds 1 to 20 (tests/unit/localization/warp).
 constexpr double kNeighbours = 0.07;
@@ -129,6 +128,7 @@ class Explanation {
   void share_out();
   void solve(double doubt);
   [[nodiscard]] WarpLattice lattice() const;
+  [[nodiscard]] Eigen::Vector2d normal_at(std::size_t wall, const Point2<Map>& place) const;
   [[nodiscard]] std::vector<WarpObservation> observations() const;
   void take_posterior();
 
@@ -275,6 +275,14 @@ WarpLattice Explanation::lattice() const {
   return made;
 }
 
+/// The wall's left normal where the warp carries it.
+Eigen::Vector2d Explanation::normal_at(std::size_t wall, const Point2<Map>& place) const {
+  const WallSides::Line& line = sides_.lines()[wall];
+  const double turn = warp_.turn_rad(place);
+  return {-line.uy * std::cos(turn) - line.ux * std::sin(turn),
+          -line.uy * std::sin(turn) + line.ux * std::cos(turn)};
+}
+
 std::vector<WarpObservation> Explanation::observations() const {
   struct Sum {
     double weight = 0.0;
@@ -305,12 +313,11 @@ std::vector<WarpObservation> Explanation::observations() const {
   rows.reserve(sums.size());
   for (const Sum& sum : sums) {
     WarpObservation row;
-    const WallSides::Line& line = sides_.lines()[sum.wall];
     row.unit = sum.unit;
     row.place = sides_.foot(sum.wall, sum.along / sum.weight);
-    const double turn = warp_.turn_rad(row.place);
-    row.normal_x = -line.uy * std::cos(turn) - line.ux * std::sin(turn);
-    row.normal_y = -line.uy * std::sin(turn) + line.ux * std::cos(turn);
+    const Eigen::Vector2d normal = normal_at(sum.wall, row.place);
+    row.normal_x = normal.x();
+    row.normal_y = normal.y();
     row.distance_m = row.normal_x * (sum.x / sum.weight - row.place.x_m) +
                      row.normal_y * (sum.y / sum.weight - row.place.y_m);
     row.information = sum.weight;
@@ -391,12 +398,9 @@ void Explanation::learn_statistics() {
     const double offset = units_[static_cast<std::size_t>(unit_of_key_[pair.unit])].offset_m;
     const Point2<Map> foot = sides_.foot(pair.wall, pair.along_m);
     const Point2<Building> at = warp_.building(foot);
-    const WallSides::Line& line = sides_.lines()[pair.wall];
     const CloudSurface& s = cloud_[pair.surface];
-    const double turn = warp_.turn_rad(foot);
-    const double nx = -line.uy * std::cos(turn) - line.ux * std::sin(turn);
-    const double ny = -line.uy * std::sin(turn) + line.ux * std::cos(turn);
-    const double r = nx * (s.x_m - at.x_m) + ny * (s.y_m - at.y_m) - offset;
+    const Eigen::Vector2d normal = normal_at(pair.wall, foot);
+    const double r = normal.x() * (s.x_m - at.x_m) + normal.y() * (s.y_m - at.y_m) - offset;
     squares += w * r * r;
     seen += w;
     belonging += kShareOfObservation * s.weight * pair.share;
@@ -526,14 +530,8 @@ double WallDeviation::offset_m() const {
   return (sides[0].seen_m * sides[0].offset_m + sides[1].seen_m * sides[1].offset_m) / seen;
 }
 
-double WallDeviation::sigma_m() const {
-  const double seen = seen_m();
-  if (seen <= 0.0) return sides[0].sigma_m;
-  return (sides[0].seen_m * sides[0].sigma_m + sides[1].seen_m * sides[1].sigma_m) / seen;
-}
-
 WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const DrawingWarp& before,
-                 const std::vector<DrawingWarp>& further, const WarpFitOptions& options) {
+                 const std::vector<DrawingWarp>& further) {
   const WallSides sides(drawn.walls());
   const auto explain = [&](const DrawingWarp& start, Shape shape, int rounds) {
     Explanation explanation(sides, cloud, start, shape);
@@ -549,10 +547,10 @@ WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const Drawing
     none.walls.resize(drawn.walls().size());
     return none;
   }
-  Explanation field = explain(before, Shape::Field, options.rounds);
+  Explanation field = explain(before, Shape::Field, kRounds);
   field.try_ranges();
   const Explanation whole =
-      explain(DrawingWarp(before.similarity(), {}, before.statistics()), Shape::Similarity, options.rounds);
+      explain(DrawingWarp(before.similarity(), {}, before.statistics()), Shape::Similarity, kRounds);
   const Explanation identity = explain(DrawingWarp({}, {}, before.statistics()), Shape::Identity, 2);
   const auto warp_of = [&](const Explanation& end, const Explanation& bent) {
     WarpField shape = bent.warp().field();
@@ -560,16 +558,14 @@ WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const Drawing
     return DrawingWarp(end.warp().similarity(), std::move(shape), bent.warp().statistics());
   };
   const double gain = std::max(whole.nats(), field.nats()) - identity.nats();
-  const Explanation& here = gain < options.least_nats     ? identity
-                            : whole.nats() > field.nats() ? whole
-                                                          : field;
+  const Explanation& here = gain < kLeastNats ? identity : whole.nats() > field.nats() ? whole : field;
   std::vector<Explanation> elsewhere;
   for (const DrawingWarp& start : further) {
-    Explanation end = explain(start, Shape::Field, options.rounds);
+    Explanation end = explain(start, Shape::Field, kRounds);
     // The present one was fitted again and again while the memory grew: a better one goes on before they
     // compare.
     const bool better = end.nats() > here.nats();
-    elsewhere.push_back(better ? explain(end.warp(), Shape::Field, options.rounds) : std::move(end));
+    elsewhere.push_back(better ? explain(end.warp(), Shape::Field, kRounds) : std::move(end));
   }
   const std::vector<double> odds = log_odds(elsewhere, here.nats());
   const auto likeliest = std::max_element(odds.begin(), odds.end());
@@ -586,7 +582,7 @@ WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const Drawing
   return fit;
 }
 
-WarpFit fit_warp_from_start(const WallIndex& drawn, const MemoryCloud& cloud, const WarpFitOptions& options) {
+WarpFit fit_warp_from_start(const WallIndex& drawn, const MemoryCloud& cloud) {
   constexpr int kKeyframes = 4;  // two metres of driving
   int last = 0;
   for (const CloudSurface& s : cloud) last = std::max(last, s.keyframe);
@@ -595,7 +591,7 @@ WarpFit fit_warp_from_start(const WallIndex& drawn, const MemoryCloud& cloud, co
     MemoryCloud seen;
     std::copy_if(cloud.begin(), cloud.end(), std::back_inserter(seen),
                  [&](const CloudSurface& s) { return s.keyframe <= until; });
-    fit = fit_warp(drawn, seen, fit.warp, {}, options);
+    fit = fit_warp(drawn, seen, fit.warp);
   }
   return fit;
 }

@@ -25,7 +25,6 @@ struct WallDeviation {
 
   /// Both sides together, by what was seen.
   [[nodiscard]] double offset_m() const;
-  [[nodiscard]] double sigma_m() const;
   [[nodiscard]] double seen_m() const { return sides[0].seen_m + sides[1].seen_m; }
 };
 
@@ -44,11 +43,6 @@ struct WarpFit {
   std::vector<OtherWay> others;      ///< what further starts led to
 };
 
-struct WarpFitOptions {
-  int rounds = 3;           ///< of association and least squares
-  double least_nats = 3.0;  ///< of evidence before a warp is believed: odds of 20 to 1
-};
-
 /// Where the drawn walls really stand, from the surfaces of a memory in the Building frame (typed Map until
 /// the memory is). Least squares over the normal distances of surfaces from the warped walls, each side of a
 /// wall with an offset of its own (a random effect, Student's t), with a Gaussian field of Matern covariance
@@ -58,21 +52,14 @@ struct WarpFitOptions {
 /// memory grows. Least squares end at the nearest optimum: `further` starts, in which some of the walls are
 /// taken for their neighbours, end elsewhere, and the likeliest end is taken.
 [[nodiscard]] WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const DrawingWarp& before,
-                               const std::vector<DrawingWarp>& further = {},
-                               const WarpFitOptions& options = {});
+                               const std::vector<DrawingWarp>& further = {});
 
 /// The same for a memory that was not followed while it grew: its keyframes a few at a time, as driven.
-[[nodiscard]] WarpFit fit_warp_from_start(const WallIndex& drawn, const MemoryCloud& cloud,
-                                          const WarpFitOptions& options = {});
+[[nodiscard]] WarpFit fit_warp_from_start(const WallIndex& drawn, const MemoryCloud& cloud);
 
-/// Drawn walls where they stand, for registration.
-struct BuildingWalls {
-  mapping::Walls walls;         ///< Building metres (typed Map until registration is); ids of the drawn ones
-  std::vector<double> sigma_m;  ///< of each along its normal
-};
-
-/// Carries the walls over by the warp and their offsets, in pieces of at most 2 m where it bends them. A wall
-/// drawn as one line that was seen from both sides becomes the two faces seen.
-[[nodiscard]] BuildingWalls walls_in_building(const mapping::Walls& drawn, const WarpFit& fit);
+/// Drawn walls where they stand, for registration: Building metres (typed Map until registration is), ids of
+/// the drawn ones. Carried over by the warp and their offsets, in pieces of at most 2 m where it bends them.
+/// A wall drawn as one line that was seen from both sides becomes the two faces seen.
+[[nodiscard]] mapping::Walls walls_in_building(const mapping::Walls& drawn, const WarpFit& fit);
 
 }  // namespace madori::localization

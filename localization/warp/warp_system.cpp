@@ -29,17 +29,11 @@ struct Touched {
 std::vector<Touched> nodes_at(const WarpLattice& lattice, const Point2<Map>& p) {
   std::vector<Touched> touched;
   if (lattice.nodes() == 0) return touched;
-  const CubicBasis x((p.x_m - lattice.origin.x_m) / lattice.spacing_m);
-  const CubicBasis y((p.y_m - lattice.origin.y_m) / lattice.spacing_m);
-  for (std::size_t j = 0; j < 4; ++j) {
-    const int row = y.first + static_cast<int>(j);
-    if (row < 0 || row >= lattice.height) continue;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const int column = x.first + static_cast<int>(i);
-      if (column < 0 || column >= lattice.width) continue;
-      touched.push_back({row * lattice.width + column, x.weight[i] * y.weight[j]});
-    }
-  }
+  visit_controls(lattice.width, lattice.height, (p.x_m - lattice.origin.x_m) / lattice.spacing_m,
+                 (p.y_m - lattice.origin.y_m) / lattice.spacing_m,
+                 [&](int node, double weight, double, double) {
+                   touched.push_back({node, weight});
+                 });
   return touched;
 }
 

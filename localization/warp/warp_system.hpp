@@ -31,8 +31,8 @@ struct WarpObservation {
 
 /// Precisions of the prior.
 struct WarpPriorWeights {
-  double amplitude_m = 0.3;
-  double range_m = 15.0;
+  double amplitude_m{};
+  double range_m{};
   bool similarity = true;                ///< estimated at all
   std::vector<double> offset_precision;  ///< one a unit, 1 / m^2
 };

@@ -167,10 +167,10 @@ int kidnappings(const Arguments& a) {
       std::printf(
           "%3d kind %d %s by %5.2f m from (%.2f, %.2f, %.0f deg) to (%.2f, %.2f, %.0f deg): LOST after %.2f "
           "s, "
-          "found after %.2f s, believed wrong %.2f s, view kept %.2f\n",
+          "found after %.2f s, believed wrong %.2f s\n",
           i, k.kind, k.drives ? "driving " : "standing", k.by_m, k.from.x_m(), k.from.y_m(),
           to_deg(k.from.yaw_rad()), k.to.x_m(), k.to.y_m(), to_deg(k.to.yaw_rad()), k.lost_after_s,
-          k.found_after_s, k.believed_wrong_s, k.kept);
+          k.found_after_s, k.believed_wrong_s);
     std::fflush(stdout);
   }
   std::printf(

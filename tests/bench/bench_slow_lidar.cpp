@@ -13,6 +13,7 @@
 #include "localization/slam/slow_lidar_mapper.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"
+#include "tests/support/point_density.hpp"
 #include "tests/support/rigid_fit.hpp"
 
 namespace madori::bench {
@@ -124,7 +125,7 @@ void run(double sigma_m, unsigned seed, Level& level) {
   for (const MomentPose& pose : mapper.finish().scans) mapped.push_back(pose.map_from_base);
   add_errors(causal, truth, level.causal_truth);
   add_errors(mapped, truth, level.final_truth);
-  level.density.add(mapper.map().density_per_m2());
+  level.density.add(test::points_per_m2(mapper.map().points()));
   locate_absolutely(walls, {mapper, moments.front().truth, mapped, truth}, sigma_m, engine, level);
 }
 

@@ -19,6 +19,7 @@
 #include "localization/slam/graph_mapper.hpp"
 #include "localization/slam/slow_lidar_mapper.hpp"
 #include "sensors/carmen/reader.hpp"
+#include "tests/support/point_density.hpp"
 #include "tests/support/rigid_fit.hpp"
 
 namespace madori::bench {
@@ -156,7 +157,7 @@ void run(const std::filesystem::path& folder, const std::string& name, const std
       "| g m | candidates | sought | answered | right by the reference | right in the map | e_psr m | ms |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
       name.c_str(), method.c_str(), map.scans.size(), halves.mapped.size(), off, most,
-      map.map.density_per_m2());
+      test::points_per_m2(map.map.points()));
   std::fflush(stdout);
   for (const double g : grids) seek(map, halves.sought, g, every);
 }

@@ -117,7 +117,6 @@ void Kidnapper::watch(Kidnapping& k) {
     trial_.step(k.drives);
     const LocalizationState state = trial_.pose().health.state;
     const bool sure = state == LocalizationState::Localized;
-    if (t < 0.5) k.kept = std::min(k.kept, trial_.localizer().kept());
     if (state == LocalizationState::Lost && k.lost_after_s < 0.0) k.lost_after_s = t;
     if (sure && trial_.error_m() > 0.5) k.believed_wrong_s += LocalizationTrial::kStep_s;
     if (sure && trial_.error_m() < 0.2) {

@@ -20,7 +20,6 @@ struct Kidnapping {
   [[nodiscard]] bool followed() const {
     return lost_after_s < 0.0 && found_after_s >= 0.0 && found_after_s <= 0.5;
   }
-  double kept = 1.0;              ///< least share of the view that two scans in a row had in common
   double believed_wrong_s = 0.0;  ///< LOCALIZED while more than 0.5 m off
 };
 

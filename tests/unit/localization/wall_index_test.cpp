@@ -36,27 +36,6 @@ TEST(WallIndex, DirectionsAreThoseOfTheArcTangent) {
   }
 }
 
-TEST(WallIndex, ARowOfShiftsSeesWhatEachPlaceSees) {
-  const WallIndex index(test::laboratory_hall());
-  std::vector<double> shifts;
-  for (int i = -60; i <= 60; ++i) shifts.push_back(0.37 * i);
-  std::mt19937 engine(2);
-  std::uniform_real_distribution<double> x(-5.0, 25.0), y(-5.0, 15.0);
-  std::size_t seen = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    const double x_m = x(engine), y_m = y(engine);
-    const int direction = trial % WallIndex::kDirections;
-    std::vector<int> found(shifts.size(), 255);
-    index.for_each_shift(x_m, y_m, direction, shifts, [&](std::size_t i, int centimetres) {
-      found[i] = centimetres;
-      ++seen;
-    });
-    for (std::size_t i = 0; i < shifts.size(); ++i)
-      ASSERT_EQ(found[i], index.centimetres(x_m + shifts[i], y_m, direction));
-  }
-  EXPECT_GT(seen, 1000u);
-}
-
 /// A wall of 0.25 m along x with two faces, the room in the south, and a partition of two faces that joins
 /// it.
 mapping::Walls walls_with_faces() {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace madori::localization {
@@ -29,6 +30,17 @@ TEST(DrawingWarp, DefaultIsIdentityToTheBit) {
   const Transform2<Building, Base> pose = none.building(Transform2<Map, Base>(1.0, 2.0, 0.3));
   EXPECT_EQ(pose.yaw_rad(), 0.3);
   EXPECT_EQ(none.sigma_m({1.0, 2.0}), 0.0);
+}
+
+TEST(DrawingWarp, TheSteepestStepIsBetweenNeighboursOnly) {
+  WarpField field;
+  EXPECT_EQ(steepest_step_m(field), 0.0);
+  field.width = 2;
+  field.height = 2;
+  field.control_m = {0.0, 0.0, 0.3, 0.4, 0.0, 0.1, 0.3, 0.5};  // and across the corners 0.58 m
+  EXPECT_NEAR(steepest_step_m(field), 0.5, 1e-12);
+  field.control_m[2] = field.control_m[3] = 0.0;  // the last is off alone
+  EXPECT_NEAR(steepest_step_m(field), std::hypot(0.3, 0.5), 1e-12);
 }
 
 TEST(DrawingWarp, MapUndoesBuildingForPointsAndPoses) {
