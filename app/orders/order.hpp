@@ -15,6 +15,7 @@ struct OrderStop {
   int node = 0;  ///< ID in path.csv
   StopAction action = StopAction::Pass;
   double wait_s = 0.0;
+  bool gone = false;  ///< its station was deleted: the number may be another's by now
 
   friend bool operator==(const OrderStop&, const OrderStop&) = default;
 };

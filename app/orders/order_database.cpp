@@ -8,7 +8,7 @@
 namespace madori::app {
 namespace {
 
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 constexpr int kBusyMs = 5000;
 constexpr int kAskAgainMs = 20;
 
@@ -36,6 +36,9 @@ constexpr std::array kSequence{
     "ALTER TABLE orders ADD COLUMN place INTEGER NOT NULL DEFAULT 0",
     "UPDATE orders SET place = id",
 };
+
+/// From format 2: a station's number is given again after it was deleted.
+constexpr const char* kGone = "ALTER TABLE order_stops ADD COLUMN gone INTEGER NOT NULL DEFAULT 0";
 
 sqlite3* open(const std::filesystem::path& file) {
   sqlite3* database = nullptr;
@@ -68,10 +71,13 @@ std::int64_t format_of(sqlite3* database) {
 /// All steps from the file's format to today's as one transaction: a crash between them leaves the old one.
 void bring_up_to_date(sqlite3* database) {
   Transaction transaction(database);
-  if (format_of(database) == kFormat) return;  // another program was quicker
-  if (format_of(database) < 1)
+  const std::int64_t format = format_of(database);
+  if (format == kFormat) return;  // another program was quicker
+  if (format < 1)
     for (const char* sql : kTables) Statement(database, sql).run();
-  for (const char* sql : kSequence) Statement(database, sql).run();
+  if (format < 2)
+    for (const char* sql : kSequence) Statement(database, sql).run();
+  Statement(database, kGone).run();
   Statement(database, ("PRAGMA user_version=" + std::to_string(kFormat)).c_str()).run();
   transaction.commit();
 }

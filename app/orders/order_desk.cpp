@@ -9,8 +9,10 @@
 
 namespace madori::app {
 
-OrderDesk::OrderDesk(const std::filesystem::path& database, const Options& options)
+OrderDesk::OrderDesk(const std::filesystem::path& database, const Options& options,
+                     const std::optional<std::vector<int>>& stations)
     : options_(options), store_(database) {
+  if (stations) store_.keep_stations(*stations, time_of_day());
   if (!options_.lock_step) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -80,8 +82,8 @@ std::optional<Order> OrderDesk::settle(const Report& report) {
 }
 
 /// Orders come from other programs too: what stands in the database counts.
-std::optional<Order> OrderDesk::look(std::optional<Order> order, const Work& work) {
-  if (order) order = store_.find(order->id);
+std::optional<Order> OrderDesk::look(const std::optional<Order>& known, const Work& work) {
+  const auto order = known ? store_.find(known->id) : std::nullopt;
   if (order && order->state == OrderState::Running) return order;
   return work.may_begin ? store_.begin_next(work.label) : std::nullopt;
 }
@@ -115,7 +117,7 @@ void OrderDesk::do_work(std::unique_lock<std::mutex>& lock) {
   lock.unlock();
   std::string problem;
   try {
-    if (work.look && !reported) order = look(std::move(order), work);
+    if (work.look && !reported) order = look(order, work);
     for (; !work.reports.empty(); work.reports.pop_front()) {
       const Report& report = work.reports.front();
       order = settle(report);

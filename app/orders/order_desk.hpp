@@ -26,8 +26,10 @@ class OrderDesk {
     double poll_s = 0.5;     ///< how often new and cancelled orders are looked for
   };
 
-  /// Throws Error where the database cannot be used.
-  OrderDesk(const std::filesystem::path& database, const Options& options);
+  /// `stations`: all IDs of the routes, for OrderStore::keep_stations(), where they are known. Throws Error
+  /// where the database cannot be used.
+  OrderDesk(const std::filesystem::path& database, const Options& options,
+            const std::optional<std::vector<int>>& stations = std::nullopt);
   /// Writes what is left.
   ~OrderDesk();
   OrderDesk(const OrderDesk&) = delete;
@@ -65,7 +67,7 @@ class OrderDesk {
   void run(const std::stop_token& stop);
   void do_work(std::unique_lock<std::mutex>& lock);
   [[nodiscard]] std::optional<Order> settle(const Report& report);
-  [[nodiscard]] std::optional<Order> look(std::optional<Order> order, const Work& work);
+  [[nodiscard]] std::optional<Order> look(const std::optional<Order>& known, const Work& work);
   void write(const std::deque<EventRecord>& events);
   void tell(const std::string& problem);
 

@@ -21,12 +21,12 @@ auto value_named(const Values& values, const std::string& name) {
 
 std::vector<OrderStop> stops_of(sqlite3* database, std::int64_t id) {
   Statement query(database,
-                  "SELECT node, action, wait_s FROM order_stops WHERE order_id = ? ORDER BY position");
+                  "SELECT node, action, wait_s, gone FROM order_stops WHERE order_id = ? ORDER BY position");
   query.bind(id);
   std::vector<OrderStop> stops;
   while (query.step())
-    stops.push_back(
-        {static_cast<int>(query.integer(0)), value_named(kActions, query.text(1)), query.real(2)});
+    stops.push_back({static_cast<int>(query.integer(0)), value_named(kActions, query.text(1)), query.real(2),
+                     query.integer(3) != 0});
   return stops;
 }
 
@@ -55,7 +55,8 @@ std::int64_t insert_order(sqlite3* database, const std::vector<OrderStop>& stops
       .bind(id)
       .run();
   for (std::size_t i = 0; i < stops.size(); ++i)
-    Statement(database, "INSERT INTO order_stops VALUES (?, ?, ?, ?, ?)")
+    Statement(database,
+              "INSERT INTO order_stops (order_id, position, node, action, wait_s) VALUES (?, ?, ?, ?, ?)")
         .bind(id, i, stops[i].node, std::string(to_string(stops[i].action)), stops[i].wait_s)
         .run();
   return id;

@@ -1,11 +1,24 @@
 #include "app/orders/order_store.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
+#include "app/cycle/notice.hpp"
 #include "app/orders/order_rows.hpp"
 
 namespace madori::app {
+namespace {
+
+/// The first stop still to come whose station is no more.
+std::optional<int> gone_ahead(const Order& order) {
+  const bool again = order.round + 1 < order.repeat;
+  for (std::size_t i = again ? 0 : order.next_stop; i < order.stops.size(); ++i)
+    if (order.stops[i].gone) return order.stops[i].node;
+  return std::nullopt;
+}
+
+}  // namespace
 
 OrderStore::OrderStore(const std::filesystem::path& file)
     : database_(open_order_database(file)), file_(file.string()) {}
@@ -16,6 +29,9 @@ std::int64_t OrderStore::add(const std::vector<OrderStop>& stops, int repeat, St
   if (stops.empty() || repeat < 1)
     throw Error(file_, "an order needs at least one stop and one round", "name a station: --to ID");
   Transaction transaction(database_.get());
+  if (open_count() >= kMostOpen)
+    throw Error(file_, std::to_string(kMostOpen) + " orders wait already",
+                "let them be done, or cancel some");
   const std::int64_t id = insert_order(database_.get(), stops, repeat, now);
   transaction.commit();
   return id;
@@ -97,6 +113,33 @@ bool OrderStore::arrange(const std::vector<std::int64_t>& ids) {
     Statement(database_.get(), "UPDATE orders SET place = ? WHERE id = ?").bind(places[i], ids[i]).run();
   transaction.commit();
   return true;
+}
+
+std::int64_t OrderStore::open_count() const {
+  Statement query(database_.get(), "SELECT COUNT(*) FROM orders WHERE state IN ('queued', 'running')");
+  query.step();
+  return query.integer(0);
+}
+
+void OrderStore::keep_stations(const std::vector<int>& nodes, Stamp now) {
+  Transaction transaction(database_.get());
+  const std::set<int> there(nodes.begin(), nodes.end());
+  std::vector<int> gone;
+  Statement query(database_.get(), "SELECT DISTINCT node FROM order_stops WHERE gone = 0");
+  while (query.step())
+    if (const int node = static_cast<int>(query.integer(0)); !there.contains(node)) gone.push_back(node);
+  if (gone.empty()) return;
+  for (const int node : gone)
+    Statement(database_.get(), "UPDATE order_stops SET gone = 1 WHERE node = ?").bind(node).run();
+  for (Order& order : list(true)) {
+    const auto stop = gone_ahead(order);
+    if (!stop) continue;
+    order.state = OrderState::Refused;
+    order.note = notice(Cause::UnknownNode, {{"node", std::to_string(*stop)}}).text;
+    save_progress(database_.get(), order, now);
+    add_event({now, "order", "order " + std::to_string(order.id) + " refused: " + order.note});
+  }
+  transaction.commit();
 }
 
 Stamp OrderStore::created(std::int64_t id) const {

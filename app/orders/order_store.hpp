@@ -27,7 +27,10 @@ class OrderStore {
   OrderStore(const OrderStore&) = delete;
   OrderStore& operator=(const OrderStore&) = delete;
 
-  /// Queues an order and returns its ID.
+  /// So many orders may wait; a queue without an end fills disk and page.
+  static constexpr std::int64_t kMostOpen = 1000;
+
+  /// Queues an order and returns its ID. Throws Error where kMostOpen are open.
   std::int64_t add(const std::vector<OrderStop>& stops, int repeat, Stamp now);
   [[nodiscard]] std::optional<Order> find(std::int64_t id) const;
   /// All orders, oldest first, or those that are running or queued, in the sequence of the queue.
@@ -37,6 +40,12 @@ class OrderStore {
   /// Puts the queued orders in this sequence. False, and nothing changes, where these are not the queued
   /// ones.
   bool arrange(const std::vector<std::int64_t>& ids);
+  /// Queued and running orders.
+  [[nodiscard]] std::int64_t open_count() const;
+  /// `nodes`: all IDs of the routes. Whatever was ordered to another one meant a station that is no more:
+  /// these stops are gone, also when the number is given again, and open orders that have one before them
+  /// end as Refused, with an event.
+  void keep_stations(const std::vector<int>& nodes, Stamp now);
   [[nodiscard]] Stamp created(std::int64_t id) const;
   /// The running order, else the first queued one, which becomes running.
   std::optional<Order> begin_next(Stamp now);

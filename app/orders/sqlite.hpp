@@ -17,10 +17,21 @@ inline void check(sqlite3* database, int code) {
                 "check free disk space and permissions; no other program may hold it");
 }
 
-/// A prepared SQLite statement. Throws Error with the database's message.
+/// Throws Error where the file is not at its place any more: what is written would be in no folder that
+/// somebody finds.
+inline void require_in_place(sqlite3* database) {
+  int moved = 0;
+  (void)sqlite3_file_control(database, "main", SQLITE_FCNTL_HAS_MOVED, &moved);
+  if (moved != 0)
+    throw Error(sqlite3_db_filename(database, "main"), "was removed or renamed while the program runs",
+                "put the site's folder back, or start the program anew");
+}
+
+/// A prepared SQLite statement. Throws Error with the database's message, and where the file has gone.
 class Statement {
  public:
   Statement(sqlite3* database, const char* sql) : database_(database) {
+    require_in_place(database);
     sqlite3_stmt* raw = nullptr;
     check(sqlite3_prepare_v2(database, sql, -1, &raw, nullptr));
     statement_.reset(raw);

@@ -23,6 +23,13 @@ constexpr double kFloor_m = 0.1;      ///< returns below are the floor
 constexpr double kScanCell_m = 0.08;  ///< of several returns in one, a picture needs one
 constexpr std::size_t kMostScanPoints = 2000;
 
+// What is said while no run has the vehicle.
+constexpr CatalogueEntry kSettingUp{"setting-up", "the site is not complete yet"};
+constexpr CatalogueEntry kFinishSetup{"finish-setup", "finish the five steps of the set-up"};
+constexpr CatalogueEntry kMeasuring{"measuring",
+                                    "the mountings are being measured: the vehicle drives by itself"};
+constexpr CatalogueEntry kWaitOrStop{"wait-or-stop", "keep away and wait, or press Stop"};
+
 /// The last second's, and two at least: a lidar that is asked for its scans may tell one in three seconds.
 void forget_old(std::deque<Stamp>& stamps, Stamp now) {
   while (stamps.size() > 2 && to_seconds(now - stamps.front()) > 1.0) stamps.pop_front();
@@ -206,31 +213,43 @@ void LiveCopy::take_places(const CycleState& state, Stamp now) {
 void LiveCopy::show_setup(const CycleInput& input, const std::vector<LidarModel>& lidars,
                           const std::string& problem) {
   const std::scoped_lock lock(mutex_);
+  const bool sees = show_without_run(input, lidars, problem, kSettingUp, kFinishSetup);
+  locate_ = {sees ? "setting-up" : "blind", {}};
+}
+
+void LiveCopy::show_measuring(const CycleInput& input, const std::vector<LidarModel>& lidars,
+                              const std::string& problem) {
+  const std::scoped_lock lock(mutex_);
+  const bool sees = show_without_run(input, lidars, problem, kMeasuring, kWaitOrStop);
+  locate_ = {sees ? "searching" : "blind", {}};
+}
+
+/// The state is called as its cause. Whether a lidar is heard.
+bool LiveCopy::show_without_run(const CycleInput& input, const std::vector<LidarModel>& lidars,
+                                const std::string& problem, const CatalogueEntry& cause,
+                                const CatalogueEntry& remedy) {
   mode_ = Mode::Paused;
   count_revolutions(input);
   take_scan(input, lidars, {});
-  if (!due(input.now)) return;
-  const auto odometer_m = live_.odometer_m;
-  auto scan = live_.scan;
-  auto since = live_.since;
-  auto state = live_.state;
-  live_ = {};
-  live_.odometer_m = odometer_m;
-  live_.scan = std::move(scan);
-  live_.since = since;
-  live_.state = state;
-  enter("setting-up", input.now);
-  live_.cause = {"setting-up", {}, "the site is not complete yet"};
-  live_.remedy = {"finish-setup", {}, "finish the five steps of the set-up"};
+  const bool sees =
+      std::ranges::any_of(heard_, [&](const auto& lidar) { return is_fresh(lidar.second, input.now); });
+  if (!due(input.now)) return sees;
+  hmi::LiveState next;
+  next.odometer_m = live_.odometer_m;
+  next.scan = std::move(live_.scan);
+  next.since = live_.since;
+  next.state = live_.state;
+  live_ = std::move(next);
+  enter(cause.code, input.now);
+  live_.cause = shown(notice(cause));
+  live_.remedy = shown(notice(remedy));
   live_.pose.stamp = input.now;
-  live_.pose.health = {LocalizationState::Lost, "the site is not complete yet"};
+  live_.pose.health = {LocalizationState::Lost, live_.cause.text};
   const auto newest = [](const std::deque<Stamp>& stamps) {
     return stamps.empty() ? std::nullopt : std::optional(stamps.back());
   };
   take_devices(input.now, lidars, newest(reports_), problem);
-  const bool sees =
-      std::ranges::any_of(heard_, [&](const auto& lidar) { return is_fresh(lidar.second, input.now); });
-  locate_ = {sees ? "setting-up" : "blind", {}};
+  return sees;
 }
 
 void LiveCopy::set_odometer(double metres) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cycle/cycle.hpp"
+#include "app/cycle/notice.hpp"
 #include "hmi/server/vehicle.hpp"
 
 namespace madori::app {
@@ -20,6 +21,9 @@ class LiveCopy {
   /// On the same thread while the site cannot be driven yet: what the devices say. `sensors` as they are
   /// open.
   void show_setup(const CycleInput& input, const std::vector<LidarModel>& lidars, const std::string& problem);
+  /// The same while a measurement of the mountings drives the vehicle.
+  void show_measuring(const CycleInput& input, const std::vector<LidarModel>& lidars,
+                      const std::string& problem);
   /// The vehicle's odometer, metres; added to what is shown.
   void set_odometer(double metres);
 
@@ -37,6 +41,9 @@ class LiveCopy {
 
  private:
   [[nodiscard]] bool due(Stamp now);
+  bool show_without_run(const CycleInput& input, const std::vector<LidarModel>& lidars,
+                        const std::string& problem, const CatalogueEntry& cause,
+                        const CatalogueEntry& remedy);
   void count_revolutions(const CycleInput& input);
   void enter(const std::string& state, Stamp now);
   void take_scan(const CycleInput& input, const std::vector<LidarModel>& lidars,

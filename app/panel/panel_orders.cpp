@@ -6,7 +6,10 @@
 
 #include "app/panel/event_words.hpp"
 #include "app/panel/notices.hpp"
+#include "app/route_tools.hpp"
 #include "core/clock.hpp"
+#include "mapping/site/site_transaction.hpp"
+#include "planning/route_graph/route_csv.hpp"
 
 namespace madori::app {
 namespace {
@@ -24,8 +27,22 @@ std::optional<OrderStop> stop_from(const hmi::StopView& view) {
   return std::nullopt;
 }
 
-hmi::Reply unknown_order() {
-  return hmi::Reply::refused("no-order", "there is no such open order");
+hmi::Reply unknown_station(int node) {
+  const std::string number = std::to_string(node);
+  return {false, {"unknown-station", {{"station", number}}, "station " + number + " is not in the routes"}};
+}
+
+/// Nothing where they cannot be read; none where the site has none.
+std::optional<std::vector<int>> saved_nodes(const std::filesystem::path& site) {
+  namespace fs = std::filesystem;
+  try {
+    mapping::recover_site(site);
+    if (!fs::exists(site / "site.yaml")) return std::nullopt;
+    if (!fs::exists(site / "routes/tree.csv")) return std::vector<int>();
+    return node_ids(planning::load_routes(site / "routes"));
+  } catch (const std::exception&) {  // told by who loads the site to drive
+    return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -36,7 +53,8 @@ PanelOrders::PanelOrders(const std::filesystem::path& database, NodeName node_na
 hmi::OrderView PanelOrders::view(const Order& order) const {
   hmi::OrderView view;
   view.id = order.id;
-  for (const auto& stop : order.stops) view.stops.push_back({stop.node, to_string(stop.action), stop.wait_s});
+  for (const auto& stop : order.stops)
+    view.stops.push_back({stop.node, to_string(stop.action), stop.wait_s, stop.gone});
   view.status = to_string(order.state);
   view.repeat = order.repeat;
   view.round = order.round;
@@ -66,31 +84,32 @@ hmi::Reply PanelOrders::add(const std::vector<hmi::StopView>& stops, int repeat)
   if (repeat < 1 || repeat > kMostRepeats) return hmi::Reply::refused("bad-repeat", "repeat 1 to 1000 times");
   std::vector<OrderStop> wanted;
   for (const auto& view : stops) {
-    if (!node_name_(view.node))
-      return {false,
-              {"unknown-station",
-               {{"station", std::to_string(view.node)}},
-               "station " + std::to_string(view.node) + " is not in the routes"}};
+    if (view.gone || !node_name_(view.node)) return unknown_station(view.node);
     const auto stop = stop_from(view);
     if (!stop) return hmi::Reply::refused("bad-action", "what to do at a stop is pass, wait, load or unload");
     wanted.push_back(*stop);
   }
   const std::scoped_lock lock(mutex_);
+  if (store_.open_count() >= OrderStore::kMostOpen)
+    return hmi::Reply::refused("queue-full", "1000 orders wait already: let them be done, or cancel some");
   store_.add(wanted, repeat, time_of_day());
   return hmi::Reply::done();
 }
 
-hmi::Reply PanelOrders::repeat(long long id) {
-  std::vector<hmi::StopView> stops;
-  int repeat = 1;
-  {
-    const std::scoped_lock lock(mutex_);
-    const auto order = store_.find(id);
-    if (!order) return unknown_order();
-    stops = view(*order).stops;
-    repeat = order->repeat;
-  }
-  return add(stops, repeat);
+std::optional<hmi::OrderView> PanelOrders::find(long long id) const {
+  const std::scoped_lock lock(mutex_);
+  const auto order = store_.find(id);
+  return order ? std::optional(view(*order)) : std::nullopt;
+}
+
+void PanelOrders::keep_stations(const std::filesystem::path& site) {
+  const auto nodes = saved_nodes(site);
+  const std::scoped_lock lock(mutex_);
+  if (nodes) store_.keep_stations(*nodes, time_of_day());
+}
+
+hmi::Reply PanelOrders::unknown_order() {
+  return hmi::Reply::refused("no-order", "there is no such open order");
 }
 
 hmi::Reply PanelOrders::cancel(long long id) {

@@ -23,9 +23,13 @@ class PanelOrders {
   [[nodiscard]] std::vector<hmi::OrderView> open() const;
   [[nodiscard]] std::vector<hmi::OrderView> ended() const;
   hmi::Reply add(const std::vector<hmi::StopView>& stops, int repeat);
-  hmi::Reply repeat(long long id);
+  [[nodiscard]] std::optional<hmi::OrderView> find(long long id) const;
   hmi::Reply cancel(long long id);
   hmi::Reply arrange(const std::vector<long long>& ids);
+  /// As OrderStore::keep_stations(), by the routes of `site` as they are saved now; nothing happens while
+  /// these cannot be read.
+  void keep_stations(const std::filesystem::path& site);
+  [[nodiscard]] static hmi::Reply unknown_order();
   /// An operator's word, among the events.
   void tell(const std::string& text);
   [[nodiscard]] std::vector<hmi::EventView> events(std::size_t newest) const;

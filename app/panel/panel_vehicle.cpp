@@ -1,5 +1,7 @@
 #include "app/panel/panel_vehicle.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -98,7 +100,10 @@ void PanelVehicle::idle(const CycleInput& input) {
     for (const auto& sensor : sensors) idle_lidars_.push_back(lidar_model(sensor));
     idle_sensors_ = sensors;
   }
-  copy_.show_setup(input, idle_lidars_, run_.device_problem());
+  if (is_measuring())
+    copy_.show_measuring(input, idle_lidars_, run_.device_problem());
+  else
+    copy_.show_setup(input, idle_lidars_, run_.device_problem());
 }
 
 hmi::Reply PanelVehicle::command(hmi::Command command) {
@@ -188,10 +193,17 @@ hmi::Reply PanelVehicle::add_order(const std::vector<hmi::StopView>& stops, int 
 }
 
 hmi::Reply PanelVehicle::repeat_order(long long id) {
-  for (const auto& order : orders_.ended())
-    if (order.id == id) return add_order(order.stops, order.repeat);
-  if (!run_.view()) return not_drivable();
-  return orders_.repeat(id);
+  const auto order = orders_.find(id);
+  return order ? add_order(order->stops, order->repeat) : PanelOrders::unknown_order();
+}
+
+void PanelVehicle::reload_site() {
+  try {
+    orders_.keep_stations(site_);      // before another change gives a number again
+  } catch (const std::exception& e) {  // the site is saved; the run that begins with it tries the same
+    spdlog::warn("{}", e.what());
+  }
+  run_.reload();
 }
 
 hmi::Reply PanelVehicle::search_place() {

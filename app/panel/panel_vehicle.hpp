@@ -70,7 +70,7 @@ class PanelVehicle final : public hmi::Vehicle {
       const std::function<void(const std::string& stage, double share)>& progress) override;
   [[nodiscard]] std::vector<planning::DrivenPose> driven_way() const override;
   [[nodiscard]] hmi::Reply may_change_site() const override;
-  void reload_site() override { run_.reload(); }
+  void reload_site() override;
 
  private:
   void note_way_by_hand(const CycleState& state, const CycleConfig& config);

@@ -88,7 +88,6 @@ class Onlookers {
 std::filesystem::path run_on_devices(const DeviceRunOptions& options) {
   // First of all: who is asked to end while it still reads the site ends in order, too.
   const std::atomic<bool>& interrupted = interrupted_by({SIGINT, SIGTERM, SIGHUP});
-  std::signal(SIGPIPE, SIG_IGN);  // who reads its words may go; the vehicle drives on
   const LogAside log;
   const SiteLock lock(options.site);
   Onlookers onlookers(options);

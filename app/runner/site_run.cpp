@@ -215,8 +215,8 @@ bool SiteRun::tick_mounting(Stamp now) {
   CycleInput input;
   input.now = now;
   link_->collect(input);
-  link_->send(mounting->tick(input));
   if (hooks_.idle) hooks_.idle(input);
+  link_->send(mounting->tick(input));
   if (!mounting->drives()) reload();
   return true;
 }

@@ -5,17 +5,24 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/route_tools.hpp"
 #include "core/clock.hpp"
 
 namespace madori::app {
-namespace {}  // namespace
+namespace {
+
+std::optional<std::vector<int>> stations_of(const CycleConfig& config) {
+  return config.mapping ? std::nullopt : std::optional(node_ids(config.routes));
+}
+
+}  // namespace
 
 TransportRun::TransportRun(CycleConfig config, std::unique_ptr<PoseSource> source,
                            std::unique_ptr<VehicleLink> link, const TransportOptions& options)
     : config_(std::move(config)),
       options_(options),
       link_(std::move(link)),
-      orders_(options.site / "madori.db", {options.lock_step, options.store_poll_s}),
+      orders_(options.site / "madori.db", {options.lock_step, options.store_poll_s}, stations_of(config_)),
       state_(config_, std::move(source)) {
   if (!options_.lock_step)
     planner_ = std::make_unique<planning::DetourPlanner>(config_.check, detour_options_);

@@ -1,6 +1,7 @@
 #include "hmi/server/api.hpp"
 #include "hmi/server/api_support.hpp"
 #include "hmi/server/site_backup.hpp"
+#include "hmi/server/site_snapshot.hpp"
 #include "hmi/server/tar_stream.hpp"
 #include "hmi/server/uploaded_file.hpp"
 
@@ -24,7 +25,7 @@ void add_backup_routes(Router& router, ApiContext& context) {
   // The same file as `madori export --backup` makes.
   router.add(
       "GET", "/api/site/download", Role::Operator,
-      [site](const Request&) { return tar_response(site_entries(site), "site.tar"); }, Work::Worker);
+      [site](const Request&) { return tar_response(site_snapshot(site), "site.tar"); }, Work::Worker);
   router.add("POST", "/api/site/backup", Role::Integrator,
              changing(context.vehicle, [site](const Request& request) { return restored(site, request); }),
              Work::Upload);

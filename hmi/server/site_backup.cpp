@@ -7,12 +7,15 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include "core/result.hpp"
 #include "hmi/server/site_files.hpp"
+#include "hmi/server/site_snapshot.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/site/site_versions.hpp"
+#include "planning/route_graph/route_csv.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -20,20 +23,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kTarBlock = 512;
-constexpr const char* kFolder = "site/";
 constexpr std::uint64_t kLargest = 1ULL << 30U;  ///< of one file: drawings are at most 256 MB
 using TarBlock = std::array<char, kTarBlock>;
 
-/// What its versions keep, what follows from that, and what was learned.
-bool is_of_site(const std::string& name) {
-  return mapping::is_kept(name) || name == "reliability.csv" || name == "memory.bin" ||
-         name == "self_calibration.yaml" || name.starts_with("walls.") || name.starts_with("map.") ||
-         name.starts_with("routes/") || name.starts_with("tiles/") || name.starts_with("learned/") ||
-         name.starts_with("versions/");
-}
-
-[[noreturn]] void no_backup(const fs::path& file, const char* why) {
-  throw Error(file.string(), std::string("is no whole backup of a site: ") + why, "make it again");
+[[noreturn]] void no_backup(const fs::path& file, const std::string& why) {
+  throw Error(file.string(), "is no whole backup of a site: " + why, "make it again");
 }
 
 std::string text_of(const TarBlock& block, std::size_t at, std::size_t size) {
@@ -59,11 +53,11 @@ bool is_sound(const TarBlock& block) {
 std::string safe_name(const TarBlock& block) {
   const std::string prefix = text_of(block, 345, 155);
   const std::string whole = (prefix.empty() ? "" : prefix + "/") + text_of(block, 0, 100);
-  if (!whole.starts_with(kFolder)) return "";
-  const std::string name = whole.substr(std::strlen(kFolder));
+  if (!whole.starts_with(kBackupFolder)) return "";
+  const std::string name = whole.substr(std::strlen(kBackupFolder));
   const fs::path path(name);
   const bool inside = std::ranges::none_of(path, [](const fs::path& part) { return part == ".."; });
-  return inside && path.is_relative() && is_of_site(name) ? name : "";
+  return inside && path.is_relative() && is_in_backup(name) ? name : "";
 }
 
 std::string read_content(std::ifstream& stream, std::uint64_t size, const fs::path& file) {
@@ -77,6 +71,16 @@ std::string read_content(std::ifstream& stream, std::uint64_t size, const fs::pa
 
 bool is_manifest(const std::string& name) {
   return name.starts_with("versions/") && name.ends_with(".json");
+}
+
+/// What every later command would refuse.
+void require_drivable_routes(const std::map<std::string, std::string>& routes, const fs::path& file) {
+  if (routes.empty()) return;
+  if (routes.size() != 2) no_backup(file, "one of the two files of its routes is missing");
+  const auto parsed = planning::parse_routes(routes.at("routes/tree.csv"), routes.at("routes/path.csv"),
+                                             "routes/tree.csv", "routes/path.csv");
+  for (const auto& finding : parsed.findings)
+    if (finding.severity == planning::Severity::Error) no_backup(file, finding.text());
 }
 
 void write_whole(const fs::path& file, TarStream& tar) {
@@ -98,19 +102,9 @@ void write_whole(const fs::path& file, TarStream& tar) {
 
 }  // namespace
 
-std::vector<TarStream::Entry> site_entries(const fs::path& site) {
-  auto entries = tar_entries(site, kFolder);
-  std::erase_if(entries, [](const TarStream::Entry& entry) {
-    return !is_of_site(entry.name.substr(std::strlen(kFolder)));
-  });
-  return entries;
-}
-
 void write_backup(const fs::path& site, const fs::path& file) {
-  if (!has_site(site)) throw Error(site.string(), "is no site folder (no site.yaml)", "name a site");
-  mapping::recover_site(site);
   const fs::path part = file.string() + ".part";
-  TarStream tar(site_entries(site));
+  TarStream tar(site_snapshot(site));
   write_whole(part, tar);
   std::error_code error;
   fs::rename(part, file, error);
@@ -123,7 +117,7 @@ bool is_backup(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   TarBlock block{};
   return stream.read(block.data(), kTarBlock) && is_sound(block) &&
-         text_of(block, 0, 100).starts_with(kFolder);
+         text_of(block, 0, 100).starts_with(kBackupFolder);
 }
 
 std::size_t read_backup(const fs::path& file, const fs::path& site, bool replace) {
@@ -136,6 +130,7 @@ std::size_t read_backup(const fs::path& file, const fs::path& site, bool replace
   change.say("backup restored");
   std::set<std::string> came;
   std::vector<std::string> manifests;
+  std::map<std::string, std::string> routes;
   bool complete = false;
   for (TarBlock block{}; stream.read(block.data(), kTarBlock);) {
     complete = std::ranges::all_of(block, [](char c) { return c == '\0'; });
@@ -148,16 +143,19 @@ std::size_t read_backup(const fs::path& file, const fs::path& site, bool replace
     const std::string content = read_content(stream, size, file);
     if (name.empty()) continue;
     came.insert(name);
+    if (name == "routes/tree.csv" || name == "routes/path.csv") routes[name] = content;
     if (is_manifest(name))
       manifests.push_back(content);
     else
       change.write(name, content);
   }
   if (!complete) no_backup(file, "it is cut off");
-  if (!came.contains("site.yaml")) no_backup(file, "it holds no site.yaml");
+  for (const char* name : {"site.yaml", "walls.csv"})
+    if (!came.contains(name)) no_backup(file, std::string("it holds no ") + name);
+  require_drivable_routes(routes, file);
   mapping::bring_versions(change, site, manifests);
   for (const auto& entry : has_site(site) ? site_entries(site) : std::vector<TarStream::Entry>()) {
-    const std::string name = entry.name.substr(std::strlen(kFolder));
+    const std::string name = entry.name.substr(std::strlen(kBackupFolder));
     if (!came.contains(name) && !name.starts_with("versions/")) change.remove(name);
   }
   change.commit();

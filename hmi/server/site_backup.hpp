@@ -1,16 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
-
-#include "hmi/server/tar_stream.hpp"
 
 namespace madori::hmi {
-
-/// The files of a site that belong into a backup: all that was set up and learned, and every version. Not
-/// PINs, orders, recordings and what this computer's devices are.
-[[nodiscard]] std::vector<TarStream::Entry> site_entries(const std::filesystem::path& site);
 
 /// Writes the site as one tar file, whole or not at all. Throws Error.
 void write_backup(const std::filesystem::path& site, const std::filesystem::path& file);
@@ -20,8 +12,8 @@ void write_backup(const std::filesystem::path& site, const std::filesystem::path
 
 /// Makes the site of a backup, in one atomic step; returns how many files came. A folder that is a site
 /// already is refused unless `replace`: then the site becomes what the backup was, and its own versions stay
-/// before the backup's. Throws Error on anything that is no whole backup, with nothing
-/// changed.
+/// before the backup's. Throws Error on anything that is no whole backup, and on walls or routes that no
+/// command would read, with nothing changed.
 std::size_t read_backup(const std::filesystem::path& file, const std::filesystem::path& site, bool replace);
 
 }  // namespace madori::hmi

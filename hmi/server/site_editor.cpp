@@ -11,9 +11,7 @@
 #include "hmi/server/vehicle_wire.hpp"
 #include "hmi/server/wire.hpp"
 #include "mapping/drawing/drawing_picture.hpp"
-#include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
-#include "mapping/site/site_file.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/wall_map/wall_files.hpp"
 
@@ -120,10 +118,8 @@ json SiteEditor::save_vehicle(const json& edit) {
   site.sensors = sensors_from(edit.at("sensors"), site.sensors);
   site.shortest_routes = edit.at("route_metric") == "metres";
   mapping::SiteTransaction change(folder_);
-  const fs::path staged = change.staged("site.yaml");
-  mapping::write_new_file(staged, mapping::site_yaml(site));
-  (void)mapping::read_site_file(staged);  // refuses values out of range, with the reason
-  change.commit();
+  change.write("site.yaml", mapping::site_yaml(site));
+  change.commit();  // refuses values out of range, with the reason
   return {{"revision", vehicle_revision(folder_)}};
 }
 

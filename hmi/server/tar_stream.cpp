@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 #include <utility>
+
+#include "core/result.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -65,34 +65,27 @@ std::string header(const std::string& name, std::uint64_t size, std::uint64_t mo
   return {block.data(), block.size()};
 }
 
-std::uint64_t modified_s(const fs::path& file) {
-  std::error_code missing;
-  const auto when = fs::last_write_time(file, missing);
-  if (missing) return 0;
-  const auto since = std::chrono::file_clock::to_sys(when).time_since_epoch();
-  return static_cast<std::uint64_t>(
-      std::max<std::int64_t>(0, std::chrono::duration_cast<std::chrono::seconds>(since).count()));
-}
-
 }  // namespace
 
 std::string TarStream::next() {
   if (left_ > 0) {
-    std::string part(static_cast<std::size_t>(std::min<std::uint64_t>(left_, kPart)), '\0');
-    stream_.read(part.data(), static_cast<std::streamsize>(part.size()));
+    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(left_, kPart));
+    std::string part = open_->read(wanted);
+    if (part.size() < wanted)
+      throw Error(entries_[at_ - 1].file.string(), "became shorter while it was read, or cannot be read",
+                  "try again");
     left_ -= part.size();
     if (left_ == 0) part.append(padding_, '\0');
     return part;
   }
+  open_.reset();
   while (at_ < entries_.size()) {
-    const Entry& entry = entries_[at_++];
-    std::error_code missing;
-    const std::uint64_t size = fs::file_size(entry.file, missing);
-    stream_ = std::ifstream(entry.file, std::ios::binary);
-    if (missing || !stream_) continue;  // it was removed meanwhile
-    left_ = size;
-    padding_ = static_cast<std::size_t>((kBlock - size % kBlock) % kBlock);
-    return header(entry.name, size, modified_s(entry.file));
+    Entry& entry = entries_[at_++];
+    open_ = entry.held ? std::move(entry.held) : HeldFile::open(entry.file);
+    if (!open_) continue;  // it was removed meanwhile
+    left_ = open_->size();
+    padding_ = static_cast<std::size_t>((kBlock - left_ % kBlock) % kBlock);
+    return header(entry.name, left_, open_->modified_s());
   }
   if (ended_) return {};
   ended_ = true;

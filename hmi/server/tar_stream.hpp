@@ -2,31 +2,34 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "hmi/server/held_file.hpp"
 #include "hmi/server/http.hpp"
 
 namespace madori::hmi {
 
 /// Files as one tar archive (POSIX ustar), read part by part, so that no download has to fit into memory. A
-/// file that shrinks meanwhile is filled up with zeros; one that grows is cut at the length it had.
+/// file that grows meanwhile is cut at the length it had.
 class TarStream {
  public:
   struct Entry {
     std::filesystem::path file;
-    std::string name;  ///< in the archive, at most 255 characters
+    std::string name;                  ///< in the archive, at most 255 characters
+    std::shared_ptr<HeldFile> held{};  ///< null: opened when its turn comes, left out if it is gone
   };
   explicit TarStream(std::vector<Entry> entries) : entries_(std::move(entries)) {}
 
-  /// The next bytes, at most 64 KiB; empty at the end.
+  /// The next bytes, at most 64 KiB; empty at the end. Throws Error where a file ends before its length: an
+  /// archive with a hole must not look whole.
   [[nodiscard]] std::string next();
 
  private:
   std::vector<Entry> entries_;
   std::size_t at_ = 0;
-  std::ifstream stream_;
+  std::shared_ptr<HeldFile> open_;
   std::uint64_t left_ = 0;   ///< of the file that is open
   std::size_t padding_ = 0;  ///< after it
   bool ended_ = false;

@@ -130,6 +130,7 @@ struct StopView {
   int node = 0;                 ///< ID
   std::string action = "pass";  ///< pass, wait, load, unload
   double wait_s = 0.0;
+  bool gone = false;  ///< the station was deleted: the number may be another's by now
 };
 
 /// An order as operators see it.

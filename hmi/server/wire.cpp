@@ -42,6 +42,7 @@ json pose_to_wire(const PoseEstimate& pose, Stamp now) {
           {"covariance", {c(0, 0), c(0, 1), c(1, 1), c(2, 2)}},
           {"health", to_string(pose.health.state)},
           {"health_reason", pose.health.reason},
+          {"place", rounded(pose.health.place)},
           {"age_s", rounded(std::max(0.0, to_seconds(now - pose.stamp)))}};
 }
 
@@ -49,7 +50,6 @@ json particles_to_wire(const std::vector<Transform2<Map, Base>>& particles) {
   json list = json::array();
   const std::size_t stride = std::max<std::size_t>(1, particles.size() / kMostParticles);
   for (std::size_t i = 0; i < particles.size(); i += stride)
-
     list.push_back(
         {rounded(particles[i].x_m()), rounded(particles[i].y_m()), rounded(particles[i].yaw_rad())});
   return list;
@@ -104,7 +104,8 @@ json to_wire(const OrderView& order) {
   json stations = json::array();
   for (const auto& stop : order.stops) {
     stations.push_back(stop.node);
-    stops.push_back({{"node", stop.node}, {"action", stop.action}, {"wait_s", stop.wait_s}});
+    stops.push_back(
+        {{"node", stop.node}, {"action", stop.action}, {"wait_s", stop.wait_s}, {"gone", stop.gone}});
   }
   return {{"id", order.id},
           {"stations", stations},

@@ -17,9 +17,19 @@ namespace {
 constexpr int kFormat = 1;
 constexpr int kMaxSide = 1'000'000;
 
+/// Not a path: what it leads to would be read, and removed by an import, outside the site.
+bool is_name_in_folder(const std::string& name) {
+  const bool printable =
+      std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  return printable && !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
+}
+
 DrawingRecord read_drawing(StrictYaml yaml) {
   DrawingRecord record;
   record.file = yaml.text("file");
+  if (!is_name_in_folder(record.file))
+    throw yaml.error("file", "\"" + record.file + "\" is no name of a file in the site's folder",
+                     "write the name alone, e.g. drawing.png");
   record.width_px = yaml.integer("width_px", 1, kMaxSide);
   record.height_px = yaml.integer("height_px", 1, kMaxSide);
   record.page = yaml.integer_or("page", record.page, 1, 100'000);

@@ -105,13 +105,22 @@ fs::path SiteTransaction::staged(const std::string& name) {
   if (std::find(puts_.begin(), puts_.end(), name) == puts_.end()) puts_.push_back(name);
   syncs_.erase(name), objects_.erase(name);  // of what is there now
   fs::path file = site_ / kStaging / name;
-  fs::create_directories(file.parent_path());
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error) throw Error((site_ / name).string(), "cannot be written: " + error.message(), "check the disk");
   return file;
+}
+
+std::string SiteTransaction::of_site(std::string text) const {
+  const std::string staging = (site_ / kStaging).string();
+  for (auto at = text.find(staging); at != std::string::npos; at = text.find(staging))
+    text.replace(at, staging.size(), site_.string());
+  return text;
 }
 
 void SiteTransaction::write(const std::string& name, std::string_view content) {
   const fs::path file = staged(name);
-  write_new_file(file, content);
+  said_of_site([&] { write_new_file(file, content); });
   syncs_[name] = std::async(std::launch::async, sync, file);
   if (is_kept(name))
     objects_[name] =
@@ -134,8 +143,10 @@ void SiteTransaction::remove(const std::string& name) {
 /// Whatever was staged must not make a site that every later command refuses.
 void SiteTransaction::read_back() const {
   const auto put = [this](const char* name) { return std::ranges::find(puts_, name) != puts_.end(); };
-  if (put("site.yaml")) (void)read_site_file(site_ / kStaging / "site.yaml");
-  if (put("walls.csv")) (void)load_walls(site_ / kStaging / "walls.csv");
+  said_of_site([&] {
+    if (put("site.yaml")) (void)read_site_file(site_ / kStaging / "site.yaml");
+    if (put("walls.csv")) (void)load_walls(site_ / kStaging / "walls.csv");
+  });
 }
 
 void SiteTransaction::commit() {
@@ -144,13 +155,18 @@ void SiteTransaction::commit() {
   for (auto& [name, object] : objects_) objects[name] = object.get();
   objects_.clear();
   stage_version(*this, site_, site_ / kStaging, {puts_, removals_, objects, sentence_});
-  sync_staged();
+  said_of_site([&] { sync_staged(); });
   std::string journal;
   for (const auto& name : removals_) journal += "- " + name + "\n";
   for (const auto& name : puts_) journal += "+ " + name + "\n";
   write_file_atomically(journal_of(site_), journal);
   committed_ = true;
   apply_journal(site_);
+}
+
+bool is_being_changed(const fs::path& site) {
+  std::error_code missing;
+  return fs::exists(journal_of(site), missing);
 }
 
 void recover_site(const fs::path& site) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/result.hpp"
+
 namespace madori::mapping {
 
 /// Changes several files of a site folder in one atomic step. Files are staged below DIR/.staging and synced;
@@ -33,8 +35,18 @@ class SiteTransaction {
   /// is read back first, as the next command will. Throws Error (it cannot be read, disk full, no permission)
   /// with the site as it was.
   void commit();
+  /// work(), which reads or writes what is staged; an Error of it names the site's files instead of those.
+  template <class Work>
+  auto said_of_site(const Work& work) const {
+    try {
+      return work();
+    } catch (const Error& e) {
+      throw Error(of_site(e.what()));
+    }
+  }
 
  private:
+  [[nodiscard]] std::string of_site(std::string text) const;
   void read_back() const;
   void sync_staged();
 
@@ -48,6 +60,9 @@ class SiteTransaction {
   bool created_ = false;
   bool committed_ = false;
 };
+
+/// Whether a change was committed and its files are not all in place yet.
+[[nodiscard]] bool is_being_changed(const std::filesystem::path& site);
 
 /// Finishes a change that was committed but cut short. Cheap when there is nothing to do.
 void recover_site(const std::filesystem::path& site);

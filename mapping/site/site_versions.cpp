@@ -232,11 +232,11 @@ void restore_version(const fs::path& site, int number) {
   for (const auto& [name, object] : versions.back().files)
     if (!version.files.contains(name)) change.remove(name);
   if (version.files.contains("site.yaml") && version.files.contains("walls.csv")) {
-    const Site record = read_site_file(change.staged("site.yaml"));
+    const Site record = change.said_of_site([&] { return read_site_file(change.staged("site.yaml")); });
     const double unit = record.scale ? record.scale->m_per_px : 1.0;
     const std::string walls = version_file(site, version, "walls.csv");
-    (void)stage_wall_files(change, load_walls(change.staged("walls.csv")), record.drawing.width_px * unit,
-                           record.drawing.height_px * unit,
+    const Walls lines = change.said_of_site([&] { return load_walls(change.staged("walls.csv")); });
+    (void)stage_wall_files(change, lines, record.drawing.width_px * unit, record.drawing.height_px * unit,
                            record.scale ? WallFileOptions{} : WallFileOptions::unscaled());
     change.write("walls.csv", walls);  // with its probabilities
   }

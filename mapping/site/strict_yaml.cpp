@@ -28,7 +28,12 @@ StrictYaml StrictYaml::load(const std::filesystem::path& file) {
       1'000'000;  // what YAML of this size takes in memory is a hundred times more
   require_readable(file, kMostBytes);
   try {
-    return {file.string(), "", YAML::LoadFile(file.string())};
+    const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file.string());
+    for (std::size_t i = 1; i < documents.size(); ++i)
+      if (!documents[i].IsNull())
+        throw Error(file.string() + ":" + std::to_string(documents[i].Mark().line + 1),
+                    "begins a second document, which nobody would read", "remove it, or the --- before it");
+    return {file.string(), "", documents.empty() ? YAML::Node() : documents.front()};
   } catch (const YAML::BadFile&) {
     throw Error(file.string(), "cannot be opened", "check the path and its permissions");
   } catch (const YAML::ParserException& e) {

@@ -51,5 +51,20 @@ TEST(LiveCopy, WhileTheSiteIsSetUpTheLidarIsBlamedOnlyWhenItIsSilent) {
   EXPECT_EQ(copy.locate().state, "blind");
 }
 
+/// The set-up may be complete, and the vehicle moves: every other tablet has to know.
+TEST(LiveCopy, WhileTheMountingsAreMeasuredThatIsSaidAndNotThatTheSetUpIsOpen) {
+  const auto vehicle = test::corridor_vehicle();
+  LiveCopy copy;
+  vehicle->on_step = [&](const CycleInput& input, const CycleOutput&, const CycleState&) {
+    copy.show_measuring(input, {lidar_model(reference_lidar())}, "");
+  };
+  vehicle->run_until([] { return false; }, 0.6);
+  const auto live = copy.live();
+  EXPECT_EQ(live.state, "measuring");
+  EXPECT_EQ(live.cause.code, "measuring");
+  EXPECT_EQ(live.remedy.code, "wait-or-stop");
+  EXPECT_EQ(copy.locate().state, "searching");
+}
+
 }  // namespace
 }  // namespace madori::app

@@ -61,6 +61,25 @@ TEST_F(OrderDeskTest, ALockedDatabaseHoldsNoStepUpAndEveryStopIsCountedOnceItIsF
   EXPECT_EQ(store.find(id)->state, OrderState::Done);
 }
 
+TEST_F(OrderDeskTest, AFolderThatIsGoneIsSaidAndTheVehicleStaysWithTheOrderThatItHas) {
+  const auto folder = folder_.path() / "site", elsewhere = folder_.path() / "elsewhere";
+  std::filesystem::create_directory(folder);
+  OrderStore store(folder / "madori.db");
+  const auto id = store.add({{1}, {2}}, 1, now_);
+  OrderDesk desk(folder / "madori.db", {.lock_step = true, .poll_s = 0.0});
+  const auto begun = desk.order(now_, true);
+  ASSERT_TRUE(begun);
+  std::filesystem::rename(folder, elsewhere);
+  EXPECT_EQ(desk.order(now_ += kTick, true), begun) << "whole, with its stops";
+  EXPECT_NE(desk.problem().find("removed or renamed"), std::string::npos) << desk.problem();
+  desk.stop_reached({id, 0, 0}, now_);
+  EXPECT_EQ(desk.order(now_ += kTick, true), begun);
+  std::filesystem::rename(elsewhere, folder);
+  (void)desk.order(now_ += kTick, true);
+  EXPECT_EQ(desk.problem(), "");
+  EXPECT_EQ(store.stops_done(), 1) << "what was reported meanwhile is not lost";
+}
+
 TEST_F(OrderDeskTest, ProgramsThatOpenItAtOnceWaitForOneAnother) {
   for (int round = 0; round < 40; ++round) {
     const auto file = folder_.path() / (std::to_string(round) + ".db");

@@ -5,8 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <random>
 
+#include "app/orders/order_rows.hpp"
 #include "core/result.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -88,6 +90,65 @@ TEST(OrderStore, RefusesWhatIsNoOrderAndWhatIsNoDatabase) {
   folder.write("broken.db",
                "this is no database, and long enough to be looked at as one ...............................");
   EXPECT_THROW(OrderStore(folder.path() / "broken.db"), Error);
+}
+
+TEST(OrderStore, AStationThatIsDeletedIsNotTheNextOneOfItsNumber) {
+  const test::TemporaryFolder folder;
+  OrderStore store(folder.path() / "madori.db");
+  const auto ended = store.add({{3}, {12}}, 1, kNow);
+  (void)store.begin_next(kNow);
+  store.close(ended, OrderState::Cancelled, "not wanted", kNow);
+  const auto passed = store.add({{12}, {3}}, 1, kNow);
+  (void)store.begin_next(kNow);
+  (void)store.stop_done(passed, 0, 0, kNow);
+  const auto ahead = store.add({{3}, {12}}, 1, kNow);
+  const auto again = store.add({{4}, {3}}, 2, kNow);
+
+  store.keep_stations({3, 4}, kNow);  // 12 was deleted
+  EXPECT_EQ(store.find(ahead)->state, OrderState::Refused);
+  EXPECT_EQ(store.find(ahead)->note, "node 12 is not in the routes");
+  EXPECT_EQ(store.events(1).front().text,
+            "order " + std::to_string(ahead) + " refused: node 12 is not in the routes");
+  EXPECT_EQ(store.find(passed)->state, OrderState::Running) << "it was there already";
+  EXPECT_EQ(store.find(again)->state, OrderState::Queued);
+  store.keep_stations({3, 4, 12}, kNow);  // another place is called 12
+  EXPECT_TRUE(store.find(ended)->stops[1].gone);
+  EXPECT_FALSE(store.find(ended)->stops[0].gone);
+  const auto anew = store.add({{12}}, 1, kNow);
+  store.keep_stations({3, 4, 12}, kNow);
+  EXPECT_FALSE(store.find(anew)->stops[0].gone);
+}
+
+TEST(OrderStore, TheQueueHasAnEnd) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "madori.db";
+  OrderStore store(file);
+  {
+    const Database database = open_order_database(file);
+    Transaction fill(database.get());
+    for (std::int64_t i = 0; i < OrderStore::kMostOpen; ++i)
+      (void)insert_order(database.get(), {{1}}, 1, kNow);
+    fill.commit();
+  }
+  EXPECT_THROW((void)store.add({{1}}, 1, kNow), Error);
+  store.close(store.list(true).front().id, OrderState::Cancelled, "", kNow);
+  EXPECT_NO_THROW((void)store.add({{1}}, 1, kNow));
+  EXPECT_EQ(store.open_count(), OrderStore::kMostOpen);
+}
+
+/// Format 2, as older programs wrote it.
+TEST(OrderStore, OrdersOfAnOlderProgramAreKept) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "madori.db";
+  (void)OrderStore(file).add({{3}, {4}}, 1, kNow);
+  {
+    const Database database = open_order_database(file);
+    Statement(database.get(), "ALTER TABLE order_stops DROP COLUMN gone").run();
+    Statement(database.get(), "PRAGMA user_version=2").run();
+  }
+  const OrderStore store(file);
+  ASSERT_EQ(store.list(true).size(), 1U);
+  EXPECT_EQ(store.list(true).front().stops, (std::vector<OrderStop>{{3}, {4}}));
 }
 
 TEST(OrderStore, EventsComeNewestFirst) {

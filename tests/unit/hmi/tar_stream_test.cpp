@@ -11,7 +11,9 @@
 
 #include "core/result.hpp"
 #include "hmi/server/site_backup.hpp"
+#include "hmi/server/site_snapshot.hpp"
 #include "mapping/site/atomic_file.hpp"
+#include "mapping/site/site_transaction.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::hmi {
@@ -71,11 +73,88 @@ TEST(SiteBackup, AFileThatClaimsMoreThanTheWholeIsRefused) {
   const fs::path site = folder.path() / "site", backup = folder.path() / "b.tar";
   fs::create_directory(site);
   mapping::write_new_file(site / "site.yaml", "name: hall\n");
+  mapping::write_new_file(site / "walls.csv", "");
   write_backup(site, backup);
   ASSERT_TRUE(is_backup(backup));
   const std::string said = claimed(backup, "06000000000", folder.path() / "new");  // 805 MB
   EXPECT_NE(said.find("larger than the whole"), std::string::npos) << said;
   EXPECT_FALSE(fs::exists(folder.path() / "new/site.yaml"));
+}
+
+/// A site that its commands read, and its text.
+void make_site(const fs::path& site, const std::string& walls = "1,0,0,5,0\n") {
+  fs::create_directories(site / "routes");
+  mapping::write_new_file(
+      site / "site.yaml",
+      "madori_site: 1\nname: hall\ndrawing: {file: drawing.png, width_px: 10, height_px: 5}\n");
+  mapping::write_new_file(site / "walls.csv", "id,x1,y1,x2,y2\n" + walls);
+  mapping::write_new_file(site / "routes/tree.csv", "ID,EDA\n0,1\n1,0\n");
+  mapping::write_new_file(site / "routes/path.csv", "ID,x,y\n0,1,1\n1,4,1\n");
+}
+
+std::string all_of(TarStream stream) {
+  std::string bytes;
+  for (std::string part = stream.next(); !part.empty(); part = stream.next()) bytes += part;
+  return bytes;
+}
+
+TEST(SiteBackup, WhatIsSavedWhileItIsReadIsNotInIt) {
+  const test::TemporaryFolder folder;
+  const fs::path site = folder.path() / "site", back = folder.path() / "back", tar = folder.path() / "b.tar";
+  make_site(site);
+  TarStream stream(site_snapshot(site));
+  std::string bytes = stream.next();  // a slow download has begun
+  {
+    mapping::SiteTransaction change(site);
+    change.write("walls.csv", "id,x1,y1,x2,y2\n1,0,0,9,0\n2,0,0,0,9\n");
+    change.write("routes/path.csv", "ID,x,y\n0,2,2\n1,4,2\n");
+    change.remove("routes/tree.csv");
+    change.commit();
+  }
+  for (std::string part = stream.next(); !part.empty(); part = stream.next()) bytes += part;
+  mapping::write_new_file(tar, bytes);
+  (void)read_backup(tar, back, false);
+  EXPECT_EQ(mapping::file_content(back / "walls.csv"), "id,x1,y1,x2,y2\n1,0,0,5,0\n");
+  EXPECT_EQ(mapping::file_content(back / "routes/path.csv"), "ID,x,y\n0,1,1\n1,4,1\n");
+  EXPECT_EQ(mapping::file_content(back / "routes/tree.csv"), "ID,EDA\n0,1\n1,0\n");
+}
+
+TEST(SiteBackup, AFileThatEndsTooSoonMakesNoArchive) {
+  const test::TemporaryFolder folder;
+  const fs::path site = folder.path() / "site";
+  make_site(site);
+  TarStream stream(site_snapshot(site));
+  fs::resize_file(site / "walls.csv", 3);  // in place, as no command does
+  EXPECT_THROW((void)all_of(std::move(stream)), Error);
+}
+
+/// What read_backup() says of a site that was archived past write_backup().
+std::string refusal_of(const fs::path& site, const fs::path& folder) {
+  const fs::path tar = folder / "b.tar";
+  mapping::write_file_atomically(tar, all_of(TarStream(site_entries(site))));
+  try {
+    (void)read_backup(tar, folder / "back", false);
+  } catch (const Error& error) {
+    EXPECT_FALSE(fs::exists(folder / "back/site.yaml"));
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SiteBackup, WhatNoCommandWouldReadIsNotRestored) {
+  const test::TemporaryFolder folder;
+  const fs::path site = folder.path() / "site";
+  make_site(site);
+  fs::remove(site / "routes/tree.csv");
+  EXPECT_NE(refusal_of(site, folder.path()).find("one of the two files of its routes"), std::string::npos);
+  mapping::write_new_file(site / "routes/tree.csv", "ID,EDA\n0,7\n");
+  EXPECT_NE(refusal_of(site, folder.path()).find("routes/tree.csv:2"), std::string::npos);
+  make_site(site);
+  fs::remove(site / "walls.csv");
+  EXPECT_NE(refusal_of(site, folder.path()).find("holds no walls.csv"), std::string::npos);
+  EXPECT_THROW(write_backup(site, folder.path() / "c.tar"), Error);
+  make_site(site);
+  EXPECT_EQ(refusal_of(site, folder.path()), "");
 }
 
 TEST(SiteBackup, APipeIsNoneAndIsNotWaitedFor) {
