@@ -21,13 +21,20 @@ namespace {
 namespace fs = std::filesystem;
 
 void refuse_existing(const ImportOptions& options) {
-  if (options.force || !fs::exists(options.site)) return;
-  if (!fs::is_directory(options.site))
+  std::error_code error;
+  const auto status = fs::status(options.site, error);
+  if (options.force || status.type() == fs::file_type::not_found) return;
+  if (status.type() == fs::file_type::none)
+    throw Error(options.site.string(), "cannot be looked at: " + error.message(), "name another --site");
+  if (!fs::is_directory(status))
     throw Error(options.site.string(), "is a file, not a folder", "name another --site");
-  if (fs::exists(options.site / "site.yaml"))
+  if (fs::exists(options.site / "site.yaml", error))
     throw Error(options.site.string(), "is a site already",
                 "name another folder, or replace its drawing with --force");
-  for (const auto& entry : fs::directory_iterator(options.site))
+  const fs::directory_iterator entries(options.site, error);
+  if (error)
+    throw Error(options.site.string(), "cannot be read: " + error.message(), "check its permissions");
+  for (const auto& entry : entries)
     if (!entry.path().filename().string().starts_with(".staging"))
       throw Error(options.site.string(), "is a folder with other files in it",
                   "name another folder, or use --force");
@@ -100,8 +107,8 @@ void refuse_blank(const ImportOptions& options, const GrayImage& picture) {
 ScaleRecord scale_of_paper(const ImportOptions& options, const Plan& plan) {
   const double dpi = plan.vectors ? 0.0 : options.plan.dpi.value_or(plan.picture.dpi);
   const ScaleEstimate paper = paper_scale(*options.paper_scale, dpi);
-  return {paper.m_per_px, paper.method, paper.error_m, paper.relative_uncertainty,
-          options.date,   paper.inputs};
+  return {paper.m_per_px, paper.method, paper.relative_uncertainty,
+          paper.error_m,  options.date, paper.inputs};
 }
 
 /// Where the scale comes from, strongest first: the options, the paper, the file's own units.

@@ -2,41 +2,24 @@
 
 #include <array>
 #include <string_view>
-#include <utility>
 
 namespace madori::mapping {
 namespace {
 
 /// Lower case; the accented letters of layer names without their accents (UTF-8 in, ASCII out where known).
 std::string folded(std::string_view name) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kAccents{{{"ä", "ae"},
-                                                                                           {"ö", "oe"},
-                                                                                           {"ü", "ue"},
-                                                                                           {"Ä", "ae"},
-                                                                                           {"Ö", "oe"},
-                                                                                           {"Ü", "ue"},
-                                                                                           {"ß", "ss"},
-                                                                                           {"é", "e"},
-                                                                                           {"è", "e"},
-                                                                                           {"ô", "o"},
-                                                                                           {"å", "a"},
-                                                                                           {"ñ", "n"},
-                                                                                           {"ó", "o"},
-                                                                                           {"í", "i"}}};
+  static constexpr std::array<std::string_view, 28> kAccents{
+      "ä", "ae", "ö", "oe", "ü", "ue", "Ä", "ae", "Ö", "oe", "Ü", "ue", "ß", "ss",
+      "é", "e",  "è", "e",  "ô", "o",  "å", "a",  "ñ", "n",  "ó", "o",  "í", "i"};
   std::string out;
   while (!name.empty()) {
-    bool replaced = false;
-    for (const auto& [from, to] : kAccents) {
-      if (!name.starts_with(from)) continue;
-      out += to;
-      name.remove_prefix(from.size());
-      replaced = true;
-      break;
-    }
-    if (replaced) continue;
+    std::size_t at = 0;
+    while (at < kAccents.size() && !name.starts_with(kAccents[at])) at += 2;
+    const bool accent = at < kAccents.size();
     const char c = name.front();
-    out.push_back(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
-    name.remove_prefix(1);
+    if (accent) out += kAccents[at + 1];
+    if (!accent) out.push_back(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
+    name.remove_prefix(accent ? kAccents[at].size() : 1);
   }
   return out;
 }

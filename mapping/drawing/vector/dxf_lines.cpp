@@ -61,44 +61,36 @@ bool is_imperial(const std::string& text) {
   return false;
 }
 
+/// The straight pieces of a curve, each like `line` but for its ends.
+void add_points(const OGRSimpleCurve& curve, DxfLine line, std::vector<DxfLine>& lines) {
+  for (int i = 0; i + 1 < curve.getNumPoints(); ++i) {
+    line.x1 = curve.getX(i), line.y1 = curve.getY(i);
+    line.x2 = curve.getX(i + 1), line.y2 = curve.getY(i + 1);
+    if (std::isfinite(line.length()) && line.length() > 0.0 && lines.size() < kMostLines)
+      lines.push_back(line);
+  }
+}
+
 /// One entity's share of all lines.
-class Collector {
- public:
-  Collector(DxfContent& content, const DxfLine& like) : content_(content), like_(like) {}
-
-  void add(const OGRGeometry& geometry) {
-    switch (wkbFlatten(geometry.getGeometryType())) {
-      case wkbLineString:
-        add_points(*geometry.toLineString());
-        break;
-      case wkbPolygon:
-        for (const auto* ring : *geometry.toPolygon()) add_points(*ring);
-        break;
-      case wkbMultiLineString:
-      case wkbMultiPolygon:
-      case wkbGeometryCollection:
-        for (const auto* part : *geometry.toGeometryCollection()) add(*part);
-        break;
-      default:
-        break;  // points and surfaces hold no lines
-    }
+void add_lines(const OGRGeometry& geometry, const DxfLine& like, std::vector<DxfLine>& lines) {
+  const auto add_parts = [&](const auto& parts) {
+    for (const auto* part : parts) add_lines(*part, like, lines);
+  };
+  switch (wkbFlatten(geometry.getGeometryType())) {
+    case wkbLineString:
+      return add_points(*geometry.toLineString(), like, lines);
+    case wkbPolygon:
+      return add_parts(*geometry.toPolygon());
+    case wkbPolyhedralSurface:
+      return add_parts(*geometry.toPolyhedralSurface());
+    case wkbMultiLineString:
+    case wkbMultiPolygon:
+    case wkbGeometryCollection:
+      return add_parts(*geometry.toGeometryCollection());
+    default:
+      return;  // points hold no lines
   }
-
- private:
-  void add_points(const OGRSimpleCurve& curve) {
-    for (int i = 0; i + 1 < curve.getNumPoints(); ++i) {
-      DxfLine line = like_;
-      line.x1 = curve.getX(i), line.y1 = curve.getY(i);
-      line.x2 = curve.getX(i + 1), line.y2 = curve.getY(i + 1);
-      const bool finite = std::isfinite(line.x1) && std::isfinite(line.y1) && std::isfinite(line.x2) &&
-                          std::isfinite(line.y2);
-      if (finite && line.length() > 0.0 && content_.lines.size() < kMostLines) content_.lines.push_back(line);
-    }
-  }
-
-  DxfContent& content_;
-  DxfLine like_;
-};
+}
 
 /// What tells an arc from another line.
 struct Curve {
@@ -144,6 +136,18 @@ std::optional<DoorSwing> short_arc(const OGRGeometry& geometry) {
   return DoorSwing{{from.x + u, from.y + v}, from, to, radius};
 }
 
+/// What an entity's kind and pen say: GDAL draws what is frozen, off or invisible with a colour #rrggbb00.
+std::optional<RejectReason> no_wall(const std::string& classes, const char* pen) {
+  const std::string_view style = pen == nullptr ? "" : pen;
+  const auto colour = style.find("c:#");
+  if (classes.find("Hatch") != std::string::npos) return RejectReason::Hatch;
+  if (classes.find("Leader") != std::string::npos) return RejectReason::Dimension;
+  if (colour != std::string_view::npos && style.find("00", colour + 9) == colour + 9)
+    return RejectReason::Other;
+  if (style.find("p:\"") != std::string_view::npos) return RejectReason::Dashed;
+  return std::nullopt;
+}
+
 void add_feature(const OGRFeature& feature, std::map<std::string, std::size_t>& layers, DxfContent& content) {
   if (is_imperial(field(feature, "Text"))) content.units.imperial_texts = true;
   const OGRGeometry* geometry = feature.GetGeometryRef();
@@ -152,22 +156,19 @@ void add_feature(const OGRFeature& feature, std::map<std::string, std::size_t>& 
   const auto [entry, fresh] = layers.try_emplace(layer, content.layers.size());
   if (fresh) content.layers.push_back(layer);
   const std::string classes = field(feature, "SubClasses");
-  const char* style = feature.GetStyleString();
   DxfLine like;
   like.layer = entry->second;
-  like.dashed = style != nullptr && std::string(style).find("p:\"") != std::string::npos;
-  like.hatch = classes.find("Hatch") != std::string::npos;
-  if (classes.find("AcDbArc") != std::string::npos) {
-    const auto swing = quarter_arc(*geometry);
-    like.door_arc = swing.has_value();
-    if (swing) {
-      content.swings.push_back(*swing);
-      content.units.door_radii.push_back(swing->radius);
-    }
+  like.no_wall = no_wall(classes, feature.GetStyleString());
+  const bool is_arc = classes.find("AcDbArc") != std::string::npos;
+  const auto swing = is_arc ? quarter_arc(*geometry) : std::nullopt;
+  if (swing) {
+    if (!like.no_wall) like.no_wall = RejectReason::DoorArc;
+    content.swings.push_back(*swing);
+    content.units.door_radii.push_back(swing->radius);
   }
   const std::size_t first = content.lines.size();
-  Collector(content, like).add(*geometry);
-  if (classes.find("AcDbArc") == std::string::npos || like.door_arc) return;
+  add_lines(*geometry, like, content.lines);
+  if (!is_arc || swing) return;
   if (auto arc = short_arc(*geometry)) {
     arc->first_line = first;
     arc->end_line = content.lines.size();
@@ -176,23 +177,30 @@ void add_feature(const OGRFeature& feature, std::map<std::string, std::size_t>& 
 }
 
 /// Refuses what GDAL would read half (no EOF at the end) or never end on (zero bytes), and returns the first
-/// 256 KiB, which hold the header.
+/// 256 KiB, which hold the header. Text that is valid UTF-8 is UTF-8 whatever code page the header names.
 std::string checked_header(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw Error(file.string(), "cannot be read", "check its permissions");
-  std::string header, tail;
+  std::string header, tail, lines;
+  bool utf8 = true;
   std::string chunk(1U << 18U, '\0');
   while (stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || stream.gcount() > 0) {
     const std::string_view text(chunk.data(), static_cast<std::size_t>(stream.gcount()));
     if (text.find('\0') != std::string_view::npos)
       throw Error(file.string(), "is a binary DXF or damaged", "save it again as ASCII DXF (R2000 or newer)");
     if (header.empty()) header = text;
+    lines += text;
+    const std::size_t whole = lines.find_last_of("\r\n") + 1;
+    utf8 = utf8 && CPLIsUTF8(lines.data(), static_cast<int>(whole)) != 0;
+    lines.erase(0, whole);
     tail += text.substr(text.size() - std::min<std::size_t>(text.size(), 64));
     tail.erase(0, tail.size() - std::min<std::size_t>(tail.size(), 64));
   }
   tail.erase(tail.find_last_not_of(" \t\r\n\x1A") + 1);
   if (!tail.ends_with("EOF"))
     throw Error(file.string(), "is no DXF or is cut off", "copy it again, or save it again as ASCII DXF");
+  utf8 = utf8 && CPLIsUTF8(lines.data(), static_cast<int>(lines.size())) != 0;
+  CPLSetThreadLocalConfigOption("DXF_ENCODING", utf8 ? "UTF-8" : nullptr);
   return header;
 }
 
@@ -208,7 +216,11 @@ DxfContent read_dxf_lines(const std::filesystem::path& file) {
   const Dataset dataset = open_dxf(file);
   CPLPushErrorHandler(CPLQuietErrorHandler);
   std::map<std::string, std::size_t> layers;
-  for (auto&& feature : dataset->GetLayer(0)) add_feature(*feature, layers, content);
+  for (const char* space : {"PaperSpace IS NULL", "PaperSpace = 1"}) {
+    if (!content.lines.empty()) break;
+    dataset->GetLayer(0)->SetAttributeFilter(space);
+    for (auto&& feature : dataset->GetLayer(0)) add_feature(*feature, layers, content);
+  }
   CPLPopErrorHandler();
   mark_door_leaves(content.lines, content.swings);
   mark_doors_ajar(content.lines, content.short_arcs);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mapping/drawing/pixel_segment.hpp"
 #include "mapping/drawing/vector/dxf_units.hpp"
 
 namespace madori::mapping {
@@ -11,10 +13,8 @@ namespace madori::mapping {
 /// A straight piece of a DXF entity (arcs and bulges in short chords), drawing units, y up.
 struct DxfLine {
   double x1 = 0, y1 = 0, x2 = 0, y2 = 0;
-  std::size_t layer = 0;  ///< index into DxfContent::layers
-  bool dashed = false;
-  bool hatch = false;
-  bool door_arc = false;   ///< of a quarter circle
+  std::size_t layer = 0;                ///< index into DxfContent::layers
+  std::optional<RejectReason> no_wall;  ///< hatch, dashed, leader, quarter arc; Other: switched off
   bool door_leaf = false;  ///< from the middle of such an arc to one of its ends, or of a door drawn ajar
 
   [[nodiscard]] double length() const;
@@ -39,8 +39,8 @@ struct DxfContent {
   DxfUnitEvidence units;
 };
 
-/// All lines of a DXF, block inserts resolved, by GDAL/OGR. Coordinates that are not finite are left out.
-/// Throws Error when it is no readable DXF.
+/// All lines of a DXF's model space (of its layouts where that is empty), block inserts resolved, by
+/// GDAL/OGR. Coordinates that are not finite are left out. Throws Error when it is no readable DXF.
 [[nodiscard]] DxfContent read_dxf_lines(const std::filesystem::path& file);
 
 }  // namespace madori::mapping

@@ -18,12 +18,13 @@ struct Unit {
   const char* word;
   bool metric;
 };
-constexpr std::array<Unit, 6> kUnits{{{4, 0.001, "millimetres", "mm", true},
+constexpr std::array<Unit, 7> kUnits{{{4, 0.001, "millimetres", "mm", true},
                                       {5, 0.01, "centimetres", "cm", true},
                                       {14, 0.1, "decimetres", "dm", true},
                                       {6, 1.0, "metres", "m", true},
                                       {1, 0.0254, "inches", "in", false},
-                                      {2, 0.3048, "feet", "ft", false}}};
+                                      {2, 0.3048, "feet", "ft", false},
+                                      {10, 0.9144, "yards", "yd", false}}};
 
 constexpr double kShortestBuildingM = 3, kLongestBuildingM = 2000;
 
@@ -31,10 +32,11 @@ constexpr double kShortestBuildingM = 3, kLongestBuildingM = 2000;
 int score(const Unit& unit, const DxfUnitEvidence& evidence) {
   const double length_m = evidence.extent * unit.metres;
   if (!(length_m >= kShortestBuildingM && length_m <= kLongestBuildingM)) return -1;
-  int points = length_m >= 8.0 && length_m <= 300.0 ? 1 : 0;
+  int points = unit.insunits == 14 || unit.insunits == 10 ? -1 : 0;  // hardly anybody draws in them
+  points += length_m >= 8.0 && length_m <= 300.0 ? 1 : 0;
   if (evidence.insunits == unit.insunits) points += 4;
   if (evidence.measurement && (*evidence.measurement == 1) == unit.metric) points += 1;
-  if (evidence.imperial_texts) points += unit.metric ? -4 : 4;
+  if (evidence.imperial_texts) points += unit.metric ? -4 : unit.insunits == 1 ? 5 : 4;
   std::vector<double> radii = evidence.door_radii;
   if (!radii.empty()) {
     const double door_m = median_of(radii) * unit.metres;
@@ -70,6 +72,7 @@ std::optional<DxfUnit> choose_unit(const DxfUnitEvidence& evidence) {
   int most = -1;
   for (const Unit& unit : kUnits) {
     const int points = score(unit, evidence);
+    if (points == most) best = nullptr;  // nothing tells the two apart
     if (points <= most) continue;
     most = points;
     best = &unit;

@@ -21,10 +21,11 @@ struct DxfUnit {
 };
 
 /// The unit that explains the drawing: $INSUNITS where a building comes out of it, else $MEASUREMENT and
-/// plausibility (a building is 3 m to 2 km long, a door about 0.9 m wide). Nothing where none is plausible.
+/// plausibility (a building is 3 m to 2 km long, a door about 0.9 m wide). Nothing where none is plausible,
+/// or several alike.
 [[nodiscard]] std::optional<DxfUnit> choose_unit(const DxfUnitEvidence& evidence);
 
-/// The unit that the user named: mm, cm, dm, m, in, ft; nothing for another word.
+/// The unit that the user named: mm, cm, dm, m, in, ft, yd; nothing for another word.
 [[nodiscard]] std::optional<DxfUnit> named_unit(const std::string& word);
 
 /// Reads $INSUNITS and $MEASUREMENT of a text DXF's HEADER section into `evidence`.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
 #include <sstream>
 
 #include "core/result.hpp"
@@ -74,7 +75,7 @@ bool unknown_layers_are_walls(const DxfContent& content, const std::vector<Layer
   double named = 0.0, unknown = 0.0;
   for (const auto& line : content.lines) {
     const LayerKind kind = meaning[line.layer].kind;
-    if (line.hatch || line.dashed || line.door_arc || line.door_leaf) continue;
+    if (line.no_wall || line.door_leaf) continue;
     (kind == LayerKind::Wall ? named : unknown) +=
         kind == LayerKind::Wall || kind == LayerKind::Unknown ? line.length() : 0.0;
   }
@@ -84,12 +85,10 @@ bool unknown_layers_are_walls(const DxfContent& content, const std::vector<Layer
 std::optional<RejectReason> rejected(const DxfLine& line, const LayerMeaning& meaning, bool unknown_is_wall,
                                      bool layers_given) {
   if (layers_given) return meaning.kind == LayerKind::Wall ? std::nullopt : std::optional(meaning.reason);
-  if (line.hatch) return RejectReason::Hatch;
-  if (meaning.kind == LayerKind::NoWall) return meaning.reason;
-  if (line.dashed) return RejectReason::Dashed;
-  const bool on_named = meaning.kind != LayerKind::Unknown;
-  if (line.door_arc || (line.door_leaf && !on_named)) return RejectReason::DoorArc;
-  if (meaning.kind == LayerKind::Unknown && !unknown_is_wall) return RejectReason::Other;
+  if (meaning.kind == LayerKind::NoWall && line.no_wall != RejectReason::Hatch) return meaning.reason;
+  if (line.no_wall || meaning.kind != LayerKind::Unknown) return line.no_wall;
+  if (line.door_leaf) return RejectReason::DoorArc;
+  if (!unknown_is_wall) return RejectReason::Other;
   return std::nullopt;
 }
 
@@ -107,23 +106,18 @@ GrayImage render(const PlanVectors& vectors, int width, int height) {
   return image;
 }
 
-std::string layer_note(const DxfContent& content, const std::vector<LayerMeaning>& meaning,
-                       bool unknown_is_wall) {
-  std::string used;
-  for (std::size_t i = 0; i < content.layers.size(); ++i) {
-    const LayerKind kind = meaning[i].kind;
-    const bool wall = kind == LayerKind::Wall || kind == LayerKind::Column ||
-                      (kind == LayerKind::Unknown && unknown_is_wall);
-    if (wall) used += (used.empty() ? "" : ", ") + content.layers[i];
-  }
-  return "walls are taken from the layers: " + used;
+std::string layer_note(const std::vector<std::string>& layers, const std::set<std::size_t>& used) {
+  std::string names;
+  for (const std::size_t layer : used) names += (names.empty() ? "" : ", ") + layers[layer];
+  return "walls are taken from the layers: " + names;
 }
 
 /// The scale from the unit that is named or that explains the drawing, and a note on it.
 void set_scale(const DxfContent& content, const PlanOptions& options, double unit_per_px, Plan& plan) {
   const auto unit = options.unit.empty() ? choose_unit(content.units) : named_unit(options.unit);
   if (!unit) {
-    plan.notes.emplace_back("no unit gives a building of plausible size: the site stays unscaled");
+    plan.notes.emplace_back(
+        "no unit, or more than one, gives a plausible building: name it with --unit; the site is unscaled");
     return;
   }
   plan.m_per_px = unit->metres * unit_per_px;
@@ -136,7 +130,7 @@ void set_scale(const DxfContent& content, const PlanOptions& options, double uni
 Plan load_dxf(const std::filesystem::path& file, const PlanOptions& options) {
   DxfContent content = read_dxf_lines(file);
   if (content.lines.empty())
-    throw Error(file.string(), "holds no lines", "export the model space, not an empty layout");
+    throw Error(file.string(), "holds no lines", "export the model space, its external references bound");
   const Bounds bounds = drawn_bounds(content.lines);
   content.units.extent = bounds.longer();
   if (!(bounds.longer() > 0)) throw Error(file.string(), "has no size", "check the drawing in a CAD viewer");
@@ -145,24 +139,27 @@ Plan load_dxf(const std::filesystem::path& file, const PlanOptions& options) {
 
   const double unit_per_px = bounds.longer() * (1.0 + 2.0 * kMargin) / kWantedPx;
   const double left = bounds.x0 - kMargin * bounds.longer(), low = bounds.y0 - kMargin * bounds.longer();
-  const int width =
-      static_cast<int>(std::ceil((bounds.x1 - left) / unit_per_px + kMargin * kWantedPx / (1 + 2 * kMargin)));
-  const int height =
-      static_cast<int>(std::ceil((bounds.y1 - low) / unit_per_px + kMargin * kWantedPx / (1 + 2 * kMargin)));
+  const auto pixels = [&](double drawn) {  // and the margin beyond
+    return static_cast<int>(std::ceil(drawn / unit_per_px + kMargin * kWantedPx / (1 + 2 * kMargin)));
+  };
+  const int width = pixels(bounds.x1 - left), height = pixels(bounds.y1 - low);
 
   Plan plan;
   plan.vectors.emplace();
+  std::set<std::size_t> used;
   for (const auto& line : content.lines) {
     if (!bounds.holds(line)) continue;
     const PixelSegment s{(line.x1 - left) / unit_per_px, height - (line.y1 - low) / unit_per_px,
                          (line.x2 - left) / unit_per_px, height - (line.y2 - low) / unit_per_px};
-    if (const auto reason = rejected(line, meaning[line.layer], unknown_is_wall, !options.layers.empty()))
+    if (const auto reason = rejected(line, meaning[line.layer], unknown_is_wall, !options.layers.empty())) {
       plan.vectors->rejected.push_back({s, *reason});
-    else
+    } else {
       plan.vectors->walls.push_back(s);
+      used.insert(line.layer);
+    }
   }
   plan.picture = render(*plan.vectors, std::max(width, 1), std::max(height, 1));
-  plan.notes.push_back(layer_note(content, meaning, unknown_is_wall));
+  plan.notes.push_back(layer_note(content.layers, used));
   set_scale(content, options, unit_per_px, plan);
   if (plan.m_per_px) {
     std::ostringstream origin;

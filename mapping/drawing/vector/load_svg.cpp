@@ -29,9 +29,10 @@ using Context = std::unique_ptr<cairo_t, Freer<cairo_destroy>>;
 struct Size {
   double width = 0.0;
   double height = 0.0;
+  double dpi = kCssDpi;  ///< 0 where no paper is stated
 };
 
-/// In CSS pixels (1/96 inch); the viewBox where the file states no absolute size.
+/// In CSS pixels (1/96 inch); the viewBox, in units of no length, where the file states no absolute size.
 Size natural_size(RsvgHandle* svg) {
   Size size;
   if (rsvg_handle_get_intrinsic_size_in_pixels(svg, &size.width, &size.height) != 0) return size;
@@ -39,7 +40,7 @@ Size natural_size(RsvgHandle* svg) {
   RsvgLength width{}, height{};
   RsvgRectangle box{};
   rsvg_handle_get_intrinsic_dimensions(svg, &has_width, &width, &has_height, &height, &has_box, &box);
-  return has_box != 0 ? Size{box.width, box.height} : Size{};
+  return has_box != 0 ? Size{box.width, box.height, 0.0} : Size{};
 }
 
 Handle open_svg(const std::filesystem::path& file) {
@@ -91,7 +92,7 @@ GrayImage load_svg(const std::filesystem::path& file, std::optional<double> dpi)
     throw Error(file.string(), "cannot be rendered", "export it as PDF or PNG instead");
   }
   cairo_surface_flush(surface.get());
-  return to_gray(surface.get(), zoom * kCssDpi);
+  return to_gray(surface.get(), zoom * size.dpi);
 }
 
 }  // namespace madori::mapping

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "core/result.hpp"
 #include "mapping/drawing/vector/door_leaves.hpp"
@@ -66,6 +68,35 @@ TEST(DxfUnits, AnAbsurdSizeHasNoUnit) {
   EXPECT_FALSE(choose_unit(evidence));
   evidence.extent = std::nan("");
   EXPECT_FALSE(choose_unit(evidence));
+}
+
+TEST(DxfUnits, SeveralThatExplainItAlikeAreNoChoice) {
+  DxfUnitEvidence evidence;
+  evidence.measurement = 1;
+  evidence.extent = 8400;  // 8.4 m in millimetres, 84 m in centimetres
+  EXPECT_FALSE(choose_unit(evidence));
+  evidence.door_radii = {90};
+  EXPECT_DOUBLE_EQ(choose_unit(evidence).value().metres, 0.01);
+}
+
+TEST(DxfUnits, HardlyAnybodyDrawsInDecimetresOrYardsUnlessTheFileSaysSo) {
+  DxfUnitEvidence evidence;
+  evidence.measurement = 1;
+  evidence.extent = 84;
+  EXPECT_DOUBLE_EQ(choose_unit(evidence).value().metres, 1.0);
+  evidence.insunits = 14;
+  EXPECT_DOUBLE_EQ(choose_unit(evidence).value().metres, 0.1);
+  evidence.insunits = 10;
+  EXPECT_DOUBLE_EQ(choose_unit(evidence).value().metres, 0.9144);
+}
+
+TEST(DxfUnits, FeetAndInchesFiguresMeanInches) {
+  DxfUnitEvidence evidence;
+  evidence.extent = 964;
+  evidence.imperial_texts = true;
+  EXPECT_DOUBLE_EQ(choose_unit(evidence).value().metres, 0.0254);
+  evidence.insunits = 2;
+  EXPECT_DOUBLE_EQ(choose_unit(evidence).value().metres, 0.3048);
 }
 
 TEST(DxfUnits, ReadsTheHeaderOnly) {
@@ -133,30 +164,99 @@ TEST(DoorLeaves, ADoorDrawnAjarIsKnownByTheLeafThatHangsInItsArc) {
   EXPECT_FALSE(lines[3].door_leaf);
 }
 
+/// A LINE of a DXF; `more`: further group codes.
+std::string dxf_line(const std::string& layer, double x1, double y1, double x2, double y2,
+                     const std::string& more = "") {
+  std::ostringstream text;
+  text << "0\nLINE\n8\n"
+       << layer << "\n"
+       << more << "10\n"
+       << x1 << "\n20\n"
+       << y1 << "\n11\n"
+       << x2 << "\n21\n"
+       << y2 << "\n";
+  return text.str();
+}
+
+std::string dxf_section(const std::string& name, const std::string& content) {
+  return "0\nSECTION\n2\n" + name + "\n" + content + "0\nENDSEC\n";
+}
+
+/// Walls and other lines of a DXF with these sections.
+std::pair<std::size_t, std::size_t> walls_and_others(const std::string& sections,
+                                                     const PlanOptions& options = {}) {
+  const test::TemporaryFolder folder;
+  const Plan plan = load_dxf(folder.write("drawn.dxf", sections + "0\nEOF\n"), options);
+  return {plan.vectors->walls.size(), plan.vectors->rejected.size()};
+}
+
+using Counts = std::pair<std::size_t, std::size_t>;
+
+TEST(LoadDxf, WhatIsSwitchedOffIsAWallOnlyWhereItsLayerIsNamed) {
+  const auto layer = [](const std::string& name, const std::string& flags) {
+    return "0\nLAYER\n2\n" + name + "\n" + flags + "6\nCONTINUOUS\n";
+  };
+  const std::string tables =
+      dxf_section("TABLES", "0\nTABLE\n2\nLAYER\n70\n3\n" + layer("WALL", "70\n0\n62\n7\n") +
+                                layer("WALL_OLD", "70\n0\n62\n-7\n") + layer("WALL_ICE", "70\n1\n62\n7\n") +
+                                "0\nENDTAB\n");
+  const std::string drawing =
+      tables +
+      dxf_section("ENTITIES", dxf_line("WALL", 0, 0, 20, 0) + dxf_line("WALL", 0, 0, 0, 10) +
+                                  dxf_line("WALL_OLD", 0, 5, 20, 5) + dxf_line("WALL_ICE", 0, 6, 20, 6) +
+                                  dxf_line("WALL", 0, 7, 20, 7, "60\n1\n"));
+  EXPECT_EQ(walls_and_others(drawing), Counts(2, 3));
+  PlanOptions options;
+  options.layers = {"WALL_OLD"};
+  EXPECT_EQ(walls_and_others(drawing, options), Counts(1, 4));
+}
+
+/// The sheet's frame lies beside the building, in another unit.
+TEST(LoadDxf, ALayoutCountsOnlyWhereTheModelIsEmpty) {
+  const std::string frame = dxf_line("WALL", 0, 0, 84, 0, "67\n1\n");
+  const std::string room = dxf_line("WALL", 0, 0, 20, 0) + dxf_line("WALL", 0, 0, 0, 10);
+  EXPECT_EQ(walls_and_others(dxf_section("ENTITIES", frame + room)), Counts(2, 0));
+  EXPECT_EQ(walls_and_others(dxf_section("ENTITIES", frame)), Counts(1, 0));
+}
+
+/// Files since R2007 are UTF-8 and name the code page of the computer all the same.
+TEST(LoadDxf, LayerNamesAreReadInUtf8AndInTheCodePage) {
+  const auto drawing = [](const std::string& wall, const std::string& machine) {
+    return dxf_section("HEADER", "9\n$DWGCODEPAGE\n3\nANSI_932\n") +
+           dxf_section("ENTITIES", dxf_line(wall, 0, 0, 20, 0) + dxf_line(machine, 0, 0, 0, 19));
+  };
+  EXPECT_EQ(walls_and_others(drawing("02_壁", "機械")), Counts(1, 1));
+  EXPECT_EQ(walls_and_others(drawing("02_\x95\xC7", "\x8B@\x8A\x42")), Counts(1, 1));
+}
+
+TEST(LoadDxf, APolyfaceMeshHasLinesAndALeaderIsNoWall) {
+  const auto vertex = [](const std::string& codes) { return "0\nVERTEX\n8\nWALL\n" + codes; };
+  const std::string mesh =
+      "0\nPOLYLINE\n100\nAcDbEntity\n8\nWALL\n100\nAcDbPolyFaceMesh\n66\n1\n70\n64\n71\n4\n72\n1\n" +
+      vertex("10\n0\n20\n0\n30\n0\n70\n192\n") + vertex("10\n20\n20\n0\n30\n0\n70\n192\n") +
+      vertex("10\n20\n20\n10\n30\n0\n70\n192\n") + vertex("10\n0\n20\n10\n30\n0\n70\n192\n") +
+      vertex("10\n0\n20\n0\n30\n0\n70\n128\n71\n1\n72\n2\n73\n3\n74\n4\n") + "0\nSEQEND\n";
+  const std::string leader =
+      "0\nLEADER\n100\nAcDbEntity\n8\n0\n100\nAcDbLeader\n71\n0\n72\n0\n76\n2\n"
+      "10\n0\n20\n0\n30\n0\n10\n5\n20\n5\n30\n0\n";
+  EXPECT_EQ(walls_and_others(dxf_section("ENTITIES", mesh + leader)), Counts(4, 1));
+}
+
 /// On a layer without a telling name the leaf is no wall; one that its layer calls a wall stays.
 TEST(LoadDxf, ADoorOnLayerZeroLosesItsLeaf) {
   const test::TemporaryFolder folder;
-  const auto line = [](const std::string& layer, double x1, double y1, double x2, double y2) {
-    std::ostringstream text;
-    text << "0\nLINE\n8\n"
-         << layer << "\n10\n"
-         << x1 << "\n20\n"
-         << y1 << "\n11\n"
-         << x2 << "\n21\n"
-         << y2 << "\n";
-    return text.str();
-  };
   const std::string arc =
       "0\nARC\n100\nAcDbEntity\n8\n0\n100\nAcDbCircle\n10\n5\n20\n0\n40\n0.9\n"
       "100\nAcDbArc\n50\n0\n51\n90\n";
   const std::string head = "0\nSECTION\n2\nENTITIES\n", tail = "0\nENDSEC\n0\nEOF\n";
-  const std::string walls = line("0", 0, 0, 5, 0) + line("0", 5.9, 0, 12, 0) + line("0", 0, 0, 0, 9);
+  const std::string walls =
+      dxf_line("0", 0, 0, 5, 0) + dxf_line("0", 5.9, 0, 12, 0) + dxf_line("0", 0, 0, 0, 9);
   const auto count = [&](const std::string& leaf) {
     return load_dxf(folder.write("door.dxf", head + walls + leaf + arc + tail), {}).vectors->walls.size();
   };
-  EXPECT_EQ(count(line("0", 5, 0, 5, 0.9)), 3U);
-  EXPECT_EQ(count(line("0", 5, 0, 5, 2.9)), 4U) << "a wall, longer than the door is wide";
-  EXPECT_EQ(count(line("WALL", 5, 0, 5, 0.9)), 4U);
+  EXPECT_EQ(count(dxf_line("0", 5, 0, 5, 0.9)), 3U);
+  EXPECT_EQ(count(dxf_line("0", 5, 0, 5, 2.9)), 4U) << "a wall, longer than the door is wide";
+  EXPECT_EQ(count(dxf_line("WALL", 5, 0, 5, 0.9)), 4U);
 }
 
 TEST(LoadDxf, ANamedUnitIsStrongerThanTheFile) {

@@ -61,6 +61,13 @@ class ImportDrawing : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
+TEST_F(ImportDrawing, ASiteThatCannotBeLookedAtIsSaidWithItsRemedy) {
+  ImportOptions o = options(draw_room(folder_));
+  o.site = folder_.path() / std::string(300, 'a');
+  const std::string said = refusal(o);  // of Error: what the library throws says no remedy
+  EXPECT_THAT(said, HasSubstr("cannot be looked at: File name too long - name another --site"));
+}
+
 TEST_F(ImportDrawing, MakesAWholeSite) {
   ImportOptions o = options(draw_room(folder_));
   o.m_per_px = 0.02;
@@ -119,6 +126,19 @@ TEST_F(ImportDrawing, APrintedScaleNeedsTheResolution) {
   const Site site = load_scaled_site(o.site);
   EXPECT_NEAR(site.scale->m_per_px, 0.02, 1e-12);
   EXPECT_EQ(site.scale->method, "paper");
+  EXPECT_GT(site.scale->relative_uncertainty, 0.0);
+  EXPECT_EQ(site.scale->residual_m, 0.0);
+}
+
+/// The units of a viewBox are no length of paper: a printed scale needs more.
+TEST_F(ImportDrawing, AnSvgThatStatesNoPaperHasNoResolution) {
+  const auto room = [this](const std::string& size) {
+    return folder_.write("room.svg", "<svg xmlns='http://www.w3.org/2000/svg' " + size +
+                                         " viewBox='0 0 100 70'><path d='M10 10H90V60H10Z' fill='none' "
+                                         "stroke='#000' stroke-width='1'/></svg>");
+  };
+  EXPECT_NEAR(load_plan(room("width='100mm' height='70mm'"), {}).picture.dpi, 5000 / 100.0 * 25.4, 1e-6);
+  EXPECT_EQ(load_plan(room("width='100%'"), {}).picture.dpi, 0);
 }
 
 TEST_F(ImportDrawing, BadInputIsRefusedWithoutATrace) {

@@ -3,13 +3,17 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/result.hpp"
 #include "mapping/picture/image_header.hpp"
+#include "mapping/picture/quiet_stderr.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::mapping {
@@ -38,6 +42,22 @@ class LoadImage : public ::testing::Test {
   }
   test::TemporaryFolder folder_;
 };
+
+/// Two threads read pictures at once, and the one that began first ends first.
+TEST(QuietStderr, TheLastOneGivesItBack) {
+  struct stat before {
+  }, during{}, after{};
+  ASSERT_EQ(::fstat(STDERR_FILENO, &before), 0);
+  auto first = std::make_unique<QuietStderr>();
+  auto second = std::make_unique<QuietStderr>();
+  first.reset();
+  ASSERT_EQ(::fstat(STDERR_FILENO, &during), 0);
+  second.reset();
+  ASSERT_EQ(::fstat(STDERR_FILENO, &after), 0);
+  EXPECT_NE(during.st_ino, before.st_ino);
+  EXPECT_EQ(after.st_ino, before.st_ino);
+  EXPECT_EQ(after.st_dev, before.st_dev);
+}
 
 TEST_F(LoadImage, TransparentBecomesWhite) {
   cv::Mat picture(2, 3, CV_8UC4, cv::Scalar(0, 0, 0, 0));

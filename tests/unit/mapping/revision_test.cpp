@@ -70,6 +70,17 @@ TEST_P(Revisions, EveryChangeIsFoundAndNothingElse) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Revisions, testing::Range(1U, 7U));
 
+TEST(Revision, WhatStaysIsAsProbableAsItWas) {
+  const Walls walls{{7, {{0, 0}, {10, 0}}, 0.6}, {9, {{0, 5}, {10, 5}}, 0.8}};
+  const Walls left = walls_without(walls, {{{4, 0}, {6, 0}}}, {.within = 1e-3, .shortest = 0.05});
+  ASSERT_EQ(left.size(), 3U);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    EXPECT_EQ(left[i].id, static_cast<int>(i) + 1);
+    EXPECT_EQ(left[i].probability, i < 2 ? 0.6 : 0.8);
+  }
+  EXPECT_EQ(left[2].segment, walls[1].segment);
+}
+
 TEST(Revision, AnotherBuildingIsNoRevision) {
   std::mt19937 random(7);
   const Walls2 one = building(random);

@@ -90,6 +90,20 @@ TEST(Site, RefusesListsAndMappingsOfOtherThings) {
   EXPECT_THAT(error_of(site + "? [a, b]\n: 1\n"), HasSubstr("no plain word"));
 }
 
+TEST(Site, RefusesADrawingOutsideItsFolder) {
+  for (const char* file : {"/etc/hostname", "../other/drawing.png", "..", "plans/a.png", "''"}) {
+    const std::string said = error_of(std::string("madori_site: 1\nname: hall\ndrawing: {file: ") + file +
+                                      ", width_px: 10, height_px: 5}\n");
+    EXPECT_THAT(said, HasSubstr("site.yaml:3: drawing.file")) << file;
+  }
+}
+
+TEST(Site, RefusesASecondDocumentThatNobodyWouldRead) {
+  EXPECT_THAT(error_of(std::string(kMinimal) + "---\nroute_metric: metres\n"),
+              HasSubstr("site.yaml:5: begins a second document"));
+  EXPECT_EQ(error_of(std::string("---\n") + kMinimal + "...\n"), "");
+}
+
 TEST(Site, RefusesASizeThatNoBuildingHas) {
   for (const char* scale : {"1e-300", "5.6e-10", "0.0001", "100000"})
     EXPECT_THAT(error_of("madori_site: 1\nname: hall\ndrawing: {file: a.png, width_px: 1000, height_px: 5}\n"

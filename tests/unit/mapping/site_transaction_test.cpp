@@ -45,6 +45,20 @@ TEST(SiteTransaction, CommitsPutsAndRemovals) {
   EXPECT_FALSE(fs::exists(folder.path() / "drawing.png"));
 }
 
+/// A person has to find the file that is meant.
+TEST(SiteTransaction, WhatItRefusesIsSaidOfTheSitesOwnFile) {
+  const test::TemporaryFolder folder;
+  SiteTransaction change(folder.path());
+  change.write("site.yaml", "madori_site: 1\nname: [a]\n");
+  try {
+    change.commit();
+    FAIL() << "it was taken";
+  } catch (const Error& e) {
+    EXPECT_EQ(std::string(e.what()).find(".staging"), std::string::npos) << e.what();
+    EXPECT_TRUE(std::string(e.what()).starts_with((folder.path() / "site.yaml").string())) << e.what();
+  }
+}
+
 TEST(SiteTransaction, RefusesASecondWriter) {
   const test::TemporaryFolder folder;
   const SiteTransaction first(folder.path());

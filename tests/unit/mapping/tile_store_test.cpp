@@ -87,6 +87,13 @@ TEST(TileStore, FetchesOnceAndWorksOfflineAfterwards) {
   EXPECT_EQ(second.report.already_there, 4U);
 }
 
+TEST(TileStore, AMonsterIsRefusedBeforeItIsDecoded) {
+  std::string monster = picture(256);
+  constexpr std::size_t kWidth = 16, kHeight = 20;  // in IHDR, big-endian
+  for (const std::size_t at : {kWidth, kHeight}) monster.replace(at, 4, std::string("\0\0\x75\x30", 4));
+  EXPECT_THAT(tile_image_fault(monster), HasSubstr("30000 x 30000 pixels"));
+}
+
 struct Misbehaviour {
   const char* name;
   TileReply reply;
