@@ -34,7 +34,7 @@ function Rail(props: { page: PageName; role: Session["role"]; needsPin: boolean;
       <span class="spring" />
       {props.needsPin && <button type="button" class="target tool" onClick={props.leave}><Icon name="bad" /><span>{t("nav.leave")}</span></button>}
       <button type="button" class="target tool" lang={nextLanguage()} onClick={() => language.set(nextLanguage())}>{textIn(nextLanguage(), "language.name")}</button>
-      <button type="button" class="target" aria-label={t("nav.theme")} onClick={() => theme.set(theme.value === "dark" ? "light" : "dark")}><Icon name="theme" /></button>
+      <button type="button" class="target tool" aria-label={t("nav.theme")} onClick={() => theme.set(theme.value === "dark" ? "light" : "dark")}><Icon name="theme" /><span class="theme">{t("nav.theme")}</span></button>
     </nav>
   );
 }

@@ -29,6 +29,14 @@ describe("drawing routes", () => {
     expect(draw(left, null, [9, 9], 0.5).node).toBe(2);
   });
 
+  it("does not give the number of a removed point again", () => {
+    const plan = draw(draw(empty, null, [0, 0], 0.5).plan, 0, [4, 0], 0.5).plan;
+    const left = remove(plan, 1);
+    const anew = draw(left, null, [9, 9], 0.5);
+    expect(anew.node).toBe(2);
+    expect(draw(remove(anew.plan, 2), null, [8, 8], 0.5).node).toBe(3);
+  });
+
   it("makes a leg one-way and two-way again", () => {
     const plan = draw(draw(empty, null, [0, 0], 0.5).plan, 0, [4, 0], 0.5).plan;
     for (const [ways, legs] of [["out", [[0, 1]]], ["in", [[1, 0]]], ["both", [[0, 1], [1, 0]]]] as const) {

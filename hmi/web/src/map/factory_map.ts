@@ -84,13 +84,13 @@ export class FactoryMap {
   private readonly unwatch: () => void;
 
   constructor(target: HTMLElement) {
-    const layer = (source: VectorSource, style: (typeof styles)["seen" | "route" | "sketch"] | typeof styles.wall) => new VectorLayer({ source, style: style as never });
+    const layer = (source: VectorSource, style: (typeof styles)["seen" | "sketch"] | typeof styles.wall) => new VectorLayer({ source, style: style as never });
     this.map = new OlMap({
       target,
       controls: [],
       pixelRatio: 1,
       interactions: interactionDefaults({ altShiftDragRotate: false, pinchRotate: false, doubleClickZoom: false }),
-      layers: [this.drawing, this.seenPoints, layer(this.walls, styles.wall), layer(this.seen, styles.seen), layer(this.routes, styles.route), layer(this.sketch, styles.sketch)],
+      layers: [this.drawing, this.seenPoints, layer(this.walls, styles.wall), layer(this.seen, styles.seen), new VectorLayer({ source: this.routes, style: styles.route, declutter: true }), layer(this.sketch, styles.sketch)],
       view: new View({ projection: mapProjection([0, 0, 10, 10]), center: [5, 5], resolution: 0.1 }),
     });
     this.live = new LiveOverlay(this.map);

@@ -10,7 +10,7 @@ export function wall(): Style {
   return new Style({ stroke: new Stroke({ color: palette().ink, width: 2 }) });
 }
 
-/** Reliability by width and dashes as well as by colour: confirmed walls are bold, missing ones broken, displaced ones dotted. */
+/** Reliability by width and dashes as well as by colour: confirmed walls are bold, missing ones dotted, displaced ones broken. */
 export function seen(feature: FeatureLike): Style[] {
   const { ink, amber, paper } = palette();
   const state = feature.get("state") as string;
@@ -29,7 +29,7 @@ function arrow(feature: FeatureLike): Style {
   return new Style({
     geometry: new Point([(ax + bx) / 2, (ay + by) / 2]),
     image: new RegularShape({
-      points: 3, radius: 11, rotation: Math.atan2(bx - ax, by - ay), rotateWithView: true,
+      points: 3, radius: 11, declutterMode: "none", rotation: Math.atan2(bx - ax, by - ay), rotateWithView: true,
       fill: new Fill({ color: palette().ink }),
     }),
   });
@@ -45,12 +45,13 @@ function heading(degrees: number): Style {
   const angle = (degrees * Math.PI) / 180;
   return new Style({
     image: new RegularShape({
-      points: 3, radius: 9, rotation: Math.PI / 2 - angle, displacement: [0, 24],
+      points: 3, radius: 9, declutterMode: "none", rotation: Math.PI / 2 - angle, displacement: [0, 24],
       fill: new Fill({ color: palette().ink }),
     }),
   });
 }
 
+/** Of names that would lie on one another the map shows one; points and legs all (`declutterMode`). */
 export function route(feature: FeatureLike): Style | Style[] {
   const { ink, paper, grey, blue, red } = palette();
   if (feature.get("kind") === "leg") {
@@ -63,10 +64,10 @@ export function route(feature: FeatureLike): Style | Style[] {
   const stroke = new Stroke({ color: chosen ? blue : feature.get("faulty") ? red : ink, width: chosen ? 6 : 3 });
   const fill = new Fill({ color: paper });
   const image = node.station
-    ? new RegularShape({ points: 4, radius: chosen ? 19 : 15, angle: Math.PI / 4, stroke, fill })
-    : new Circle({ radius: chosen ? 12 : 8, stroke, fill });
+    ? new RegularShape({ points: 4, radius: chosen ? 19 : 15, angle: Math.PI / 4, stroke, fill, declutterMode: "none" })
+    : new Circle({ radius: chosen ? 12 : 8, stroke, fill, declutterMode: "none" });
   const words = node.station || node.name !== "" ? text(nodeName(node), -28, ink) : undefined;
-  const dot = new Style({ image, text: words });
+  const dot = new Style({ image, text: words, zIndex: chosen ? 1 : 0 });  // the name of the chosen one first
   return node.heading_deg === null ? dot : [dot, heading(node.heading_deg)];
 }
 

@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { api } from "../api";
 import type { Event, Session } from "../api_types";
+import { dayText, momentText } from "../figures";
 import { kindText, noticeText, useText } from "../i18n";
 import type { Content } from "../content";
 import { usePolled } from "../store";
@@ -20,7 +21,7 @@ function EventRow({ event }: { event: Event }) {
   const bad = event.severity !== "info";
   return (
     <li class={bad ? "bad" : ""}>
-      <time dateTime={new Date(event.stamp * 1000).toISOString()}>{new Date(event.stamp * 1000).toLocaleString()}</time>
+      <time dateTime={new Date(event.stamp * 1000).toISOString()}>{momentText(event.stamp)}</time>
       <span>
         {bad && <><Icon name="warning" /><span class="unseen">{t(event.severity === "stop" ? "history.stop" : "history.warning")}</span></>} {noticeText(t, "cause", event.what)}
         {event.remedy.text !== "" && <small>{t("history.remedy", { remedy: noticeText(t, "remedy", event.remedy) })}</small>}
@@ -65,7 +66,7 @@ function StatisticsCard() {
         {figure(t("history.driving"), t("unit.hours", { value: hours(value.driving_s ?? 0) }))}
         {figure(t("history.standing"), t("unit.hours", { value: hours(value.standing_s ?? 0) }))}
       </dl>
-      {value.since !== null && value.since > 0 && <p class="quiet">{t("history.since", { date: new Date(value.since * 1000).toLocaleDateString() })}</p>}
+      {value.since !== null && value.since > 0 && <p class="quiet">{t("history.since", { date: dayText(value.since) })}</p>}
       <h2>{t("history.stops")}</h2>
       {stops.length === 0 && <p class="quiet">{t("history.no_stops")}</p>}
       <ul class="bars">

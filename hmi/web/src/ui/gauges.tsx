@@ -1,4 +1,5 @@
 import type { ComponentChildren } from "preact";
+import { certainty } from "../figures";
 import { useText } from "../i18n";
 import type { Frame } from "../live/live_socket";
 import { Icon } from "./icon";
@@ -26,7 +27,7 @@ function Gauge(props: { name: string; bad?: boolean; age: number; children: Comp
   );
 }
 
-/** Place, score, accuracy, speed, battery: each with the age of what measured it. */
+/** Place (and how probable it is), score, accuracy, speed, battery: each with the age of what measured it. */
 export function Gauges({ frame }: { frame: Frame | null }) {
   const t = useText();
   const age = useAge(frame);
@@ -39,7 +40,7 @@ export function Gauges({ frame }: { frame: Frame | null }) {
   const power = battery !== null ? t("unit.percent", { value: (100 * battery).toFixed(0) }) : t("unit.volts", { value: (battery_v ?? 0).toFixed(1) });
   return (
     <dl class="gauges">
-      <Gauge name={t("drive.place")} bad={pose.health !== "LOCALIZED"} age={known ? Math.max(lidar, age + pose.age_s) : age}>{t(`health.${pose.health}`)}</Gauge>
+      <Gauge name={t("drive.place")} bad={pose.health !== "LOCALIZED"} age={known ? Math.max(lidar, age + pose.age_s) : age}>{t(`health.${pose.health}`)}{known && typeof pose.place === "number" && ` ${t("unit.percent", { value: certainty(pose.place) })}`}</Gauge>
       <Gauge name={t("drive.score")} bad={known && typeof score === "number" && score < 0.5} age={lidar}>{known && typeof score === "number" ? t("unit.percent", { value: (100 * score).toFixed(0) }) : "–"}</Gauge>
       <Gauge name={t("drive.accuracy")} bad={known && accuracy > 0.5} age={known ? Math.max(lidar, drive) : age}>{known && accuracy < 100 ? t("unit.plus_minus_cm", { value: (100 * accuracy).toFixed(0) }) : "–"}</Gauge>
       <Gauge name={t("drive.speed")} age={drive}>{typeof speed === "number" ? t("unit.mps", { value: Math.abs(speed).toFixed(2) }) : "–"}</Gauge>

@@ -1,7 +1,7 @@
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { api } from "../api";
 import type { Order, RouteNode } from "../api_types";
-import { noticeText, useText } from "../i18n";
+import { noticeText, useText, type Translate } from "../i18n";
 import { en, type TextKey } from "../i18n/en";
 import { usePolled } from "../store";
 import { Icon } from "./icon";
@@ -16,7 +16,7 @@ export const nameOf = (nodes: readonly RouteNode[], id: number): string => {
   return name === "" ? String(id) : name;
 };
 
-const wayOf = (nodes: readonly RouteNode[], order: Order) => order.stations.map((id) => nameOf(nodes, id)).join(" → ");
+const wayOf = (t: Translate, nodes: readonly RouteNode[], order: Order) => order.stations.map((id, i) => (order.stops[i]?.gone ? t("drive.gone_station", { id }) : nameOf(nodes, id))).join(" → ");
 
 function NewOrder(props: { stations: readonly RouteNode[]; done: () => void }) {
   const t = useText();
@@ -27,14 +27,13 @@ function NewOrder(props: { stations: readonly RouteNode[]; done: () => void }) {
   };
   return (
     <section class="new-order">
-      <h3>{t("drive.choose")}</h3>
-      <p class="chosen" aria-live="polite">{chosen.map((id) => nameOf(props.stations, id)).join(" → ") || t("drive.chosen.none")}</p>
+      <h3 class="chosen" aria-live="polite">{chosen.map((id) => nameOf(props.stations, id)).join(" → ") || t("drive.choose")}</h3>
       <div class="buttons stations">
         {props.stations.map((node) => (
           <button key={node.id} type="button" class="target" onClick={() => setChosen([...chosen, node.id])}>{nameOf(props.stations, node.id)}</button>
         ))}
       </div>
-      <div class="buttons">
+      <div class="buttons send">
         <Tool icon="back" label={t("drive.back")} onClick={() => (chosen.length > 0 ? setChosen(chosen.slice(0, -1)) : props.done())} />
         <Tool icon="repeat" label={t("drive.repeat", { count: repeat })} onClick={() => setRepeat(repeats[(repeats.indexOf(repeat) + 1) % repeats.length] ?? 1)} />
         <Tool icon="next" label={t("drive.send")} primary disabled={chosen.length === 0} onClick={() => void send()} />
@@ -48,13 +47,15 @@ function OrderTools(props: { order: Order; queue: readonly number[]; change: (ac
   const t = useText();
   const { order, queue, change } = props;
   const at = queue.indexOf(order.id);
+  const tools = useRef<HTMLDivElement>(null);
+  useEffect(() => tools.current?.scrollIntoView({ block: "nearest" }), []);  // once: the list stays where a finger moves it
   const move = (by: number) => {
     const ids = queue.filter((id) => id !== order.id);
     ids.splice(at + by, 0, order.id);
     change(() => api.reorder({ ids }));
   };
   return (
-    <div class="buttons" role="group" aria-label={t("drive.order", { id: order.id })} ref={(tools) => tools?.scrollIntoView({ block: "nearest" })}>
+    <div class="buttons" role="group" aria-label={t("drive.order", { id: order.id })} ref={tools}>
       <Tool icon="up" label={t("drive.earlier")} disabled={at <= 0} onClick={() => move(-1)} />
       <Tool icon="down" label={t("drive.later")} disabled={at < 0 || at === queue.length - 1} onClick={() => move(1)} />
       <Tool icon="bin" label={t("drive.cancel")} onClick={() => change(() => api.cancelOrder(order.id))} />
@@ -70,7 +71,7 @@ function OrderRow(props: { order: Order; nodes: readonly RouteNode[]; chosen: bo
     <button type="button" class="target row" aria-pressed={props.chosen} onClick={props.choose}>
       <Icon name={order.status === "running" ? "drive" : order.status === "done" ? "good" : order.status === "queued" ? "list" : "bad"} />
       <span>
-        <strong>{wayOf(props.nodes, order)}</strong>
+        <strong>{wayOf(t, props.nodes, order)}</strong>
         <small>
           {status in en ? t(status as TextKey) : order.status}
           {order.repeat > 1 && ` · ${t("drive.round", { round: (order.round ?? 0) + 1, count: order.repeat })}`}
@@ -87,7 +88,7 @@ function Finished({ nodes, again }: { nodes: readonly RouteNode[]; again: () => 
   const [chosen, setChosen] = useState<number | null>(null);
   return (
     <>
-      <h3>{t("drive.finished")}</h3>
+      {value && value.length > 0 && <h3>{t("drive.finished")}</h3>}
       {(value ?? []).slice(0, 10).map((order) => (
         <div key={order.id}>
           <OrderRow order={order} nodes={nodes} chosen={order.id === chosen} choose={() => setChosen(order.id === chosen ? null : order.id)} />

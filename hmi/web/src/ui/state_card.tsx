@@ -1,6 +1,7 @@
 import type { Live } from "../api_types";
 import { noticeText, useText } from "../i18n";
 import { en, type TextKey } from "../i18n/en";
+import { timeText } from "../figures";
 import { deviceName } from "../notice_text";
 import type { Frame } from "../live/live_socket";
 import { live } from "../live/live_socket";
@@ -68,8 +69,7 @@ export function StateCard({ frame }: { frame: Frame | null }) {
       {remedy.text !== "" && <p class="remedy"><Icon name="next" /> {noticeText(t, "remedy", remedy)}</p>}
       <Silent frame={frame} age={age} />
       <p class="quiet">
-        {goal !== "" && <span>{t("state.to", { goal })} </span>}
-        {since > 0 && t("state.since", { time: new Date(since * 1000).toLocaleTimeString() })} <Stale age={age} />
+        {[goal !== "" && t("state.to", { goal }), since > 0 && t("state.since", { time: timeText(since) })].filter(Boolean).join(" · ")} <Stale age={age} />
       </p>
     </section>
   );

@@ -31,7 +31,7 @@ export function Tabs<Name extends string>(props: { label: string; tabs: readonly
           </button>
         ))}
       </div>
-      <div class="tab-panel" id={`panel-${shown}`} role="tabpanel" aria-labelledby={`tab-${shown}`} tabIndex={0}>{props.children}</div>
+      <div key={shown} class="tab-panel" id={`panel-${shown}`} role="tabpanel" aria-labelledby={`tab-${shown}`} tabIndex={0}>{props.children}</div>
     </div>
   );
 }

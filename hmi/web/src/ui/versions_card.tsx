@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { api } from "../api";
 import type { SiteVersion, VersionDiff } from "../api_types";
+import { momentText } from "../figures";
 import { useText } from "../i18n";
 import { usePolled } from "../store";
 import { Question } from "./question";
@@ -43,7 +44,7 @@ export function VersionsCard({ may }: { may: boolean }) {
         {[...(value ?? [])].reverse().slice(0, 50).map((version) => (
           <li key={version.number}>
             <button type="button" class="target row" aria-pressed={chosen?.number === version.number} onClick={() => choose(version)}>
-              <b>{version.number}</b><span><strong>{savedText(t, version.sentence)}</strong><small>{new Date(1000 * version.stamp).toLocaleString()} · {savedText(t, version.author)}</small></span>
+              <b>{version.number}</b><span><strong>{savedText(t, version.sentence)}</strong><small>{momentText(version.stamp)} · {savedText(t, version.author)}</small></span>
             </button>
             {chosen?.number === version.number && diff && <Difference diff={diff} />}
             {chosen?.number === version.number && may && version.number !== newest?.number && <div class="buttons"><Tool icon="undo" label={t("versions.restore")} onClick={() => setAsks(true)} /></div>}

@@ -73,8 +73,9 @@ export function WhereCard(props: { placing: Placing; role: Session["role"]; wall
       </div>
       {said && <Said />}
       <p class={contradicted.length > 0 ? "bad" : "quiet"} data-contradicted={contradicted.length}>
-        {fit && pose ? t("locate.score", { score: (100 * fit.share).toFixed(0) }) : t("where.no_scan")}
-        {contradicted.length > 0 && ` ${t("where.contradicted", { count: contradicted.length })}`}
+        {fit === null && t("where.no_scan")}
+        {fit && byHand && <span>{t("where.on_walls", { share: (100 * fit.share).toFixed(0) })} </span>}
+        {contradicted.length > 0 && t("where.contradicted", { count: contradicted.length })}
       </p>
       <div class="buttons">
         {may && <Tool icon="pin" label={t("where.anyway")} disabled={pose === null} onClick={() => say(true)} />}

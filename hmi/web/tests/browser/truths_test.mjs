@@ -1,5 +1,7 @@
 // What the page itself does wrong or right, before a made-up vehicle (numbers of docs/explanation/operator-page.md):
-// 3 and 8 old and unknown data, 11 to 13 and 15 places of buttons, 17 and 19 words, 20 a phone held upright, focus order.
+// 3 and 8 old and unknown data, 11 to 13 and 15 places of buttons, 17 and 19 words, 20 a phone held upright, focus order;
+// scrolled: lists stay where a finger moves them; login: all of it on the smallest panel;
+// place: how probable it is.
 // Usage: truths_test.mjs PAGE [FOLDER_FOR_PICTURES]
 import { existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
@@ -69,6 +71,10 @@ const failed = [
     vehicle.say({ pose: { x: 0, y: 0, yaw: 0, covariance: [1e4, 0, 1e4, 9], health: "LOST", health_reason: "", age_s: 0 } });
     await panel.page.locator(".map-canvas[data-vehicle=hidden][data-scan=hidden]").waitFor({ timeout: 3000 });
     await panel.page.locator("[data-banner=lost]").waitFor({ timeout: 3000 });
+  })),
+  ...(await small("place", kSmall, async (panel) => {
+    vehicle.say({ pose: { x: 20, y: 20, yaw: 0, covariance: [0.01, 0, 0.01, 0.001], health: "AMBIGUOUS", health_reason: "", age_s: 0, place: 0.554 } });
+    await panel.page.locator(".gauge", { hasText: "two look alike 55 %" }).waitFor({ timeout: 3000 });
   })),
   ...(await small("frozen", kSmall, async (panel) => {
     vehicle.hold(true);  // the socket stays open, nothing comes
@@ -147,6 +153,28 @@ const failed = [
     for (const digit of ["1", "6", "0"]) await within(panel, `.login .pad button:text-is("${digit}")`, { least_px: 56 });
     await within(panel, ".command.stop", { least_px: 60 });
     await look(panel, "phone-pin");
+  })),
+  ...(await small("scrolled", kSmall, async (panel) => {
+    const list = panel.page.locator(".tab-panel");
+    const top = () => list.evaluate((element) => element.scrollTop);
+    await panel.page.locator(".row", { hasText: "Press 1 → Dock 1" }).first().tap();
+    await panel.page.getByRole("button", { name: "Earlier" }).waitFor();
+    await list.evaluate((element) => element.scrollTo(0, 0));
+    await panel.page.waitForTimeout(2500);  // the orders were asked for twice
+    expect((await top()) === 0, "the list of orders goes back to the chosen one by itself");
+    await list.evaluate((element) => element.scrollTo(0, 300));
+    expect((await top()) > 0, "the list of orders is too short for this test");
+    await touch(panel, "By hand", { role: "tab" });
+    await within(panel, 'button[aria-label="Turn left"]', { least_px: 92 });
+    await touch(panel, "Orders", { role: "tab" });
+    await touch(panel, "New order");
+    await within(panel, ".new-order .primary", { least_px: 92 });
+  })),
+  ...(await small("login", kSmall, async (panel) => {
+    vehicle.answer("/api/session", { role: "none", needs_pin: true });
+    await panel.page.reload();
+    await panel.page.locator(".login").waitFor();
+    for (const button of ['.login .pad button:text-is("0")', ".login [type=submit]", ".login .asked button", ".command.stop"]) await within(panel, button, { least_px: 90 });
   })),
   ...(await small("focus", kSmall, async (panel) => {
     await panel.page.locator(".rail button").first().focus();

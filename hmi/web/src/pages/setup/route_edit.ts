@@ -1,10 +1,11 @@
 import type { Finding, RouteNode, Routes } from "../../api_types";
 import { distanceToSegment, nearest, type XY } from "../../map/geometry";
 
-export type RoutePlan = Pick<Routes, "nodes" | "legs">;
+/** `next`: numbers below it were given already. A deleted one is not given again within an edit: the server would take it for a point that was moved, and orders would lead there. */
+export type RoutePlan = Pick<Routes, "nodes" | "legs"> & { next?: number };
 export type Ways = "both" | "out" | "in";
 
-const freeId = (nodes: readonly RouteNode[]) => nodes.reduce((most, node) => Math.max(most, node.id), -1) + 1;
+const freeId = ({ nodes, next = 0 }: RoutePlan) => nodes.reduce((most, node) => Math.max(most, node.id + 1), next);
 const same = (leg: readonly number[], from: number, to: number) => leg[0] === from && leg[1] === to;
 const has = (plan: RoutePlan, from: number, to: number) => plan.legs.some((leg) => same(leg, from, to));
 
@@ -14,7 +15,7 @@ export function nodeAt(plan: RoutePlan, at: XY, reach: number): RouteNode | unde
 }
 
 const fresh = (plan: RoutePlan, [x, y]: XY): RouteNode => ({
-  id: freeId(plan.nodes), x, y, name: "", station: false, heading_deg: null, speed_mps: null, action: "",
+  id: freeId(plan), x, y, name: "", station: false, heading_deg: null, speed_mps: null, action: "",
 });
 
 /** The two nodes of the leg within `reach` of a place. */
@@ -43,7 +44,7 @@ function split(plan: RoutePlan, [a, b]: [RouteNode, RouteNode], at: XY): { plan:
     if (same(leg, a.id, b.id)) return [[a.id, node.id], [node.id, b.id]] as RoutePlan["legs"];
     return same(leg, b.id, a.id) ? ([[b.id, node.id], [node.id, a.id]] as RoutePlan["legs"]) : [leg];
   });
-  return { plan: { nodes: [...plan.nodes, node], legs }, node };
+  return { plan: { ...plan, nodes: [...plan.nodes, node], legs }, node };
 }
 
 /** Joins the last node to the node at a place; where none is near it is made, on a leg where one is near. */
@@ -56,17 +57,17 @@ export function draw(plan: RoutePlan, last: number | null, at: XY, reach: number
   }
   if (!node) {
     node = fresh(plan, at);
-    base = { nodes: [...plan.nodes, node], legs: plan.legs };
+    base = { ...plan, nodes: [...plan.nodes, node] };
   }
   if (last === null || last === node.id) return { plan: base, node: node.id };
   const legs = [...base.legs];
   for (const [from, to] of [[last, node.id], [node.id, last]] as [number, number][])
     if (!legs.some((leg) => same(leg, from, to))) legs.push([from, to]);
-  return { plan: { nodes: base.nodes, legs }, node: node.id };
+  return { plan: { ...base, legs }, node: node.id };
 }
 
 export function remove(plan: RoutePlan, id: number): RoutePlan {
-  return { nodes: plan.nodes.filter((node) => node.id !== id), legs: plan.legs.filter(([from, to]) => from !== id && to !== id) };
+  return { next: Math.max(plan.next ?? 0, id + 1), nodes: plan.nodes.filter((node) => node.id !== id), legs: plan.legs.filter(([from, to]) => from !== id && to !== id) };
 }
 
 export function update(plan: RoutePlan, changed: RouteNode): RoutePlan {

@@ -23,7 +23,7 @@ function useRoutes(site: Site, routes: Routes) {
     site: site.name,
     kind: "routes",
     loaded: { revision: routes.revision, value: { nodes: routes.nodes, legs: routes.legs } },
-    save: (revision, value) => api.saveRoutes({ revision, ...value }),
+    save: (revision, { nodes, legs }) => api.saveRoutes({ revision, nodes, legs }),
     reload: async () => {
       const theirs = await api.routes();
       return { revision: theirs.revision, value: { nodes: theirs.nodes, legs: theirs.legs } };
@@ -36,7 +36,7 @@ function useChecks(plan: RoutePlan, first: readonly Finding[]): readonly Finding
   const [findings, setFindings] = useState<readonly Finding[]>(first);
   useEffect(() => {
     const timer = setTimeout(() => {
-      void api.checkRoutes({ revision: "", ...plan }).then((checked) => setFindings(checked.findings), () => undefined);
+      void api.checkRoutes({ revision: "", nodes: plan.nodes, legs: plan.legs }).then((checked) => setFindings(checked.findings), () => undefined);
     }, 250);
     return () => clearTimeout(timer);
   }, [plan]);
@@ -52,8 +52,9 @@ function useTeaching(edit: Edit<RoutePlan>, atOnce: boolean) {
     void attempt(async () => {
       const way = await api.drivenWay();
       if (way.length_m < kWorthTeaching_m) throw new Refused(0, "way-too-short", "the way driven by hand is shorter than a metre");
-      const { nodes, legs } = await api.teachRoutes({ revision: "", ...now.current.value });
-      now.current.change({ nodes, legs });
+      const { next, ...plan } = now.current.value;
+      const { nodes, legs } = await api.teachRoutes({ revision: "", ...plan });
+      now.current.change({ next, nodes, legs });
     });
   useEffect(() => {
     void api.drivenWay().then((way) => setLength(way.length_m), () => undefined);

@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import type { ScaleResult, Site, Walls } from "../../api_types";
+import { uncertainty } from "../../figures";
 import { useText } from "../../i18n";
 import { Tool } from "../../ui/tool";
 import { KnownScale } from "./known_scale";
@@ -23,9 +24,10 @@ type Way = "known" | "pairs" | "overlay";
 export function ScaleStep({ site, walls, saved, next }: { site: Site; walls: Walls; saved: () => void; next: () => void }) {
   const t = useText();
   const [way, setWay] = useState<Way>("known");
+  const sure = uncertainty(site.scale?.relative_uncertainty ?? 0);
   const ways = (
     <>
-      <p class="facts">{site.scale ? t("scale.now", { scale: (1000 * site.scale.m_per_px).toFixed(3), percent: (100 * site.scale.relative_uncertainty).toFixed(2) }) : t("scale.none")}</p>
+      <p class="facts">{site.scale ? t(sure === "" ? "scale.now.unsure" : "scale.now", { scale: (1000 * site.scale.m_per_px).toFixed(3), percent: sure }) : t("scale.none")}</p>
       <div class="buttons" role="group" aria-label={t("scale.ways")}>
         <Tool icon="ruler" label={t("scale.length")} pressed={way === "known"} onClick={() => setWay("known")} />
         <Tool icon="pin" label={t("scale.pairs")} pressed={way === "pairs"} onClick={() => setWay("pairs")} />
