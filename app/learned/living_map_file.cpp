@@ -1,8 +1,10 @@
 #include "app/learned/living_map_file.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "app/learned/earlier_walls.hpp"
+#include "core/clock.hpp"
 #include "core/result.hpp"
 #include "localization/ndt_map/hybrid_map_file.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -13,6 +15,24 @@ namespace madori::app {
 
 using localization::CellState;
 using localization::HybridMap;
+
+namespace {
+
+/// What is kept was seen before now. A look of a later time was stamped by a clock that was wrong; left as it
+/// is, its cells would learn nothing until that time comes, and all days would be written as that day.
+HybridMap seen_until(HybridMap kept, Stamp now) {
+  if (kept.newest() <= now) return kept;
+  HybridMap map(kept.options());
+  const auto& cells = kept.cells();
+  for (localization::CellTree::Index i = 0; i < cells.size(); ++i) {
+    localization::MapCell cell = cells[i];
+    cell.layers.seen = std::min(cell.layers.seen, now);
+    map.restore(cells.place(i), cell);
+  }
+  return map;
+}
+
+}  // namespace
 
 HybridMap load_living_map(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file))
@@ -34,7 +54,7 @@ LivingMap begin_living_map(const std::filesystem::path& site, const mapping::Wal
         !are_earlier_walls(site, kept.value().walls))
       reason = "the walls have changed since";
     if (reason.empty())
-      begun.map = std::move(kept).value().map;
+      begun.map = seen_until(std::move(kept).value().map, clock_now());
     else
       begun.message = file.string() + " is not used: " + reason + "; a new one is begun";
   }

@@ -16,7 +16,7 @@ inline constexpr const char* kLivingMapFile = "learned/living_map.bin";
 
 /// What earlier drives kept with a site, with these walls and what else the site's drawing shows drawn into
 /// it, also where walls were edited since; an empty one where nothing usable is kept, with the reason in
-/// `message` where there is one.
+/// `message` where there is one. What a clock that was ahead has stamped later than now counts as seen now.
 struct LivingMap {
   localization::HybridMap map;
   std::string message;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 #include "core/fnv1a.hpp"
 #include "core/result.hpp"
@@ -21,6 +22,7 @@ using localization::ByteWriter;
 constexpr std::string_view kHead = "MADORI drive 1\n";
 constexpr std::uint32_t kMostBytes = 16U << 20U;  ///< of a record: more is damage
 constexpr std::size_t kSumBytes = sizeof(std::uint64_t);
+constexpr std::size_t kMostWaitingBytes = 64U << 10U;
 
 /// Whether the payload was one that is known.
 bool hand_out(std::string_view payload, const DriveReader& reader) {
@@ -71,21 +73,36 @@ std::uintmax_t read_drive(const std::filesystem::path& file, const DriveReader& 
   }
 }
 
-DriveJournal::DriveJournal(const std::filesystem::path& file, std::uintmax_t whole) {
-  std::error_code failed;
-  if (whole > 0) std::filesystem::resize_file(file, whole, failed);
-  file_.reset(std::fopen(file.c_str(), whole > 0 ? "ab" : "wb"));
-  if (!file_ || failed)
+DriveJournal::DriveJournal(const std::filesystem::path& file, std::uintmax_t whole)
+    : file_(std::fopen(file.c_str(), "ab")), whole_(whole) {
+  if (!file_ || !cut_to_whole())
     throw Error(file.string(), "cannot be written", "check the folder's permissions and free space");
-  if (whole == 0 && std::fwrite(kHead.data(), 1, kHead.size(), file_.get()) != kHead.size())
-    problem_ = std::strerror(errno);
+  (void)std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // what could not be written shall not come later
+  if (whole == 0) waiting_ = kHead;
+  flush();
+}
+
+bool DriveJournal::cut_to_whole() {
+  return ::ftruncate(fileno(file_.get()), static_cast<off_t>(whole_)) == 0;
+}
+
+void DriveJournal::flush() {
+  const std::string records = std::exchange(waiting_, {});
+  if (std::fwrite(records.data(), 1, records.size(), file_.get()) == records.size()) {
+    whole_ += records.size();
+    return;
+  }
+  problem_ = std::strerror(errno);
+  std::clearerr(file_.get());
+  (void)cut_to_whole();
+  if (whole_ == 0) waiting_ = kHead;
 }
 
 void DriveJournal::put(const std::string& payload_and_sum) {
   const auto size = static_cast<std::uint32_t>(payload_and_sum.size());
-  const bool good = std::fwrite(&size, sizeof size, 1, file_.get()) == 1 &&
-                    std::fwrite(payload_and_sum.data(), 1, size, file_.get()) == size;
-  if (!good) problem_ = std::strerror(errno);
+  waiting_.append(reinterpret_cast<const char*>(&size), sizeof size);
+  waiting_ += payload_and_sum;
+  if (waiting_.size() > kMostWaitingBytes) flush();
 }
 
 void DriveJournal::add(const OdometryReading& reading) {
@@ -108,11 +125,12 @@ void DriveJournal::add(const DriveScan& scan) {
     out.put(static_cast<float>(p.y_m));
   }
   put(out.take());
-  if (std::fflush(file_.get()) != 0) problem_ = std::strerror(errno);
+  flush();
 }
 
 void DriveJournal::sync() {
-  if (std::fflush(file_.get()) != 0 || ::fdatasync(fileno(file_.get())) != 0) problem_ = std::strerror(errno);
+  flush();
+  if (::fdatasync(fileno(file_.get())) != 0) problem_ = std::strerror(errno);
 }
 
 }  // namespace madori::app

@@ -51,8 +51,14 @@ class DriveJournal {
     void operator()(std::FILE* file) const { (void)std::fclose(file); }
   };
   void put(const std::string& payload_and_sum);
+  /// All that waits reaches the file, or nothing of it: behind a torn record nothing could be read again.
+  /// What a full disk does not take is missing as a scan is that was dropped.
+  void flush();
+  [[nodiscard]] bool cut_to_whole();
 
   std::unique_ptr<std::FILE, Close> file_;
+  std::uintmax_t whole_;  ///< bytes of the file, all of them whole records
+  std::string waiting_;   ///< records that have still to reach it
   std::string problem_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "app/lidars.hpp"
@@ -19,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSource = "a drive by hand";
-constexpr const char* kWayFile = "driven_way.csv";
 constexpr double kLeastDrivenM = 2.0;
 constexpr std::size_t kLeastKeyframes = 3;
 
@@ -53,18 +53,20 @@ std::vector<planning::DrivenPose> way_of(const localization::FinishedMap& map,
   return way;
 }
 
-/// The last look moves the end of the drive; what the wheels did since its last scan stays.
-std::string last_pose(const localization::FinishedMap& map, const MappingDesk& desk, const StandsAt& stands,
-                      const MappedSite& mapped) {
-  const auto newest = desk.newest();
-  const auto since = newest->pose.map_from_base.inverse() * stands.map_from_base;
+/// The last look moves the end of the drive; what the wheels did since its last scan stays. Nothing where
+/// that scan lies nowhere in the map: the place is then found as after any other start.
+std::optional<StoredPose> last_pose(const localization::FinishedMap& map, const MappedPose& newest,
+                                    const StandsAt& stands, const MappedSite& mapped) {
+  const auto scan = std::ranges::find(map.scans, newest.pose.stamp, &localization::MomentPose::stamp);
+  if (scan == map.scans.end()) return std::nullopt;
+  const auto since = newest.pose.map_from_base.inverse() * stands.map_from_base;
   StoredPose pose;
-  pose.stamp = newest->pose.stamp;
-  pose.map_from_base = mapped.map_from_memory * map.scans.back().map_from_base * since;
+  pose.stamp = newest.pose.stamp;
+  pose.map_from_base = mapped.map_from_memory * scan->map_from_base * since;
   pose.covariance = Eigen::Vector3d(0.01, 0.01, 0.001).asDiagonal();
   pose.wheels = stands.wheels;
   pose.walls = mapping::walls_fingerprint(mapped.walls);
-  return stored_pose_yaml(pose);
+  return pose;
 }
 
 }  // namespace
@@ -123,8 +125,10 @@ std::size_t make_site_of_drive(MappingDesk& desk, const fs::path& site, const st
   const mapping::Site setup = load_mapping_setup(site);
   MappedFor whom{site.filename().string(), kSource, setup.vehicle, setup.sensors, {}};
   whom.files[kWayFile] = way_csv(way_of(map, mapped.map_from_memory));
-  if (stands && !map.scans.empty() && desk.newest())
-    whom.files[kPoseFile] = last_pose(map, desk, *stands, mapped);
+  const auto newest = desk.newest();
+  if (stands && newest)
+    if (const auto pose = last_pose(map, *newest, *stands, mapped))
+      whom.files[kPoseFile] = stored_pose_yaml(*pose);
   progress("save", 0.9);
   save_mapped_site(mapped, site, whom);
   return mapped.walls.size();

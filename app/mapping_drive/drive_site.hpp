@@ -20,6 +20,9 @@ struct MappingSetup {
   std::vector<mapping::SensorRecord> sensors;
 };
 
+/// The way that was driven when a site was mapped: time_s,x_m,y_m,yaw_rad, Map frame.
+inline constexpr const char* kWayFile = "driven_way.csv";
+
 /// Files of a map by driving, in a folder that is no site yet.
 [[nodiscard]] std::filesystem::path drive_file(const std::filesystem::path& site);
 /// Whether a drive lies there of which no site was made yet.

@@ -58,16 +58,17 @@ void MappingDesk::put(Item item) {
     const bool scan = std::holds_alternative<GivenScan>(item);
     waiting_.push_back(std::move(item));
     waiting_scans_ += scan ? 1 : 0;
-    if (waiting_scans_ > kMostWaitingScans) {
-      const auto oldest =
-          std::ranges::find_if(waiting_, [](const Item& i) { return std::holds_alternative<GivenScan>(i); });
-      waiting_.erase(oldest);
-      --waiting_scans_;
-      ++dropped_;
-    }
-    if (waiting_.size() > kMostWaiting) waiting_.pop_front();
+    const auto is_scan = [](const Item& i) { return std::holds_alternative<GivenScan>(i); };
+    if (waiting_scans_ > kMostWaitingScans) drop(std::ranges::find_if(waiting_, is_scan));
+    if (waiting_.size() > kMostWaiting) drop(waiting_.begin());
   }
   changed_.notify_all();
+}
+
+/// Readings of the wheels are places, not steps: the next one says all that one that is dropped did.
+void MappingDesk::drop(std::deque<Item>::iterator item) {
+  if (std::holds_alternative<GivenScan>(*item)) --waiting_scans_, ++dropped_;
+  waiting_.erase(item);
 }
 
 /// A standing vehicle has nothing to say; before it moves on it says once more that it stood.
@@ -79,6 +80,10 @@ void MappingDesk::on_odometry(const OdometryReading& reading) {
     return;
   }
   if (held_) put(as_kept(*std::exchange(held_, std::nullopt)));
+  if (!given_) {
+    const std::scoped_lock lock(mutex_);
+    begun_ = as_kept(reading);
+  }
   given_ = reading;
   put(as_kept(reading));
 }
@@ -174,7 +179,7 @@ void MappingDesk::read_earlier() {
 
 void MappingDesk::work(const Item& item) {
   if (const auto* reading = std::get_if<OdometryReading>(&item)) {
-    if (!drive_from_odom_) join(*reading);
+    if (!drive_from_odom_) join();
     const OdometryReading kept =
         as_kept({reading->stamp + later_, *drive_from_odom_ * reading->odom_from_base});
     if (journal_) journal_->add(kept);
@@ -202,15 +207,16 @@ void MappingDesk::work(const Item& item) {
   tell(false);
 }
 
-/// What goes on begins where the drive that was read ended: by the wheels it has not moved since.
-void MappingDesk::join(const OdometryReading& first) {
+/// What goes on begins where the drive that was read ended: by the wheels it has not moved since. That holds
+/// of the first reading alone, which may not be among those that still wait.
+void MappingDesk::join() {
   drive_from_odom_.emplace();
   if (!last_) return;
-  drive_from_odom_ = last_->odom_from_base * first.odom_from_base.inverse();
-  constexpr Duration kPause = std::chrono::seconds(1);
-  if (first.stamp <= last_->stamp) later_ = last_->stamp + kPause - first.stamp;
   const std::scoped_lock lock(mutex_);
-  if (newest_) newest_->odom_from_base = first.odom_from_base;
+  drive_from_odom_ = last_->odom_from_base * begun_.odom_from_base.inverse();
+  constexpr Duration kPause = std::chrono::seconds(1);
+  if (begun_.stamp <= last_->stamp) later_ = last_->stamp + kPause - begun_.stamp;
+  if (newest_) newest_->odom_from_base = begun_.odom_from_base;
 }
 
 void MappingDesk::take(const OdometryReading& reading) {

@@ -78,11 +78,12 @@ class MappingDesk {
 
   void run(const std::stop_token& stop);
   void put(Item item);
+  void drop(std::deque<Item>::iterator item);
   void read_earlier();
   void work(const Item& item);
   void take(const OdometryReading& reading);
   void take(const GivenScan& given);
-  void join(const OdometryReading& first);
+  void join();
   void note(const PoseEstimate& pose, const Transform2<Odom, Base>& moved_to);
   void tell(bool reading);
   void draw_picture();
@@ -113,6 +114,7 @@ class MappingDesk {
   std::deque<Item> waiting_;
   std::size_t waiting_scans_ = 0;
   int dropped_ = 0;
+  OdometryReading begun_;  ///< the first that was given
   std::optional<MappedPose> newest_;
   MappingProgress told_;
   std::shared_ptr<const MappingPicture> picture_ = std::make_shared<const MappingPicture>();

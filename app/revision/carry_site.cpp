@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/mapping_drive/drive_site.hpp"
 #include "core/angle.hpp"
 #include "mapping/drawing/plan.hpp"
 #include "mapping/georeference/local_plane.hpp"
@@ -18,6 +19,9 @@ namespace madori::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kHalfWidthM = 0.2;   ///< of what is looked at across a piece
+constexpr double kPixelsPerM = 50.0;  ///< while nobody measured
 
 /// Between the paper, which is most of a sheet, and its darkest hundredth.
 int ink_threshold(const mapping::GrayImage& picture) {
@@ -49,11 +53,10 @@ void stage_drawing(mapping::SiteTransaction& change, const fs::path& beside, con
   change.write("import.png", mapping::file_content(beside / "import.png"));
 }
 
-void stage_walls(mapping::SiteTransaction& change, const mapping::Site& now,
-                 const std::vector<Segment2<Map>>& segments, const mapping::Similarity& now_from_old) {
-  mapping::Walls walls;
-  for (const auto& segment : segments)
-    walls.push_back({static_cast<int>(walls.size()) + 1, mapping::moved(now_from_old, segment)});
+void stage_walls(mapping::SiteTransaction& change, const mapping::Site& now, mapping::Walls walls,
+                 const mapping::Similarity& now_from_old) {
+  int id = 0;
+  for (auto& wall : walls) wall = {++id, mapping::moved(now_from_old, wall.segment), wall.probability};
   const double unit = now.scale ? now.scale->m_per_px : 1.0;
   (void)mapping::stage_wall_files(
       change, walls, now.drawing.width_px * unit, now.drawing.height_px * unit,
@@ -82,6 +85,7 @@ DrawnInk::DrawnInk(const fs::path& site) {
   if (record.drawing.dpi > 0.0) options.dpi = record.drawing.dpi;
   picture_ = mapping::load_plan(site / record.drawing.file, options).picture;
   unit_ = record.scale ? record.scale->m_per_px : 1.0;
+  half_width_ = record.scale ? kHalfWidthM : kHalfWidthM * kPixelsPerM;
   ink_below_ = ink_threshold(picture_);
 }
 
@@ -105,25 +109,27 @@ bool DrawnInk::is_bold_along(const Segment2<Map>& here, const DrawnInk& own,
                              const Segment2<Map>& piece) const {
   constexpr int kPlaces = 60;
   constexpr double kAsBold = 0.5, kAlong = 0.55;
-  const double half_width = 0.2 * (own.unit_ > 0.5 ? 50.0 : 1.0);  // pixels while nobody measured
   const double scale = here.length_m() / piece.length_m();
   int along = 0;
   for (int i = 0; i < kPlaces; ++i) {
     const double share = (i + 0.5) / kPlaces;
-    const double bold = own.cover(piece, share, half_width);
-    along += cover(here, share, half_width * scale) >= kAsBold * bold ? 1 : 0;
+    const double bold = own.cover(piece, share, own.half_width_);
+    along += cover(here, share, own.half_width_ * scale) >= kAsBold * bold ? 1 : 0;
   }
   return along >= kAlong * kPlaces;
 }
 
 void carry_site(const fs::path& site, const fs::path& beside, const mapping::Similarity& old_from_new,
-                const std::vector<Segment2<Map>>& walls) {
+                const mapping::Walls& walls) {
   const mapping::Site old = mapping::load_site(site);
   const mapping::Site imported = mapping::load_site(beside);
   mapping::Site now = old;
   now.drawing = imported.drawing;
   const double factor = old.scale ? old_from_new.scale : 1.0;
-  if (now.scale) now.scale->m_per_px = factor * (imported.scale ? imported.scale->m_per_px : 1.0);
+  if (now.scale)
+    now.scale->m_per_px = factor * (imported.scale ? imported.scale->m_per_px : 1.0);
+  else
+    now.scale = imported.scale;  // a drawing that knows its size measures the site
   mapping::Similarity now_from_old = inverse(old_from_new);
   now_from_old.scale *= factor;
   now_from_old.offset *= factor;
@@ -142,6 +148,7 @@ void carry_site(const fs::path& site, const fs::path& beside, const mapping::Sim
   if (fs::exists(site / "routes/path.csv"))
     change.write("routes/path.csv",
                  planning::path_csv(carried(planning::load_routes(site / "routes"), now_from_old)));
+  change.remove(kWayFile);  // it lies on the old drawing
   change.write("site.yaml", mapping::site_yaml(now));
   change.commit();
 }

@@ -1,9 +1,8 @@
 #include "app/revision/drawing_revision.hpp"
 
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <algorithm>
-#include <atomic>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -24,10 +23,14 @@ namespace {
 namespace fs = std::filesystem;
 using Walls2 = std::vector<Segment2<Map>>;
 
-Walls2 walls_of(const fs::path& site) {
-  Walls2 walls;
-  for (const auto& wall : mapping::load_walls(site / "walls.csv")) walls.push_back(wall.segment);
-  return walls;
+mapping::Walls walls_of(const fs::path& site) {
+  return mapping::load_walls(site / "walls.csv");
+}
+
+Walls2 segments_of(const mapping::Walls& walls) {
+  Walls2 segments;
+  for (const auto& wall : walls) segments.push_back(wall.segment);
+  return segments;
 }
 
 bool same(const planning::RouteFinding& a, const planning::RouteFinding& b) {
@@ -89,27 +92,35 @@ double length_of(const Walls2& pieces) {
 
 }  // namespace
 
-/// The folder goes with this object.
 class RevisedDrawing::Beside {
  public:
   Beside(mapping::ImportOptions options, const mapping::Progress& progress) {
-    folder_ = fs::temp_directory_path() /
-              ("madori-revision-" + std::to_string(::getpid()) + "-" + std::to_string(++count_));
-    options.site = folder_;
+    options.site = folder_.path;
     options.force = false;
     (void)mapping::import_drawing(options, progress);
   }
-  ~Beside() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Beside(const Beside&) = delete;
-  Beside& operator=(const Beside&) = delete;
-  [[nodiscard]] const fs::path& folder() const { return folder_; }
+  [[nodiscard]] const fs::path& folder() const { return folder_.path; }
 
  private:
-  inline static std::atomic<int> count_ = 0;
-  fs::path folder_;
+  /// Empty, and of a name that no program had before: one that was killed leaves its own. Goes with this
+  /// object, also where the import fails.
+  struct Folder {
+    Folder() {
+      std::string name = (fs::temp_directory_path() / "madori-revision-XXXXXX").string();
+      if (::mkdtemp(name.data()) == nullptr)
+        throw Error(name, "cannot be made", "check the permissions and the free space there");
+      path = name;
+    }
+    ~Folder() {
+      std::error_code ignored;
+      fs::remove_all(path, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    fs::path path;
+  };
+
+  Folder folder_;
 };
 
 RevisedDrawing::RevisedDrawing(const mapping::ImportOptions& options, const mapping::Progress& progress)
@@ -117,7 +128,8 @@ RevisedDrawing::RevisedDrawing(const mapping::ImportOptions& options, const mapp
       beside_(std::make_unique<const Beside>(options, progress)),
       before_(walls_of(site_)) {
   const double unit = unit_of(mapping::load_site(site_));
-  const auto laid = mapping::register_walls(before_, walls_of(beside_->folder()), 0.15 * unit);
+  const auto laid =
+      mapping::register_walls(segments_of(before_), segments_of(walls_of(beside_->folder())), 0.15 * unit);
   if (!laid)
     throw Error("the new drawing", "is no revision of the site's: its walls do not lie on the old ones",
                 "import it as a site of its own, or replace the drawing with --force");
@@ -131,7 +143,8 @@ void RevisedDrawing::move(const mapping::Similarity& by) {
   const mapping::Similarity near{by.scale * old.scale, wrap_angle(by.yaw_rad + old.yaw_rad),
                                  by.apply(old.offset)};
   const double unit = unit_of(mapping::load_site(site_));
-  compare(mapping::settle_walls(before_, walls_of(beside_->folder()), near, 0.15 * unit));
+  compare(mapping::settle_walls(segments_of(before_), segments_of(walls_of(beside_->folder())), near,
+                                0.15 * unit));
 }
 
 void RevisedDrawing::apply() const {
@@ -142,28 +155,31 @@ void RevisedDrawing::compare(const mapping::WallRegistration& laid) {
   const mapping::Site record = mapping::load_site(site_);
   const double unit = unit_of(record);
   found_ = {laid, {}, {}, {}, {}, {}};
-  drawn_.clear();
-  for (const auto& wall : walls_of(beside_->folder()))
-    drawn_.push_back(mapping::moved(laid.old_from_new, wall));
+  mapping::Walls drawn = walls_of(beside_->folder());
+  for (auto& wall : drawn) wall.segment = mapping::moved(laid.old_from_new, wall.segment);
+  drawn_ = segments_of(drawn);
+  const Walls2 before = segments_of(before_);
   const mapping::ChangeOptions options{.within = 0.15 * unit, .shortest = 0.8 * unit, .step = 0.05 * unit};
   const DrawnInk old_ink(site_), new_ink(beside_->folder());
-  const auto changes = [&](const Walls2& of, const Walls2& others, auto drawn_too) {
-    Walls2 pieces = mapping::pieces_without(of, others, options);
-    std::erase_if(pieces, drawn_too);  // taken for a wall in one drawing only, and drawn in both
+  const auto changes = [&](const mapping::Walls& of, const Walls2& others, auto drawn_too) {
+    mapping::Walls pieces = mapping::walls_without(of, others, options);
+    // taken for a wall in one drawing only, and drawn in both
+    std::erase_if(pieces, [&](const mapping::Wall& piece) { return drawn_too(piece.segment); });
     return pieces;
   };
   const auto back = inverse(laid.old_from_new);
-  found_.added = changes(drawn_, before_, [&](const Segment2<Map>& piece) {
+  const mapping::Walls added = changes(drawn, before, [&](const Segment2<Map>& piece) {
     return old_ink.is_bold_along(piece, new_ink, mapping::moved(back, piece));
   });
-  found_.gone = changes(before_, drawn_, [&](const Segment2<Map>& piece) {
+  found_.added = segments_of(added);
+  found_.gone = segments_of(changes(before_, drawn_, [&](const Segment2<Map>& piece) {
     return new_ink.is_bold_along(mapping::moved(back, piece), old_ink, piece);
-  });
+  }));
   // What has not changed stays as it is, with all that a person mended of it.
   const mapping::ChangeOptions exactly{.within = 1e-3 * unit, .shortest = 0.05 * unit, .step = 0.05 * unit};
-  found_.walls = mapping::pieces_without(before_, found_.gone, exactly);
-  found_.walls.insert(found_.walls.end(), found_.added.begin(), found_.added.end());
-  check(site_, record, before_, found_.walls, found_);
+  found_.walls = mapping::walls_without(before_, found_.gone, exactly);
+  found_.walls.insert(found_.walls.end(), added.begin(), added.end());
+  check(site_, record, before, segments_of(found_.walls), found_);
 }
 
 nlohmann::json segment_rows(const Walls2& pieces) {

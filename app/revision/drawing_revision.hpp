@@ -8,6 +8,7 @@
 
 #include "mapping/drawing/import_drawing.hpp"
 #include "mapping/revision/register_walls.hpp"
+#include "mapping/wall_map/wall.hpp"
 #include "planning/route_graph/route_check.hpp"
 
 namespace madori::app {
@@ -16,7 +17,7 @@ namespace madori::app {
 struct DrawingRevision {
   mapping::WallRegistration laid;
   std::vector<Segment2<Map>> gone, added;
-  std::vector<Segment2<Map>> walls;              ///< the site's from now on: the old ones, gone and added
+  mapping::Walls walls;                          ///< the site's from now on: the old ones, gone and added
   std::vector<planning::RouteFinding> findings;  ///< of the routes, that the old drawing did not have
   std::vector<std::string> stations_lost;        ///< too near to a wall now, or no longer to be reached
 };
@@ -47,7 +48,8 @@ class RevisedDrawing {
   std::filesystem::path site_;
   class Beside;
   std::unique_ptr<const Beside> beside_;
-  std::vector<Segment2<Map>> before_, drawn_;
+  mapping::Walls before_;
+  std::vector<Segment2<Map>> drawn_;
   DrawingRevision found_;
 };
 

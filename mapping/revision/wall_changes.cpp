@@ -50,4 +50,13 @@ std::vector<Segment2<Map>> pieces_without(const std::vector<Segment2<Map>>& wall
   return pieces;
 }
 
+Walls walls_without(const Walls& walls, const std::vector<Segment2<Map>>& others,
+                    const ChangeOptions& options) {
+  Walls left;
+  for (const Wall& wall : walls)
+    for (const auto& piece : pieces_without({wall.segment}, others, options))
+      left.push_back({static_cast<int>(left.size()) + 1, piece, wall.probability});
+  return left;
+}
+
 }  // namespace madori::mapping

@@ -5,6 +5,7 @@
 
 #include "core/frames.hpp"
 #include "core/point2.hpp"
+#include "mapping/wall_map/wall.hpp"
 
 namespace madori::mapping {
 
@@ -19,5 +20,8 @@ struct ChangeOptions {
 [[nodiscard]] std::vector<Segment2<Map>> pieces_without(const std::vector<Segment2<Map>>& walls,
                                                         const std::vector<Segment2<Map>>& others,
                                                         const ChangeOptions& options = {});
+/// The same of walls: each piece is as probable as the wall that it is of. Numbered from 1.
+[[nodiscard]] Walls walls_without(const Walls& walls, const std::vector<Segment2<Map>>& others,
+                                  const ChangeOptions& options = {});
 
 }  // namespace madori::mapping

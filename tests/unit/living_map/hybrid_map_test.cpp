@@ -253,6 +253,23 @@ TEST(HybridMap, BeamsAboveAPalletDoNotTakeItAway) {
   EXPECT_EQ(map.state_at({8.1, 0.1}), CellState::SemiStatic);
 }
 
+/// From afar the lasers that reach its place pass above it; near it the lower ones meet it.
+TEST(HybridMap, WhatOnlyUpperBeamsPassedWasNotSeenToBeFree) {
+  HybridMap map;
+  Beams afar{{}, 0.6, {}}, near{{}, 0.6, {}};
+  for (int i = -20; i <= 20; ++i) {
+    const auto side = 0.01F * static_cast<float>(i);
+    afar.ends.push_back({12.1F, 1.5F * side, 0.5F});
+    near.ends.push_back({4.1F, side, 0.22F});
+  }
+  double now_s = 100.0;
+  for (int i = 0; i < 30; ++i) map.look(afar, {0.0, 0.1, 0.0}, stamp_from_seconds(now_s += 1.0));
+  EXPECT_EQ(map.state_at({8.1, 0.1}), CellState::Free);
+  for (int i = 0; i < 4; ++i) map.look(near, {4.0, 0.1, 0.0}, stamp_from_seconds(now_s += 1.0));
+  EXPECT_EQ(map.state_at({8.1, 0.1}), CellState::SemiStatic);
+  EXPECT_EQ(map.state_at({6.0, 0.1}), CellState::Free);
+}
+
 TEST(HybridMap, IsReadBackAsItWasAndRefusedWhenDamaged) {
   Room room;
   room.look_for(2.0, box_at(5.0, 3.03));

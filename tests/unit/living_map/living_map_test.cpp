@@ -10,6 +10,7 @@
 #include "app/learned/living_map_file.hpp"
 #include "app/learned/map_layers.hpp"
 #include "app/learned/map_watch.hpp"
+#include "core/clock.hpp"
 #include "core/result.hpp"
 #include "mapping/days/day_archive.hpp"
 #include "mapping/georeference/geotiff.hpp"
@@ -79,6 +80,25 @@ TEST(LivingMap, IsKeptBetweenDrivesAndGoesOn) {
   stand(watch, 1e6 + 86'400.0, 2);
   stand(watch, 1e6 + 2.0 * 86'400.0, 2);
   EXPECT_EQ(watch.map().state_at(kOnTheConveyor), CellState::Static);
+}
+
+/// A clock that was a year ahead on an earlier day.
+TEST(LivingMap, WhatWasStampedLaterThanNowHoldsNothingUp) {
+  const test::TemporaryFolder folder;
+  const mapping::Walls walls = test::laboratory_hall();
+  const mapping::Walls drawn(walls.begin(), walls.begin() + 10);
+  const double now_s = to_seconds(clock_now().time_since_epoch());
+  {
+    MapWatch watch(begin_living_map(folder.path(), drawn).map);
+    stand(watch, now_s - 2.0 * 86'400.0, 2);
+    stand(watch, now_s + 365.0 * 86'400.0, 2);
+    save_living_map(folder.path(), watch.map(), drawn);
+  }
+  MapWatch watch(begin_living_map(folder.path(), drawn).map);
+  EXPECT_LE(watch.map().newest(), clock_now());
+  stand(watch, now_s + 86'400.0, 8);  // the day after
+  EXPECT_EQ(watch.map().newest(), stamp_from_seconds(now_s + 86'400.0 + 3.5));
+  EXPECT_EQ(watch.map().state_at(kOnTheConveyor), CellState::Static);  // on three days
 }
 
 TEST(LivingMap, OfOtherWallsOrDamagedIsNotUsedAndSaysWhy) {
