@@ -3,6 +3,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
 
 namespace madori::app {
@@ -19,10 +20,10 @@ void expect_json(const std::string& file, const std::filesystem::path& made) {
 void write_json(const std::string& file, const nlohmann::json& value) {
   if (file.empty()) return;
   const std::string text = value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  if (file == "-")
-    std::cout << text;
-  else
-    mapping::write_file_atomically(file, text);
+  if (file != "-") return mapping::write_file_atomically(file, text);
+  if (!(std::cout << text << std::flush))
+    throw Error("standard output", "could not be written to its end",
+                "make room where it goes, or let it be read to its end");
 }
 
 }  // namespace madori::app

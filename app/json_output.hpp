@@ -11,7 +11,8 @@ namespace madori::app {
 void expect_json(const std::string& file, const std::filesystem::path& made = {});
 
 /// What `--json FILE` promises: `-` is stdout, an empty name nothing, a file is written atomically.
-/// Text that is not UTF-8 (a file's name) is shown with U+FFFD.
+/// Text that is not UTF-8 (a file's name) is shown with U+FFFD. Throws Error where it cannot be written, to
+/// stdout too.
 void write_json(const std::string& file, const nlohmann::json& value);
 
 }  // namespace madori::app

@@ -33,6 +33,16 @@ std::string address_of(const mapping::SensorRecord& sensor, const sensors::Lidar
   return sensor.address.empty() ? row.address : sensor.address;
 }
 
+/// Whoever opens the link would find it out only when the vehicle is to drive.
+void check_address(const mapping::SensorRecord& sensor, const sensors::LidarRow& row) {
+  if (row.link == sensors::LidarLink::Serial) return;
+  try {
+    (void)sensors::host_and_port(sensor.address, {"", 0});
+  } catch (const Error& e) {
+    throw Error("sensor " + sensor.name + ": address " + e.what());
+  }
+}
+
 /// One device cannot be two sensors.
 void check_apart(const std::vector<mapping::SensorRecord>& sensors, const std::string& where) {
   std::set<std::string> names;
@@ -78,7 +88,9 @@ std::string lidar_title(const std::string& type) {
 }
 
 LidarModel lidar_model(const mapping::SensorRecord& sensor) {
-  return sensors::lidar_of(sensor.type, "sensor " + sensor.name).model(lidar_settings(sensor));
+  const auto& row = sensors::lidar_of(sensor.type, "sensor " + sensor.name);
+  check_address(sensor, row);
+  return row.model(lidar_settings(sensor));
 }
 
 double sure_ahead_m(const std::vector<LidarModel>& lidars, double front_m) {

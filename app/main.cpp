@@ -20,7 +20,7 @@ void finish_stdout() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return;
   throw madori::Error("standard output",
                       std::string("could not be written to its end: ") + std::strerror(errno),
-                      "make room where it goes, and run the command again");
+                      "make room where it goes, or let it be read to its end");
 }
 
 /// What a library says on several lines.
@@ -62,6 +62,8 @@ int main(int argc, char** argv) {
   madori::app::add_version(app);
   // A file that has reached its limit is a write that fails, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
+  // So is a pipe that nobody reads any more: what the command did until then has to be said.
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     try {
       app.parse(argc, argv);

@@ -99,7 +99,7 @@ MappedSite map_site(const localization::MemoryCloud& memory, const std::string& 
   mapped.walls = localization::wall_lines(memory);
   if (mapped.walls.empty()) {
     throw Error(log, "shows no straight wall",
-                "does it hold scans of a driving vehicle? madori doctor says what is in it");
+                "give a log whose vehicle drives past its walls and scans them");
   }
   const Transform2<Map, Map> turn(0.0, 0.0, turn_onto_axes(mapped.walls));
   Point2<Map> low{1e9, 1e9};

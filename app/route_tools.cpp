@@ -13,6 +13,12 @@ std::optional<std::string> node_name(const planning::RouteGraph& graph, int id) 
   return node.name.empty() ? std::to_string(id) : node.name;
 }
 
+std::vector<int> node_ids(const planning::RouteGraph& graph) {
+  std::vector<int> ids;
+  for (const auto& node : graph.nodes()) ids.push_back(node.id);
+  return ids;
+}
+
 std::vector<planning::WayCorner> way_corners(const planning::RouteGraph& graph,
                                              const planning::Route& route) {
   constexpr double kNoLimit = std::numeric_limits<double>::infinity();

@@ -13,6 +13,8 @@ namespace madori::app {
 
 /// The name of a node, its number where it has none; nothing for one that is not there.
 [[nodiscard]] std::optional<std::string> node_name(const planning::RouteGraph& graph, int id);
+/// Of all nodes.
+[[nodiscard]] std::vector<int> node_ids(const planning::RouteGraph& graph);
 
 /// The corners of a route with the speed limit of the leg that leads to each.
 [[nodiscard]] std::vector<planning::WayCorner> way_corners(const planning::RouteGraph& graph,

@@ -110,7 +110,7 @@ void add_import(CLI::App& app) {
   command->add_option("--page", o.plan.page, "page of a PDF, from 1")->check(within(1, 1'000'000));
   command->add_option("--layers", o.plan.layers, "layers of a DXF that hold walls")->delimiter(',');
   command->add_option("--unit", o.plan.unit, "unit of a DXF (default: by the file's evidence)")
-      ->check(CLI::IsMember({"mm", "cm", "dm", "m", "in", "ft"}));
+      ->check(CLI::IsMember({"mm", "cm", "dm", "m", "in", "ft", "yd"}));
   command->add_option("--point-spacing", o.point_spacing_m, "step of the wall points, metres")
       ->check(within(1e-4, 100.0));
   command->add_option("--voxel", o.voxel_m, "voxel of the wall points, metres")->check(within(1e-4, 100.0));

@@ -11,6 +11,7 @@
 #include "app/commands/within.hpp"
 #include "app/json_output.hpp"
 #include "app/orders/order_store.hpp"
+#include "app/route_tools.hpp"
 #include "core/clock.hpp"
 #include "core/result.hpp"
 #include "planning/route_graph/route_csv.hpp"
@@ -65,7 +66,10 @@ OrderStop stop_from(const planning::RouteGraph& routes, const std::string& text)
 nlohmann::json order_json(const Order& order) {
   nlohmann::json stops = nlohmann::json::array();
   for (const OrderStop& stop : order.stops)
-    stops.push_back({{"node", stop.node}, {"action", to_string(stop.action)}, {"wait_s", stop.wait_s}});
+    stops.push_back({{"node", stop.node},
+                     {"action", to_string(stop.action)},
+                     {"wait_s", stop.wait_s},
+                     {"gone", stop.gone}});
   return {{"id", order.id},       {"state", to_string(order.state)},
           {"stops", stops},       {"repeat", order.repeat},
           {"round", order.round}, {"next_stop", order.next_stop},
@@ -75,8 +79,8 @@ nlohmann::json order_json(const Order& order) {
 void print_order(const Order& order) {
   std::printf("%4lld  %-9s  to", static_cast<long long>(order.id), to_string(order.state));
   for (const OrderStop& stop : order.stops)
-    std::printf(" %d%s%s", stop.node, stop.action == StopAction::Pass ? "" : ":",
-                stop.action == StopAction::Pass ? "" : to_string(stop.action));
+    std::printf(" %d%s%s%s", stop.node, stop.action == StopAction::Pass ? "" : ":",
+                stop.action == StopAction::Pass ? "" : to_string(stop.action), stop.gone ? " (deleted)" : "");
   if (order.repeat > 1)
     std::printf("  round %d of %d", std::min(order.round + 1, order.repeat), order.repeat);
   std::printf("%s%s\n", order.note.empty() ? "" : "  ", order.note.c_str());
@@ -91,6 +95,7 @@ void run(const OrderArguments& arguments) {
   const auto routes = planning::load_routes(folder / "routes");
   OrderStore store(folder / "madori.db");
   const Stamp now = time_of_day();
+  store.keep_stations(node_ids(routes), now);
   nlohmann::json result;
   if (!arguments.to.empty()) {
     std::vector<OrderStop> stops;
@@ -110,7 +115,12 @@ void run(const OrderArguments& arguments) {
     if (arguments.json_file != "-") print_order(order);
     result["orders"].push_back(order_json(order));
   }
-  write_json(arguments.json_file, result);
+  try {
+    write_json(arguments.json_file, result);
+  } catch (const Error& e) {  // whoever asks again would have it done twice
+    if (!result.contains("added")) throw;
+    throw Error("order " + result["added"].dump() + " is queued, but " + e.what());
+  }
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "core/result.hpp"
+
 namespace madori::app {
 namespace {
 
@@ -66,6 +68,9 @@ void remove_empty(const fs::path& run) {
 }  // namespace
 
 void make_room(const fs::path& run, const RoomLimits& limits) {
+  if (!fs::is_directory(run))
+    throw Error(run.string(), "was removed or renamed while it is recorded into",
+                "put the site's folder back, or start the program anew");
   std::vector<Bag> ordinary;
   std::vector<Bag> stops;
   add_bags(run, ordinary);

@@ -7,7 +7,7 @@ namespace madori::mapping {
 PointMap stage_wall_files(SiteTransaction& change, const Walls& walls, double width, double height,
                           const WallFileOptions& options) {
   PointMap points = make_point_map(walls, options.point_spacing, options.voxel);
-  save_pcd(change.staged("walls.pcd"), points);
+  change.said_of_site([&] { save_pcd(change.staged("walls.pcd"), points); });
   const OccupancyMap grid = make_occupancy_map(walls, width, height, options.cell);
   change.write("map.pgm", grid.pgm);
   change.write("map.yaml", grid.yaml);

@@ -77,6 +77,16 @@ class Commands(unittest.TestCase):
             self.assertEqual(answer.returncode, 1, words)
             self.assertIn("standard output", answer.stderr)
 
+    def test_an_order_whose_answer_nobody_reads_is_said_to_be_queued(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        answer = subprocess.run([MADORI, "order", self.site, "--to", "13", "--json", "-"], stdout=writer,
+                                stderr=subprocess.PIPE, text=True, timeout=60)
+        os.close(writer)
+        self.assertEqual(answer.returncode, 1, answer.stderr)
+        self.assertIn("is queued, but standard output", answer.stderr)
+        (self.site / "madori.db").unlink()
+
     def spoiled(self, name, content):
         """A copy of the site with one file replaced; `content` None: a folder in its place."""
         copy = pathlib.Path(tempfile.mkdtemp(dir=self.here)) / "site"

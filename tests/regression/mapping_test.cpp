@@ -66,11 +66,10 @@ TEST_P(MappedLog, KeepsTheRelations) {
   EXPECT_LT(score["translation_m"]["mean"].get<double>(), most_m);
 }
 
-// Measured: 0.0398, 0.0421, 0.0502, 0.0650, 0.0727 m; GMapping's poses score 0.050 and 0.079 m at full rate.
+// Measured: 0.0398, 0.0502, 0.0650, 0.0727 m; GMapping's poses score 0.050 and 0.079 m at full rate.
 INSTANTIATE_TEST_SUITE_P(Freiburg, MappedLog,
-                         testing::Values(Drive{"fr079", 1, 0.0405}, Drive{"fr079", 2, 0.044},
-                                         Drive{"fr079", 5, 0.055}, Drive{"intel", 1, 0.067},
-                                         Drive{"intel", 2, 0.08}));
+                         testing::Values(Drive{"fr079", 1, 0.0405}, Drive{"fr079", 5, 0.055},
+                                         Drive{"intel", 1, 0.067}, Drive{"intel", 2, 0.08}));
 
 // Measured with three seeds: 0.076 m; published for a Rao-Blackwellized mapper on this log 0.070 m. The log's
 // clocks drop a turn once: where the wheels' word was taken for it, the relations were 1.51 m off.
@@ -133,20 +132,20 @@ void expect_not_joined_wrongly(std::initializer_list<unsigned> orders, int every
   }
 }
 
-// A building that is its own image, turned by half a turn. Measured: 0.066 and 0.076 m in the mean, 0.25 and
-// 0.17 m at most; with ties of four metres, whatever the building, the first was 13.8 m off in the mean, with
-// ties of twice the longest mistake the second 13.1 m. Orders that the factor was chosen on.
+// A building that is its own image, turned by half a turn. Measured: 0.066 m in the mean, 0.25 m at most;
+// with ties of four metres, whatever the building, 13.8 m off in the mean. An order that the factor was
+// chosen on; bench_carried_away cuts in others.
 TEST(CarriedAway, TenTimesOnAcesIsNotJoinedWrongly) {
   if (!std::filesystem::exists(kLogs / "aces" / "reference.tum")) GTEST_SKIP() << "no log in " << kLogs;
-  expect_not_joined_wrongly({2U, 9U}, 1, 40U);
+  expect_not_joined_wrongly({2U}, 1, 40U);
 }
 
-// A scan in six seconds. Measured: 0.18, 0.19 and 0.18 m at most; 40, 19 and 15 m where what may contradict
+// A scan in six seconds. Measured: 0.18 and 0.19 m at most; 40 and 19 m where what may contradict
 // did not depend on how much of a scan lies on anything, and where poses were told between a carry's two
 // scans.
 TEST(CarriedAway, TenTimesWithEverySecondScanOfAcesIsNotJoinedWrongly) {
   if (!std::filesystem::exists(kLogs / "aces" / "reference.tum")) GTEST_SKIP() << "no log in " << kLogs;
-  expect_not_joined_wrongly({1U, 2U, 3U}, 2, 25U);
+  expect_not_joined_wrongly({1U, 2U}, 2, 25U);
 }
 
 // Nobody carried the vehicle: what little two scans have in common says so. With every second scan of Intel

@@ -62,7 +62,7 @@ MENDS = [
     Mend("14", "a place that is said does not pause", "app/panel/panel_vehicle.cpp",
          "run_.say({OperatorWord::Pause, {}, {}});\n  const GivenPose given{map_from_base.translation(), map_from_base.yaw_rad(), PoseSigma{}};",
          "const GivenPose given{map_from_base.translation(), map_from_base.yaw_rad(), PoseSigma{}};", TRUTHS, "14"),
-    Mend("15", "the buttons of an order open where they are", SRC + "ui/orders_card.tsx", ' ref={(tools) => tools?.scrollIntoView({ block: "nearest" })}', "", PAGE, "15"),
+    Mend("15", "the buttons of an order open where they are", SRC + "ui/orders_card.tsx", ' ref={tools}>', ">", PAGE, "15"),
     Mend("16", "Stop does not say what it ended", "app/cycle/mode_stage.cpp", "if (word == OperatorWord::Stop && state.way.target) state.stopped_order",
          "if (!state.stopped && state.way.target) state.stopped_order", TRUTHS, "1, 16"),
     Mend("17", "causes are summed under their full sentence", SRC + "notice_text.ts", "[`kind.${cause.code}`, `cause.${cause.code}`]", "[`cause.${cause.code}`]", PAGE, "17"),

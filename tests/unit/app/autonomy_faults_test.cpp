@@ -86,7 +86,7 @@ TEST(AutonomyCycle, APowerCutBeforeTheDrivesClockWrapsIsNoticed) {
     v->restart_drive();
     v->drive_started_s = v->time_s() - 0.5;
     v->drive_silent = false;
-    EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 60.0)) << off_s << " s off";
+    EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 10.0)) << off_s << " s off";
     EXPECT_EQ(v->state().mode, Mode::EmergencyStop);
   }
 }
@@ -103,7 +103,7 @@ TEST(AutonomyCycle, AStopBetweenTwoLooksIsHeld) {
           v->step();
         }
         v->drive_silent = v->hung = false;
-        EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 60.0)) << silent << by_bumper << away_s;
+        EXPECT_FALSE(v->run_until([&] { return v->delivered(); }, 10.0)) << silent << by_bumper << away_s;
         EXPECT_EQ(v->state().mode, Mode::EmergencyStop);
       }
 }

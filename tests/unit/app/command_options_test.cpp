@@ -1,6 +1,11 @@
 // What the commands have in common: numbers within limits, and --json.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/within.hpp"
@@ -30,6 +35,26 @@ TEST(JsonOutput, AFileThatCannotBeWrittenIsSaidBeforehand) {
   EXPECT_THROW(expect_json((made / "a.json").string()), Error);
   EXPECT_THROW(expect_json((folder.path() / "other/a.json").string(), made), Error);
   EXPECT_THROW(expect_json(folder.path().string()), Error);
+}
+
+/// Whoever reads it has gone.
+TEST(JsonOutput, AClosedPipeIsAFailure) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  ::close(ends[0]);
+  const auto before = std::signal(SIGPIPE, SIG_IGN);
+  std::cout.flush();
+  std::fflush(stdout);
+  const int out = ::dup(STDOUT_FILENO);
+  ::dup2(ends[1], STDOUT_FILENO);
+  const bool ended_before = std::cout.good();
+  EXPECT_THROW(write_json("-", {{"a", 1}}), Error);
+  std::cout.clear();
+  ::dup2(out, STDOUT_FILENO);
+  ::close(out);
+  ::close(ends[1]);
+  std::signal(SIGPIPE, before);
+  EXPECT_TRUE(ended_before);
 }
 
 TEST(JsonOutput, TextThatIsNotUtf8IsShownAllTheSame) {

@@ -2,7 +2,9 @@
 #include "app/mapping_drive/drive_journal.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "core/result.hpp"
@@ -74,6 +76,29 @@ TEST_F(DriveJournalTest, EndsBeforeADamagedRecord) {
   EXPECT_GT(some.scans.size(), 0U);
   EXPECT_LT(some.scans.size(), 5U);
   EXPECT_LT(some.whole, std::filesystem::file_size(file_));
+}
+
+/// A disk that is full for a while: the limit on a file's size stands for it.
+TEST_F(DriveJournalTest, WhatAFullDiskDidNotTakeIsMissingAndNothingElse) {
+  write(0, 0, 5);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
+  DriveJournal journal(file_, std::filesystem::file_size(file_));
+  const auto add = [&](int i) {
+    journal.add(DriveScan{stamp_from_seconds(i), {0.3, 0.0}, std::vector<Point2<Base>>(40, {1.0, 2.0})});
+  };
+  const rlimit full{std::filesystem::file_size(file_) + 50, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
+  add(5);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  (void)std::signal(SIGXFSZ, ignored);
+  EXPECT_NE(journal.problem(), "");
+  add(6);
+  const Read all = read(file_);
+  EXPECT_EQ(all.whole, std::filesystem::file_size(file_));
+  ASSERT_EQ(all.scans.size(), 6U);
+  EXPECT_EQ(all.scans.back().stamp, stamp_from_seconds(6));
 }
 
 TEST_F(DriveJournalTest, AnotherFileIsRefusedAndNoneIsADriveOfNothing) {

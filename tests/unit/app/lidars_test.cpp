@@ -57,6 +57,20 @@ TEST(Lidars, SureRangesAreThoseOfTheSource) {
   EXPECT_NEAR(lidar_model(kFront).least_object_m(lidar_model(kFront).sure_range_m(0.07)), 0.07, 1e-9);
 }
 
+/// Also of the only one: it would be found out when the vehicle is to drive.
+TEST(Lidars, APortThatIsNoneIsRefusedWithTheSite) {
+  for (const char* address : {"0.0.0.0:70000", ":65536", "10.0.0.9:-1", "10.0.0.9:"}) {
+    auto top = kTop;
+    top.address = address;
+    const std::string said = refusal_of({top});
+    EXPECT_NE(said.find("sensor top"), std::string::npos) << said;
+    EXPECT_NE(said.find(address), std::string::npos) << said;
+  }
+  auto top = kTop;
+  top.address = ":65535";
+  EXPECT_EQ(refusal_of({top}), "");
+}
+
 TEST(Lidars, WhatCannotBeIsRefusedInOneSentence) {
   EXPECT_NE(refusal_of({}).find("names no lidar"), std::string::npos);
   auto unknown = kTop;

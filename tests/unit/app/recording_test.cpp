@@ -210,6 +210,11 @@ TEST(Recording, AllRunsShareTheLimitAndTheOldestGo) {
   EXPECT_EQ(files_below(runs), (Names{"c", "c/001.bag", "c/002.bag", "notes.txt"})) << "the disk is full";
 }
 
+TEST(Recording, AFolderThatIsGoneIsSaid) {
+  const test::TemporaryFolder folder;
+  EXPECT_THROW(make_room(folder.path() / "runs/c", {50, 20, 0}), Error);
+}
+
 TEST(Recording, OutsideOfAFolderOfRunsNothingElseIsTouched) {
   const test::TemporaryFolder folder;
   folder.write("other.bag", "x");
