@@ -165,8 +165,9 @@ BrakingTest::Words BrakingTest::after_step(const CycleInput& input, const CycleS
                             state.drive.faults == control::wire::kNoFault;
   if (phase_ == Phase::Brakes && (state.mode == Mode::Manual || brakes_badly)) return brake(input, state);
   if (brakes_badly) return control::has_stopped(track_, kStillS) ? go_on() : Words{};
-  const bool held = forbidding_rule(state, input, config, true) != nullptr;
-  if (state.mode != Mode::Manual || held) return fail(BrakingTrouble::Ended);
+  // Nobody holds a key, nor looks where it goes: what stops a vehicle that drives by itself stops this one.
+  if (is_silent(state.lidar_heard, input.now, config.lidar_silent_s)) return fail(BrakingTrouble::NoLidar);
+  if (state.mode != Mode::Manual || forbidding_rule(state, input, config)) return fail(BrakingTrouble::Ended);
   return phase_ == Phase::Drives ? drive(state, config) : go_back(state, config);
 }
 

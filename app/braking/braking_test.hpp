@@ -35,7 +35,8 @@ struct BrakingPlan {
 
 /// Drives, stops and measures, several times at one place: up to the speed straight ahead, a stop, slowly
 /// back. It looks on at the cycle and speaks as a person does who drives by hand, so that all that holds such
-/// a vehicle holds this one, and a recording replays. A person watches it: Stop at any panel ends it.
+/// a vehicle holds this one, and a recording replays. What forbids a vehicle to drive by itself ends it, and
+/// so does Stop at any panel: a person watches it.
 class BrakingTest {
  public:
   explicit BrakingTest(const BrakingPlan& plan) : plan_(plan) {}

@@ -79,8 +79,9 @@ std::optional<planning::Route> best_route(const SiteInBuilding& site, planning::
   return best;
 }
 
-/// The path from the vehicle over a route; a single point where it stands at the goal already.
-Path path_over(const CycleState& state, const planning::Route& route, const CycleConfig& config) {
+/// The path from the vehicle over a route; a single point where it stands at the goal already. Fails where
+/// the route is none that waypoints can be laid along.
+Result<Path> path_over(const CycleState& state, const planning::Route& route, const CycleConfig& config) {
   const Transform2<Map, Base>& pose = state.pose.map_from_base;
   const Point2<Map> here = pose.translation();
   auto way = way_corners(state.site->routes(), route);
@@ -89,11 +90,11 @@ Path path_over(const CycleState& state, const planning::Route& route, const Cycl
   else
     way.front().position = here;
   const auto& goal = state.site->routes().nodes()[route.nodes.back()];
-  const bool there =
-      way.size() == 2 && distance_m(here, goal.position) < config.pursuit.goal_tolerance_m * 3.0;
-  auto path =
-      there ? Result<Path>::failure("") : planning::make_waypoints(way, config.waypoints, goal.heading_rad);
-  if (path) return std::move(path).value();
+  const bool near = distance_m(here, goal.position) < config.pursuit.goal_tolerance_m * 3.0;
+  if (!near || way.size() != 2) {
+    auto path = planning::make_waypoints(way, config.waypoints, goal.heading_rad);
+    if (path || !near) return path;
+  }
   Path there_already{{{here, pose.yaw_rad(), 0.0}}};
   if (goal.heading_rad) planning::end_in(there_already, *goal.heading_rad);
   return there_already;
@@ -105,7 +106,9 @@ void forget_errand(CycleState& state) {
   state.progress = {};
   state.ahead = {};
   state.block = {};
+  const std::uint32_t asked = state.detour.id;
   state.detour = {};
+  state.detour.id = asked;  // a search that still runs does not answer the next errand's question
 }
 
 /// Whether a route leads round a corner that the vehicle's outline does not get round.
@@ -138,10 +141,12 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
   }
   if (!route) return refuse(state, Cause::NoWay, output);
   if (is_too_tight(*route, config.tight_corners)) return refuse(state, Cause::TooLongForWay, output);
+  auto path = path_over(state, *route, config);
+  if (!path) return refuse(state, Cause::NoWay, output);
   state.errand.nodes = route->nodes;
   state.detour.failed.clear();
   state.block.since.reset();
-  take_path(state, path_over(state, *route, config), config);
+  take_path(state, std::move(path).value(), config);
 }
 
 /// A way around with a turn on the spot at its end where the goal has a heading: no curve ends in it exactly.
@@ -228,6 +233,9 @@ void try_another_route(CycleState& state, const CycleInput& input, const CycleCo
   const auto other =
       best_route(*state.site, config.metric, state.pose.map_from_base.translation(), *goal, blocked);
   if (!other || is_too_tight(*other, config.tight_corners)) return;
+  std::erase_if(state.errand.blocked_legs, [&](const auto& old) {
+    return !(to_seconds(input.now - old.second) < config.forget_block_s);
+  });
   state.errand.blocked_legs.emplace_back(*leg, input.now);
   output.events.push_back("the leg from node " + std::to_string(routes.nodes()[leg->first].id) + " to node " +
                           std::to_string(routes.nodes()[leg->second].id) +

@@ -3,9 +3,15 @@
 #include <utility>
 
 #include "app/cycle/stages.hpp"
+#include "localization/health/reasons.hpp"
 
 namespace madori::app {
 namespace {
+
+/// Every comparison with what is not a number is false: nothing would be near, and no doubt large.
+bool is_finite(const PoseEstimate& pose) {
+  return pose.map_from_base.is_finite() && pose.moved.is_finite() && pose.covariance.allFinite();
+}
 
 constexpr double kOwnRoomM = 0.05;  ///< nothing that is only supposed stands so near: it would have been felt
 
@@ -44,6 +50,10 @@ Transform2<Map, Odom> map_from_odom_now(const CycleState& state) {
 }
 
 void take_pose(CycleState& state, PoseEstimate pose) {
+  if (!is_finite(pose)) {
+    state.pose.health = {LocalizationState::Lost, localization::reason::kNoPlace.english};
+    return;
+  }
   state.pose = std::move(pose);
   const auto before = std::exchange(state.moved, state.pose.moved);
   if (distance_m(before.translation(), state.moved.translation()) == 0.0 &&

@@ -93,7 +93,8 @@ void arrive(CycleState& state, Stamp now);
 
 [[nodiscard]] Transform2<Map, Odom> map_from_odom_now(const CycleState& state);
 /// Where the source thinks better of where everything around the vehicle lies, what the vehicle remembers of
-/// it moves along: it stands where it stood, seen from the vehicle.
+/// it moves along: it stands where it stood, seen from the vehicle. An estimate that is not finite is not
+/// taken: the vehicle is Lost.
 void take_pose(CycleState& state, PoseEstimate pose);
 /// Keeps how the odometry lies on the map, every half second for half an hour, while the vehicle knows it.
 void note_anchor(CycleState& state, Stamp stamp);

@@ -67,15 +67,14 @@ double MountingManoeuvre::progress() const {
 }
 
 /// What stands above the floor and not on the vehicle, one point a cell.
-void MountingManoeuvre::see(const PointCloud<Lidar>& sweep, const Transform2<Odom, Base>& odom_from_base,
-                            Stamp now) {
+void MountingManoeuvre::see(const PointCloud<Lidar>& sweep, const Transform2<Odom, Base>& odom_from_base) {
   if (sweep.lidar >= vehicle_.lidars.size()) return;
   const LidarModel& lidar = vehicle_.lidars[sweep.lidar];
   const auto base_from_lidar = lidar.mounting.base_from_lidar();
   const auto own = vehicle_.check.vehicle.grown(kOwnMarginM, kOwnMarginM);
   const bool spins = lidar.kind == LidarKind::Spinning;
   Seen& seen = seen_[sweep.lidar];
-  seen.heard = now;
+  seen.at = sweep.stamp;
   seen.points.clear();
   std::map<std::pair<int, int>, bool> taken;
   for (const CloudPoint& p : sweep.points) {
@@ -98,7 +97,7 @@ Notice MountingManoeuvre::held_by(const CycleInput& input) const {
     const LidarModel& lidar = vehicle_.lidars[i];
     const double limit_s = std::max(0.5, 3.0 * lidar.period_s);
     const auto found = seen_.find(i);
-    if (found == seen_.end() || to_seconds(input.now - found->second.heard) > limit_s)
+    if (found == seen_.end() || to_seconds(input.now - found->second.at) > limit_s)
       return app::notice(kMountingLidarSilent, {{"name", lidar.name}});
   }
   return {};
@@ -158,11 +157,11 @@ CycleOutput MountingManoeuvre::step(const CycleInput& input, const OdometryReadi
     drive_ = status;
     drive_heard_ = input.now;
   }
-  for (const auto& cloud : input.clouds) see(cloud, here, input.now);
+  for (const auto& cloud : input.clouds) see(cloud, here);
   for (const auto& scan : input.scans) {
     PointCloud<Lidar> sweep;
     scan_as_cloud(scan, sweep);
-    see(sweep, here, input.now);
+    see(sweep, here);
   }
   const double step_s = previous_ ? to_seconds(input.now - *previous_) : 0.0;
   previous_ = input.now;

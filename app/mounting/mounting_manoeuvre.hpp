@@ -38,7 +38,7 @@ class MountingManoeuvre {
   [[nodiscard]] const Notice& notice() const { return notice_; }
 
  private:
-  void see(const PointCloud<Lidar>& sweep, const Transform2<Odom, Base>& odom_from_base, Stamp now);
+  void see(const PointCloud<Lidar>& sweep, const Transform2<Odom, Base>& odom_from_base);
   [[nodiscard]] Notice held_by(const CycleInput& input) const;
   [[nodiscard]] VelocityCommand wanted(const Transform2<Odom, Base>& odom_from_base);
   [[nodiscard]] bool is_over(Stamp now) const;
@@ -52,7 +52,7 @@ class MountingManoeuvre {
   Stage stage_ = Stage::Standing;
   Notice notice_;
   struct Seen {
-    Stamp heard{};
+    Stamp at{};
     std::vector<Point2<Odom>> points;
   };
   std::map<std::size_t, Seen> seen_;  ///< the newest sweep of each lidar

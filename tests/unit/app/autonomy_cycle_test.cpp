@@ -169,5 +169,16 @@ TEST(AutonomyCycle, APoseThatIsCorrectedAtAStopSendsTheVehicleOnToIt) {
   EXPECT_NEAR(v->rolling.pose().x_m(), 10.0, 0.05);
 }
 
+/// More waypoints than a path may have: no reason to hand the goods over where the vehicle stands.
+TEST(AutonomyCycle, AWayThatIsTooLongForAPathIsRefusedAndNothingIsHandedOver) {
+  auto routes = planning::parse_routes("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,0,0\n1,400000,0\n");
+  test::ToyVehicle v(test::toy_config(std::move(routes.graph)), {0.0, 0.0, 0.0});
+  v.drive_to({{1}});
+  v.say(OperatorWord::Resume);
+  ASSERT_TRUE(v.run_until([&] { return v.output.order_refused || v.output.stop_done; }, 2.0));
+  EXPECT_FALSE(v.output.stop_done);
+  EXPECT_TRUE(v.output.order_refused);
+}
+
 }  // namespace
 }  // namespace madori::app

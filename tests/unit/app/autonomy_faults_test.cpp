@@ -264,5 +264,37 @@ TEST(AutonomyCycle, AWheelThatDoesNotTurnIsNamedAndAPersonLetsItGoOn) {
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
 }
 
+/// The true pose, or what is none.
+class BrokenPose : public test::TruePose {
+ public:
+  using TruePose::TruePose;
+  PoseEstimate on_odometry(const OdometryReading& reading) override {
+    PoseEstimate pose = TruePose::on_odometry(reading);
+    if (of_place) pose.map_from_base = {std::nan(""), 0.0, 0.0};
+    if (of_covariance) pose.covariance(0, 0) = std::nan("");
+    return pose;
+  }
+  bool of_place = false, of_covariance = false;
+};
+
+TEST(AutonomyCycle, WhatIsNoPoseIsNotDrivenBy) {
+  for (const bool of_place : {true, false}) {
+    auto v = corridor_vehicle();
+    auto source = std::make_unique<BrokenPose>(v->rolling);
+    BrokenPose& pose = *source;
+    v->set_source(std::move(source));
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+    (of_place ? pose.of_place : pose.of_covariance) = true;
+    v->step();
+    EXPECT_EQ(v->output.command, VelocityCommand{});
+    EXPECT_EQ(v->state().mode, Mode::Localizing);
+    EXPECT_TRUE(v->state().pose.map_from_base.is_finite());
+    pose.of_place = pose.of_covariance = false;
+    EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << v->state().standstill.cause.text;
+  }
+}
+
 }  // namespace
 }  // namespace madori::app

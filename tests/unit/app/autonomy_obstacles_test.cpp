@@ -225,5 +225,41 @@ TEST(AutonomyCycle, WhereSomethingStandsAtTheStopAPersonMayEndItBeforeIt) {
   }
 }
 
+/// The search beside the cycle may answer when another errand has asked its own question.
+TEST(AutonomyCycle, NoTwoErrandsAskForAWayAroundByTheSameNumber) {
+  auto v = corridor_vehicle();
+  v->lidar.bodies.push_back({{{6.0, -0.4}, {6.0, 0.4}}, 0.4, 0.3});
+  std::vector<std::uint32_t> asked;
+  v->on_step = [&](const auto& /*input*/, const auto& output, const auto& /*state*/) {
+    if (output.detour_wanted) asked.push_back(output.detour_wanted->id);
+  };
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return !asked.empty(); }, 20.0));
+  v->drive_to({{1}});
+  ASSERT_TRUE(v->run_until([&] { return asked.size() > 1; }, 20.0));
+  EXPECT_NE(asked[0], asked[1]);
+}
+
+TEST(AutonomyCycle, LegsThatCountAsFreeAgainAreForgotten) {
+  auto v = corridor_vehicle();
+  v->config.detour_after_s = v->config.back_out_after_s = v->config.squeeze_after_s = 1e6;
+  v->config.reroute_after_s = 3.0;
+  v->config.forget_block_s = 2.0;
+  for (double y = -2.0; y < 2.0; y += 0.2) v->lidar.posts.push_back({{16.0, y}, 0.15, 1.0});
+  for (double x = 12.0; x < 14.1; x += 0.2) v->lidar.posts.push_back({{x, 16.0 - x}, 0.15, 1.0});
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  std::size_t most = 0, taken = 0;
+  v->on_step = [&](const auto& /*input*/, const auto& output, const auto& state) {
+    most = std::max(most, state.errand.blocked_legs.size());
+    taken += static_cast<std::size_t>(std::ranges::count_if(
+        output.events, [](const auto& e) { return e.find("another route") != std::string::npos; }));
+  };
+  v->run_until([] { return false; }, 120.0);
+  EXPECT_GT(taken, 2U);
+  EXPECT_LE(most, 2U);
+}
+
 }  // namespace
 }  // namespace madori::app

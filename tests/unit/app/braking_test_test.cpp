@@ -9,6 +9,7 @@
 #include "core/result.hpp"
 #include "tests/support/lock_step_run.hpp"
 #include "tests/support/small_hall.hpp"
+#include "tests/unit/app/corridor_vehicle.hpp"
 
 namespace madori::app {
 namespace {
@@ -158,6 +159,25 @@ TEST(BrakingTest, StopEndsItWhileTheBrakesFailToo) {
   EXPECT_FALSE(hall.desk.view().running);
   EXPECT_EQ(hall.desk.view().trouble.code, "ended");
   EXPECT_NEAR(hall.run.factory->distance_driven_m(), driven_m, 0.01);
+}
+
+/// By hand a person goes on without a lidar, and out of a protective field; the test has nobody who looks.
+TEST(BrakingTest, ASilentLidarOrAProtectiveFieldEndsIt) {
+  for (const bool silent : {true, false}) {
+    auto v = test::corridor_vehicle();
+    v->run_until([] { return false; }, 1.0);  // devices are heard
+    BrakingTest braking({0.5, 1});
+    v->on_step = [&](const auto& input, const auto& /*output*/, const auto& state) {
+      for (const auto& word : braking.after_step(input, state, v->config)) v->commands.push_back(word);
+    };
+    ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.3; }, 10.0));
+    (silent ? v->lidar_silent : v->protective_stop) = true;
+    EXPECT_TRUE(v->run_until([&] { return braking.ended(); }, 0.6));
+    EXPECT_EQ(braking.trouble().code, silent ? "no-lidar" : "ended");
+    v->run_until([] { return false; }, 1.5);
+    EXPECT_NEAR(v->rolling.speed().linear_mps, 0.0, 0.01);
+    EXPECT_EQ(v->state().mode, Mode::Paused);
+  }
 }
 
 TEST(BrakingVerdict, WhatAnEmptyVehicleCanTheLoadedOneNeedNotBeAbleTo) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/mounting/mounting_findings.hpp"
+#include "app/mounting/mounting_manoeuvre.hpp"
 #include "app/mounting/mounting_words.hpp"
 #include "core/angle.hpp"
 #include "tests/support/mounting_trial.hpp"
@@ -175,6 +176,24 @@ TEST(WrongMounting, AYawWrongBySomeDegreesIsToldAfterTheFirstMetresAndStopsWhere
   for (const double far_deg : {30.0, 45.0, -90.0, 180.0}) {
     EXPECT_FALSE(yaw_events(to_rad(far_deg), cause).empty()) << far_deg;
     EXPECT_EQ(cause, "lidar-yaw") << far_deg;
+  }
+}
+
+TEST(Mounting, SweepsOfAnotherTimeDoNotLetTheVehicleDrive) {
+  for (const double age_s : {0.0, 1.0}) {
+    MountingManoeuvre manoeuvre(test::toy_config({}));
+    control::wire::Status running;
+    running.state = control::wire::DriveState::Running;
+    CycleOutput output;
+    for (int i = 0; i < 75; ++i) {
+      CycleInput input;
+      input.now = stamp_from_seconds(1'000.0 + 0.02 * i);
+      input.drive.push_back(running);
+      if (i % 5 == 0) input.clouds.push_back({input.now - duration_from_seconds(age_s), {}});
+      output = manoeuvre.step(input, {});
+    }
+    EXPECT_EQ(output.command.linear_mps > 0.0, age_s == 0.0) << manoeuvre.notice().text;
+    EXPECT_EQ(manoeuvre.notice().code, age_s == 0.0 ? "" : kMountingLidarSilent.code);
   }
 }
 

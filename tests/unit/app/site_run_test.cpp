@@ -9,9 +9,9 @@
 #include <thread>
 
 #include "app/panel/reference_lidar.hpp"
-#include "app/simulated/factory_link.hpp"
 #include "app/statistics/work_meter.hpp"
 #include "mapping/drawing/import_drawing.hpp"
+#include "tests/support/factory_link.hpp"
 #include "tests/support/small_hall.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -191,7 +191,7 @@ TEST(SiteRunMounting, IsMeasuredBeforeTheSiteCanBeDrivenAndStopsWhenTold) {
   setup.sensors = {{"front", "lms1xx", 0.7, 0.0, 0.25, 0.0}};
   setup.scenario.lms1xx.noise_m = 0.012;
   const auto factory = std::make_shared<simulation::Factory>(setup);
-  SiteRun run(import.site, std::make_unique<FactoryLink>(factory, WheelGeometry{}, kStep), {});
+  SiteRun run(import.site, std::make_unique<test::FactoryLink>(factory, WheelGeometry{}, kStep), {});
   const auto tick_until = [&](MountingView::State state) {
     while (run.mounting().state != state) {  // the test's own limit ends this
       run.tick(factory->now() + kStep);
