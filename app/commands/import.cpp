@@ -51,7 +51,7 @@ void add_detection_options(CLI::App& command, mapping::DetectionOptions& d) {
   command
       .add_option(
           "--strictness", d.strictness,
-          "what a wrong wall weighs against a missed one: 0 keeps all lines, 3 the sure ones (default 1)")
+          "what a wrong wall weighs against a missed one: 0 keeps all lines, 3 the sure ones (default 0.8)")
       ->check(within(0.0, 1000.0));
   command.add_flag("!--no-straighten", d.straighten, "leave walls as they are drawn");
 }

@@ -45,7 +45,7 @@ OrderStop stop_from(const planning::RouteGraph& routes, const std::string& text)
   const auto node = routes.find(text.substr(0, colon));
   if (!node)
     throw Error("--to " + text, "no node of that ID or name is in the routes",
-                "madori route DIR --check lists them");
+                "DIR/routes/path.csv lists them");
   OrderStop stop{routes.nodes()[*node].id, StopAction::Pass, 0.0};
   if (colon == std::string::npos) return stop;
   const std::string action = text.substr(colon + 1);
