@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "core/stamp.hpp"
@@ -9,7 +8,7 @@
 namespace madori::sensors {
 
 /// Whose packets are a device's, where anybody may send to its port: the first sender of a good one, until it
-/// has sent none for a while. What others send is counted, never mixed in.
+/// has sent none for a while. What others send is never mixed in.
 class SourcePin {
  public:
   /// Whether a packet may be looked at. `fresh` tells that its sender is not the one before.
@@ -20,7 +19,6 @@ class SourcePin {
   [[nodiscard]] Verdict judge(const io::Sender& sender, Stamp now) {
     if (pinned_ && sender == *pinned_) return {true, false};
     if (pinned_ && now - good_ <= kExpires) {
-      ++strangers_;
       stranger_ = sender;
       stranger_heard_ = now;
       return {};
@@ -41,9 +39,8 @@ class SourcePin {
   }
   /// Who else sends here, while that goes on.
   [[nodiscard]] std::optional<io::Sender> stranger(Stamp now) const {
-    return strangers_ > 0 && now - stranger_heard_ <= kTold ? std::optional(stranger_) : std::nullopt;
+    return now - stranger_heard_ <= kTold ? stranger_ : std::nullopt;
   }
-  [[nodiscard]] std::uint64_t strangers() const { return strangers_; }
 
  private:
   /// A lidar that restarts needs longer; one whose cable is bad keeps its place.
@@ -53,8 +50,7 @@ class SourcePin {
   std::optional<io::Sender> pinned_;
   std::optional<io::Sender> candidate_;  ///< whose packets were looked at last
   Stamp good_{};
-  std::uint64_t strangers_ = 0;
-  io::Sender stranger_;
+  std::optional<io::Sender> stranger_;
   Stamp stranger_heard_{};
 };
 

@@ -184,11 +184,6 @@ bool Factory::is_free(const Transform2<Map, Base>& map_from_base) const {
   return touched_at(world_.frames().building_pose(map_from_base), true).empty();
 }
 
-void Factory::set_load_kg(double load_kg) {
-  setup_.scenario.vehicle.load_kg = load_kg;
-  vehicle_ = Vehicle(setup_.vehicle, setup_.scenario.vehicle, setup_.seed);
-}
-
 void Factory::drive_write(std::span<const std::uint8_t> bytes) {
   if (mailbox_.active(FaultKind::Silence, Device::Drive, to_seconds(now_)) != nullptr) return;
   drive_.receive(bytes, now_);

@@ -101,7 +101,6 @@ class Factory {
   void remove_mover(const std::string& name);
   /// Whether the vehicle could stand there without touching anything.
   [[nodiscard]] bool is_free(const Transform2<Map, Base>& map_from_base) const;
-  void set_load_kg(double load_kg);
 
  private:
   void tick(const WheelCommand* command);

@@ -9,6 +9,7 @@
 #include "app/json_output.hpp"
 #include "app/log_options.hpp"
 #include "app/trajectory_file.hpp"
+#include "core/median.hpp"
 #include "core/result.hpp"
 #include "localization/global/global_localizer.hpp"
 #include "localization/wall_extraction/wall_extraction.hpp"
@@ -107,8 +108,7 @@ void relocalize(const RelocalizeArguments& arguments) {
     add_scan(tally, stamp_of(*record), answer, arguments.best_guess);
   }
   mapping::write_file_atomically(arguments.out, tally.trajectory);
-  std::sort(tally.ms.begin(), tally.ms.end());
-  const double median = tally.ms.empty() ? 0.0 : tally.ms[tally.ms.size() / 2];
+  const double median = tally.ms.empty() ? 0.0 : median_of(tally.ms);
   const auto [found, ambiguous, nowhere] = tally.count;
   write_json(arguments.json_file, {{"found", found},
                                    {"ambiguous", ambiguous},

@@ -16,8 +16,4 @@ inline cv::Mat cv_view(const GrayImage& image) {
   return {image.height_px, image.width_px, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())};
 }
 
-inline GrayImage blank_like(const GrayImage& image) {
-  return {image.width_px, image.height_px, std::vector<std::uint8_t>(image.pixels.size()), image.dpi};
-}
-
 }  // namespace madori::mapping

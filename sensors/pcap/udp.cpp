@@ -61,8 +61,7 @@ std::optional<UdpPayload> udp_payload(Bytes frame, int link_type) {
   const Bytes udp = ip->subspan(header);
   const std::size_t length = word(udp, 4);
   if (length < 8 || length > udp.size()) return std::nullopt;
-  return UdpPayload{static_cast<std::uint16_t>(word(udp, 0)), static_cast<std::uint16_t>(word(udp, 2)),
-                    udp.subspan(8, length - 8)};
+  return UdpPayload{static_cast<std::uint16_t>(word(udp, 2)), udp.subspan(8, length - 8)};
 }
 
 }  // namespace madori::sensors::pcap

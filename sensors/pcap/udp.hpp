@@ -7,7 +7,6 @@
 namespace madori::sensors::pcap {
 
 struct UdpPayload {
-  std::uint16_t source_port = 0;
   std::uint16_t destination_port = 0;
   std::span<const std::uint8_t> bytes;
 };

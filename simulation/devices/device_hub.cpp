@@ -88,7 +88,7 @@ class LmsPort {
     std::erase_if(sessions_, [](const auto& s) { return !s->open(); });
     for (const auto& session : sessions_) {
       if (!session->wants_scans()) continue;
-      ++(session->send(bytes) ? counters_.lms_telegrams : counters_.lms_dropped);
+      if (session->send(bytes)) ++counters_.lms_telegrams;
     }
   }
   [[nodiscard]] std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
@@ -99,7 +99,6 @@ class LmsPort {
       if (error) return;
       sessions_.push_back(std::make_shared<LmsSession>(std::move(socket), dialect_, newest_));
       sessions_.back()->start();
-      ++counters_.lms_clients;
       accept();
     });
   }

@@ -25,7 +25,7 @@ struct DeviceHubOptions {
 /// What went over the wires.
 struct HubCounters {
   std::uint64_t vlp16_packets = 0, vlp16_refused = 0;
-  std::uint64_t lms_telegrams = 0, lms_dropped = 0, lms_clients = 0;
+  std::uint64_t lms_telegrams = 0;
   std::uint64_t s300_telegrams = 0, drive_frames = 0, drive_bytes_received = 0;
 };
 

@@ -22,13 +22,11 @@ class Pty {
   /// Appends what has arrived; returns how much.
   std::size_t read(std::vector<std::uint8_t>& into);
   [[nodiscard]] const std::filesystem::path& link() const { return link_; }
-  [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
 
  private:
   std::filesystem::path link_;
   int master_ = -1;
   int slave_ = -1;  ///< held open, so that the settings stay and closing the other side is no error
-  std::uint64_t overruns_ = 0;
 };
 
 }  // namespace madori::simulation

@@ -41,7 +41,6 @@ class World {
   [[nodiscard]] FloorAt floor_at(const Point2<Building>& p) const;
 
  private:
-  void add_walls(const mapping::Walls& walls, const BuildingSpec& building);
   void add_wall(const Segment2<Building>& line, double height_m, const std::string& name);
   void add_solid(const SolidSpec& solid);
   void add_office(const OfficeSpec& office);

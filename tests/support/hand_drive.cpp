@@ -34,7 +34,7 @@ HandDrive::HandDrive(const simulation::FactorySetup& setup, Hand hand)
       setup_{setup.vehicle, setup.sensors},
       factory_(std::make_shared<simulation::Factory>(setup)) {
   const auto& v = setup_.vehicle;
-  link_ = std::make_unique<app::FactoryLink>(
+  link_ = std::make_unique<FactoryLink>(
       factory_, WheelGeometry{v.wheel_radius_m, v.wheel_radius_m, v.half_wheel_separation_m}, kStep);
   start_program();
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/runner/site_run.hpp"
-#include "app/simulated/factory_link.hpp"
 #include "simulation/factory.hpp"
+#include "tests/support/factory_link.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::test {
@@ -58,7 +58,7 @@ class HandDrive {
   std::filesystem::path site_;
   app::MappingSetup setup_;
   std::shared_ptr<simulation::Factory> factory_;
-  std::unique_ptr<app::FactoryLink> link_;
+  std::unique_ptr<FactoryLink> link_;
   std::optional<app::SiteRun> run_;
 };
 

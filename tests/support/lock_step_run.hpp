@@ -8,8 +8,8 @@
 #include "app/cycle/site_config.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/runner/transport_run.hpp"
-#include "app/simulated/factory_link.hpp"
 #include "core/segment_distance.hpp"
+#include "tests/support/factory_link.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::test {
@@ -34,7 +34,7 @@ class LockStepRun {
         site.config,
         make_source ? make_source(*factory)
                     : std::make_unique<app::LocalizerPose>(site.walls, site.config.lidars),
-        std::make_unique<app::FactoryLink>(factory, site.config.odometry.wheels, kStep), options);
+        std::make_unique<FactoryLink>(factory, site.config.odometry.wheels, kStep), options);
     orders = std::make_unique<app::OrderStore>(database_.path() / "madori.db");
     run->say({app::OperatorWord::Resume, {}});
   }

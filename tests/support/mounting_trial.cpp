@@ -8,8 +8,8 @@
 #include "app/lidars.hpp"
 #include "app/mounting/mounting_log.hpp"
 #include "app/mounting/mounting_manoeuvre.hpp"
-#include "app/simulated/factory_link.hpp"
 #include "core/angle.hpp"
+#include "tests/support/factory_link.hpp"
 
 namespace madori::test {
 namespace {
@@ -68,7 +68,7 @@ MountingTrialResult run_mounting_trial(const MountingTrial& trial) {
   std::vector<LidarModel> lidars;
   for (const auto& sensor : trial.typed) lidars.push_back(app::lidar_model(sensor));
   const auto config = app::vehicle_config(setup.vehicle, lidars);
-  app::FactoryLink link(factory, config.odometry.wheels, kStep);
+  FactoryLink link(factory, config.odometry.wheels, kStep);
   app::MountingLog log(config.odometry.wheels);
   app::MountingManoeuvre drive(config, {.way_m = trial.way_m, .turn_rad = trial.turn_rad});
   using Stage = app::MountingManoeuvre::Stage;

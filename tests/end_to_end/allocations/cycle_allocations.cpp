@@ -13,8 +13,8 @@
 #include "app/orders/order_store.hpp"
 #include "app/pose/localizer_pose.hpp"
 #include "app/runner/transport_run.hpp"
-#include "app/simulated/factory_link.hpp"
 #include "tests/end_to_end/allocations/allocation_counter.hpp"
+#include "tests/support/factory_link.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::allocations {
@@ -112,7 +112,7 @@ void drive(const Wishes& wishes, Tally& tally) {
   app::TransportRun run(
       site.config, std::make_unique<WatchedPose>(site, tally),
       std::make_unique<WatchedLink>(
-          std::make_unique<app::FactoryLink>(factory, site.config.odometry.wheels, kStep), tally),
+          std::make_unique<test::FactoryLink>(factory, site.config.odometry.wheels, kStep), tally),
       options);
   app::OrderStore orders(database.path() / "madori.db");
   (void)orders.add({{13, app::StopAction::Pass, 0.0}, {15, app::StopAction::Pass, 0.0}}, 900, factory->now());

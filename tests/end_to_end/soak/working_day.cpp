@@ -9,9 +9,9 @@
 #include "app/learned/kept_memory.hpp"
 #include "app/learned/living_map_file.hpp"
 #include "app/pose/localizer_pose.hpp"
-#include "app/simulated/factory_link.hpp"
 #include "mapping/wall_map/wall_files.hpp"
 #include "planning/route_graph/route_csv.hpp"
+#include "tests/support/factory_link.hpp"
 
 namespace madori::soak {
 namespace {
@@ -60,7 +60,7 @@ WorkingDay::WorkingDay(const DayOptions& options, const Wishes& wishes, int numb
   if (!options.memory.empty()) pose.memory = app::load_memory(options.memory, loaded_.walls).memory;
   run_ = std::make_unique<app::TransportRun>(
       loaded_.config, std::make_unique<app::LocalizerPose>(loaded_.walls, loaded_.config.lidars, pose),
-      std::make_unique<app::FactoryLink>(factory_, loaded_.config.odometry.wheels, kStep), transport);
+      std::make_unique<test::FactoryLink>(factory_, loaded_.config.odometry.wheels, kStep), transport);
   orders_ = std::make_unique<app::OrderStore>(options.database / "madori.db");
   surprises_ = std::make_unique<Surprises>(*factory_, setup.scenario, run_->config());
   witness_ = std::make_unique<Witness>(*factory_, figures_, options.verbose, options.trace_s);
