@@ -42,6 +42,10 @@ struct Candidate {
   [[nodiscard]] Transform2<Map, Map> correction() const { return {x_m, y_m, turn_rad}; }
 };
 
+bool is_likelier(const Candidate& a, const Candidate& b) {
+  return a.score > b.score;
+}
+
 MemoryCloud strongest(const MemoryCloud& cloud, std::size_t count) {
   MemoryCloud straight;
   std::copy_if(cloud.begin(), cloud.end(), std::back_inserter(straight),
@@ -98,8 +102,7 @@ class Lattice {
 /// The best, no two of the same place, the best first.
 std::vector<Candidate> distinct(std::vector<Candidate> found, const Transform2<Map, Base>& at,
                                 std::size_t wanted) {
-  std::sort(found.begin(), found.end(),
-            [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  std::sort(found.begin(), found.end(), is_likelier);
   std::vector<Candidate> kept;
   std::vector<Transform2<Map, Base>> places;
   for (const Candidate& c : found) {
@@ -166,8 +169,7 @@ std::vector<Candidate> coarse(const Lattice& lattice, const Box& drawing, const 
           best.push_back({scores[i], x + static_cast<double>(i) * step_m, y, r * kStepRad});
     }
     if (best.size() <= kBuffer) continue;
-    std::nth_element(best.begin(), best.begin() + (kBuffer - 1), best.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+    std::nth_element(best.begin(), best.begin() + (kBuffer - 1), best.end(), is_likelier);
     best.resize(kBuffer);
     least = best.back().score;
   }

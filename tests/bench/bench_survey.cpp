@@ -5,7 +5,6 @@
 #include <random>
 
 #include "localization/placement/survey.hpp"
-#include "localization/pose_axes.hpp"
 #include "tests/support/tiled_floor.hpp"
 
 namespace madori::localization {
@@ -17,20 +16,15 @@ void survey_site(int tiles, double sigma_m, double range_m) {
   std::mt19937 engine(7);
   const mapping::Walls walls = test::tiled_floor(tiles, engine);
   const WallIndex index(walls);
-  std::uniform_real_distribution<double> x(3.0, 80.0 * tiles - 3.0), y(5.0, 50.0 * tiles - 5.0),
-      turn(-kPi, kPi), shift(-60.0, 60.0);
+  test::SurveyedPlaces places(walls, tiles, range_m, sigma_m);
   int first = 0, among = 0;
   double spent_ms = 0.0;
   for (int trial = 0; trial < kPlaces; ++trial) {
-    const Transform2<Map, Base> place(x(engine), y(engine), turn(engine));
-    const MemoryCloud seen = test::seen_from(place.translation(), walls, range_m, sigma_m, engine);
-    const Transform2<Map, Map> elsewhere(shift(engine), shift(engine), turn(engine));
-    const Transform2<Map, Base> at = elsewhere * place;
-    const MemoryCloud cloud = moved(seen, elsewhere);
+    const auto here = places.next(engine);
     const auto begun = std::chrono::steady_clock::now();
-    const auto likeliest = survey(index, cloud, at, 30);
+    const auto likeliest = survey(index, here.cloud, here.at, 30);
     spent_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
-    const auto right = [&](const auto& c) { return same_place(c * at, place, 0.9, to_rad(8.0)); };
+    const auto right = [&](const auto& c) { return here.is_there(c); };
     first += !likeliest.empty() && right(likeliest.front()) ? 1 : 0;
     among += std::ranges::any_of(likeliest, right) ? 1 : 0;
   }

@@ -4,6 +4,7 @@
 
 #include "localization/drawing_fit/memory_cloud.hpp"
 #include "localization/drawing_fit/wall_index.hpp"
+#include "localization/pose_axes.hpp"
 #include "tests/support/made_up_buildings.hpp"
 
 namespace madori::test {
@@ -46,5 +47,38 @@ inline localization::MemoryCloud seen_from(const Point2<Map>& here, const mappin
   }
   return cloud;
 }
+
+/// A random place of the site, and what was remembered around it by a memory that began anywhere.
+class SurveyedPlaces {
+ public:
+  struct Trial {
+    Transform2<Map, Base> place, at;
+    localization::MemoryCloud cloud;
+
+    [[nodiscard]] bool is_there(const Transform2<Map, Map>& correction) const {
+      return localization::same_place(correction * at, place, 0.9, to_rad(8.0));
+    }
+  };
+  SurveyedPlaces(const mapping::Walls& walls, int tiles, double range_m, double sigma_m)
+      : walls_(walls),
+        range_m_(range_m),
+        sigma_m_(sigma_m),
+        x_(3.0, 80.0 * tiles - 3.0),
+        y_(5.0, 50.0 * tiles - 5.0) {}
+
+  [[nodiscard]] Trial next(std::mt19937& engine) {
+    const double x_m = x_(engine), y_m = y_(engine), yaw_rad = turn_(engine);
+    const Transform2<Map, Base> place(x_m, y_m, yaw_rad);
+    const auto seen = seen_from(place.translation(), walls_, range_m_, sigma_m_, engine);
+    const double dx_m = shift_(engine), dy_m = shift_(engine), turn_rad = turn_(engine);
+    const Transform2<Map, Map> elsewhere(dx_m, dy_m, turn_rad);
+    return {place, elsewhere * place, moved(seen, elsewhere)};
+  }
+
+ private:
+  const mapping::Walls& walls_;
+  double range_m_, sigma_m_;
+  std::uniform_real_distribution<double> x_, y_, turn_{-kPi, kPi}, shift_{-60.0, 60.0};
+};
 
 }  // namespace madori::test

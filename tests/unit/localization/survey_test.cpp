@@ -15,21 +15,16 @@ namespace {
 /// it is turned.
 int places_found(const mapping::Walls& walls, int tiles, double sigma_m, std::mt19937& engine) {
   const WallIndex index(walls);
-  std::uniform_real_distribution<double> x(3.0, 80.0 * tiles - 3.0), y(5.0, 50.0 * tiles - 5.0),
-      turn(-kPi, kPi), shift(-60.0, 60.0);
+  test::SurveyedPlaces places(walls, tiles, 12.0, sigma_m);
   int found = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    const Transform2<Map, Base> place(x(engine), y(engine), turn(engine));
-    const MemoryCloud seen = test::seen_from(place.translation(), walls, 12.0, sigma_m, engine);
-    const Transform2<Map, Map> elsewhere(shift(engine), shift(engine), turn(engine));
-    const Transform2<Map, Base> at = elsewhere * place;
-    const auto likeliest = survey(index, moved(seen, elsewhere), at, 30);
+    const auto here = places.next(engine);
+    const auto likeliest = survey(index, here.cloud, here.at, 30);
     EXPECT_LE(likeliest.size(), 30U);
     for (std::size_t i = 0; i < likeliest.size(); ++i)
       for (std::size_t k = 0; k < i; ++k)
-        EXPECT_FALSE(same_place(likeliest[i] * at, likeliest[k] * at, 0.9, to_rad(10.0)));
-    found += std::ranges::any_of(likeliest,
-                                 [&](const auto& c) { return same_place(c * at, place, 0.9, to_rad(8.0)); });
+        EXPECT_FALSE(same_place(likeliest[i] * here.at, likeliest[k] * here.at, 0.9, to_rad(10.0)));
+    found += std::ranges::any_of(likeliest, [&](const auto& c) { return here.is_there(c); });
   }
   return found;
 }
