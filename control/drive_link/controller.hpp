@@ -58,11 +58,11 @@ class Controller {
 
   /// Call at least every 10 ms.
   constexpr void tick(const ControllerInputs& inputs, std::uint32_t now_us) {
-    if (counted_) {
+    if (sensed_) {
       left_turns_ = turns_after(left_turns_, inputs_.left_angle, inputs.left_angle);
       right_turns_ = turns_after(right_turns_, inputs_.right_angle, inputs.right_angle);
     }
-    counted_ = true;
+    sensed_ = true;
     inputs_ = inputs;
     inputs_.emergency_stop = emergency_stop_.update(inputs.emergency_stop ? 1 : 0, now_us) != 0;
     inputs_.bumper = bumper_.update(inputs.bumper ? 1 : 0, now_us) != 0;
@@ -127,8 +127,9 @@ class Controller {
     running_ = armed_ && clear() && command.enable;
   }
 
+  /// Of inputs that were never read nobody knows.
   [[nodiscard]] constexpr bool clear() const {
-    return !inputs_.emergency_stop && !inputs_.bumper && inputs_.faults == kNoFault;
+    return sensed_ && !inputs_.emergency_stop && !inputs_.bumper && inputs_.faults == kNoFault;
   }
 
   constexpr void watch(std::uint32_t now_us) {
@@ -159,7 +160,7 @@ class Controller {
   std::uint16_t rejected_ = 0;
   std::uint8_t stops_ = 0;
   bool was_clear_ = true;
-  bool counted_ = false;
+  bool sensed_ = false;
   bool fed_ = false;
   bool expired_ = false;
   bool armed_ = false;

@@ -47,6 +47,16 @@ TEST(DriveController, RunsOnlyAfterDisableThenEnable) {
   EXPECT_EQ(bench.controller.left_uradps(), 1'000'000);
 }
 
+TEST(DriveController, TheWheelsStandUntilTheInputsWereRead) {
+  Bench bench;
+  bench.send(false);
+  bench.send(true);
+  EXPECT_EQ(bench.controller.left_uradps(), 0) << "the emergency stop may be pressed";
+  bench.wait_ms(1);
+  bench.send(true);
+  EXPECT_EQ(bench.controller.left_uradps(), 0) << "no command without enable has come since";
+}
+
 TEST(DriveController, StopsByItselfAfter200msOfSilence) {
   Bench bench;
   bench.start();
