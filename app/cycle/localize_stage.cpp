@@ -156,8 +156,9 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     const bool off = state.drive_heard && was_switched_off(state, status, input.now);
     note_stop(state, status, off);
     const Stamp stamp = measured_at(state, status, input.now, off);
+    // Frames that come again, or of a controller that sends on but measures no more, are no sign of life.
+    if (!state.drive_heard || status.time_us != state.drive.time_us) state.drive_heard = input.now;
     state.drive = status;
-    state.drive_heard = input.now;
     const bool is_deaf = status.state == control::wire::DriveState::WatchdogStop;
     state.drive_deaf = is_deaf ? state.drive_deaf.value_or(input.now) : std::optional<Stamp>();
     state.odometry.update(status, stamp);

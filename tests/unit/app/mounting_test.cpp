@@ -188,6 +188,7 @@ TEST(Mounting, SweepsOfAnotherTimeDoNotLetTheVehicleDrive) {
     for (int i = 0; i < 75; ++i) {
       CycleInput input;
       input.now = stamp_from_seconds(1'000.0 + 0.02 * i);
+      running.time_us = static_cast<std::uint32_t>(20'000 * i);
       input.drive.push_back(running);
       if (i % 5 == 0) input.clouds.push_back({input.now - duration_from_seconds(age_s), {}});
       output = manoeuvre.step(input, {});

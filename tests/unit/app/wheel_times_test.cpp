@@ -69,6 +69,26 @@ TEST(WheelTimes, ABacklogIsNoLossOfPowerButAClockThatBeginsAnewIs) {
   }
 }
 
+/// The controller's clock stands: the same frame again and again, or new ones from a controller whose sensing
+/// hangs. The wheels may do anything meanwhile.
+TEST(WheelTimes, ADriveThatMeasuresNoMoreIsSilent) {
+  const CycleConfig config =
+      test::toy_config(planning::parse_routes("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,0,0\n1,9,0\n").graph);
+  const test::RollingVehicle rolling(Transform2<Map, Base>(0.0, 0.0, 0.0));
+  for (const bool counts_on : {false, true}) {
+    CycleState state(config, std::make_unique<test::TruePose>(rolling));
+    std::uint16_t sequence = 0;
+    for (int i = 0; i < 75; ++i) {
+      CycleInput input = status_at(20 * std::min(i, 25), 50'000'000 + 20 * i);
+      sequence = static_cast<std::uint16_t>(sequence + (i <= 25 ? 2 : counts_on ? 1 : 0));
+      input.drive.front().sequence = sequence;
+      state = step(std::move(state), input, config).state;
+      EXPECT_FALSE(i == 25 && state.standstill.cause.code == "drive-silent");
+    }
+    EXPECT_EQ(state.standstill.cause.code, "drive-silent") << counts_on;
+  }
+}
+
 /// The wheels at 1 m/s, read at `device_ms`.
 control::wire::Status rolled(std::int64_t device_ms, double wheel_radius_m) {
   const double turns = 1e-3 * static_cast<double>(device_ms) / wheel_radius_m / (2.0 * kPi);
