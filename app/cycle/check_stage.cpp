@@ -210,7 +210,7 @@ void forget_what_was_looked_at(CycleState& state) {
 
 void check_way(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   for (const auto& command : input.commands)
-    if (command.word == OperatorWord::GoOn) allow_door(state);
+    if (command.word == OperatorWord::GoOn) allow_door(state, config);
   for (const auto& command : input.commands)
     if (command.word == OperatorWord::ForgetObstacles ||
         (command.word == OperatorWord::Resume && state.mode == Mode::Waiting)) {

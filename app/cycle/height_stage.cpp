@@ -6,52 +6,44 @@
 namespace madori::app {
 namespace {
 
-constexpr double kBeforeDoorM = 0.8;  ///< from the vehicle's front to the node
-constexpr double kLeftZones = 3.0;    ///< door zones away from a node the operator's word for it ends
-constexpr double kOnPathM = 1.0;      ///< a path that passes a node farther away does not lead through it
-
-bool is_door(const planning::RouteNode& node) {
-  return node.action == planning::NodeAction::Door || node.action == planning::NodeAction::Lift;
-}
+constexpr double kLeftZones = 3.0;  ///< door zones away from a node the operator's word for it ends
 
 bool contains(const std::vector<std::size_t>& nodes, std::size_t node) {
   return std::ranges::find(nodes, node) != nodes.end();
 }
 
-/// Along the path to where it passes a place; nothing where it does not, or has done so.
-std::optional<double> along_of(const CycleState& state, const Point2<Map>& place) {
-  std::optional<double> along;
-  double nearest_m = kOnPathM;
+/// Along the path ahead to where a door's zone begins: on which side of its node the door is nobody says.
+/// Nothing where the path does not come so near to it any more.
+std::optional<double> along_of(const CycleState& state, const Point2<Map>& door, double zone_m) {
   for (std::size_t i = 0; i < state.way.plain.points.size(); ++i) {
-    const double away_m = distance_m(state.way.plain.points[i].position, place);
-    if (away_m >= nearest_m || state.way.path.along_m(i) < state.progress.along_m) continue;
-    nearest_m = away_m;
-    along = state.way.path.along_m(i);
+    const double along_m = state.way.path.along_m(i);
+    if (along_m < state.progress.along_m) continue;
+    if (distance_m(state.way.plain.points[i].position, door) < zone_m) return along_m;
   }
-  return along;
+  return std::nullopt;
 }
 
-/// The first door or lift ahead for which nobody has given the word, by its place in state.errand.nodes.
-std::optional<std::size_t> next_door(const CycleState& state, double& along_m) {
+/// The first door or lift ahead for which nobody has given the word.
+std::optional<std::size_t> next_door(const CycleState& state, const CycleConfig& config, double& along_m) {
   const auto& nodes = state.site->routes().nodes();
   std::optional<std::size_t> first;
   along_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < state.errand.nodes.size(); ++i) {
-    const auto& node = nodes[state.errand.nodes[i]];
-    if (!is_door(node) || contains(state.block.doors_allowed, state.errand.nodes[i])) continue;
-    const auto along = along_of(state, node.position);
+  for (const std::size_t door : state.errand.doors) {
+    if (contains(state.block.doors_allowed, door)) continue;
+    const auto along = along_of(state, nodes[door].position, config.door_zone_m);
     if (!along || *along >= along_m) continue;
     along_m = *along;
-    first = i;
+    first = door;
   }
   return first;
 }
 
 /// The word is given for the door at hand: all of its nodes that follow one another on the route.
 void allow(CycleState& state, std::size_t door) {
-  const auto& nodes = state.site->routes().nodes();
-  for (std::size_t i = door; i < state.errand.nodes.size() && is_door(nodes[state.errand.nodes[i]]); ++i)
-    state.block.doors_allowed.push_back(state.errand.nodes[i]);
+  state.block.doors_allowed.push_back(door);
+  const auto& nodes = state.errand.nodes;
+  for (auto at = std::ranges::find(nodes, door); at != nodes.end() && contains(state.errand.doors, *at); ++at)
+    state.block.doors_allowed.push_back(*at);
 }
 
 }  // namespace
@@ -71,18 +63,30 @@ void stop_before_doors(CycleState& state, const CycleConfig& config) {
     return distance_m(nodes[node].position, here) > kLeftZones * config.door_zone_m;
   });
   double along_m = 0.0;
-  const auto door = next_door(state, along_m);
-  if (!door) return;
-  const double stop_m = along_m - config.check.vehicle.front_m - kBeforeDoorM;
+  if (!next_door(state, config, along_m)) return;
+  const double stop_m = along_m - config.check.vehicle.front_m;
   if (stop_m > state.ahead.stop_along_m) return;
   state.ahead.stop_along_m = stop_m;
   state.block.height_unseen = stop_m - state.progress.along_m < config.door_zone_m;
 }
 
-void allow_door(CycleState& state) {
+void allow_door(CycleState& state, const CycleConfig& config) {
   double along_m = 0.0;
   if (!state.block.height_unseen || state.errand.arrived || state.mode != Mode::Waiting) return;
-  if (const auto door = next_door(state, along_m)) allow(state, *door);
+  if (const auto door = next_door(state, config, along_m)) allow(state, *door);
+}
+
+bool is_at_door(const CycleState& state, const Point2<Map>& place, const CycleConfig& config) {
+  const auto& nodes = state.site->routes().nodes();
+  return std::ranges::any_of(state.errand.doors, [&](std::size_t door) {
+    return distance_m(nodes[door].position, place) < config.door_zone_m;
+  });
+}
+
+bool waits_for_door(const CycleState& state, const CycleConfig& config) {
+  const bool on_route = !state.way.rejoin_m;  // beside it, what stands there is the wall beside the door
+  return on_route && state.ahead.check.blocked() && !state.block.unseen &&
+         is_at_door(state, state.ahead.check.where, config);
 }
 
 }  // namespace madori::app

@@ -121,6 +121,20 @@ bool is_too_tight(const planning::Route& route, const std::vector<planning::Tigh
   return false;
 }
 
+/// Nobody says on which side of its node a door is: the one at the other end of the leg on which the vehicle
+/// stands may still lie ahead.
+std::vector<std::size_t> doors_on(const planning::RouteGraph& routes, const planning::Route& route,
+                                  const Point2<Map>& here) {
+  const auto& nodes = routes.nodes();
+  std::vector<std::size_t> way = route.nodes;
+  if (distance_m(nodes[way.front()].position, here) >= kAtNodeM) {
+    const auto ends = ends_of_own_legs(routes, here, {});
+    way.insert(way.begin(), ends.begin(), ends.end());
+  }
+  std::erase_if(way, [&](std::size_t node) { return !planning::is_door(nodes[node].action); });
+  return way;
+}
+
 void refuse(CycleState& state, Cause why, CycleOutput& output) {
   state.errand.no_way = notice(why, {{"node", std::to_string(state.errand.stop.node)}});
   output.order_refused = {state.errand.target->order, state.errand.no_way.text};
@@ -144,6 +158,7 @@ void plan(CycleState& state, const CycleInput& input, const CycleConfig& config,
   auto path = path_over(state, *route, config);
   if (!path) return refuse(state, Cause::NoWay, output);
   state.errand.nodes = route->nodes;
+  state.errand.doors = doors_on(state.site->routes(), *route, here);
   state.detour.failed.clear();
   state.block.since.reset();
   take_path(state, std::move(path).value(), config);
@@ -261,20 +276,6 @@ planning::BlockedLegs blocked_now(const Errand& errand, Stamp now, double forget
   for (const auto& [leg, since] : errand.blocked_legs)
     if (to_seconds(now - since) < forget_s) blocked.insert(leg);
   return blocked;
-}
-
-bool is_at_door(const CycleState& state, const Point2<Map>& place, const CycleConfig& config) {
-  const auto& nodes = state.site->routes().nodes();
-  return std::any_of(nodes.begin(), nodes.end(), [&](const auto& node) {
-    return (node.action == planning::NodeAction::Door || node.action == planning::NodeAction::Lift) &&
-           distance_m(node.position, place) < config.door_zone_m;
-  });
-}
-
-bool waits_for_door(const CycleState& state, const CycleConfig& config) {
-  const bool on_route = !state.way.rejoin_m;  // beside it, what stands there is the wall beside the door
-  return on_route && state.ahead.check.blocked() && !state.block.unseen &&
-         is_at_door(state, state.ahead.check.where, config);
 }
 
 std::optional<Notice> taken_stop(const CycleState& state, const CycleConfig& config) {

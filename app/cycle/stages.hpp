@@ -69,7 +69,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
 /// looked, says Go on.
 void stop_before_doors(CycleState& state, const CycleConfig& config);
 /// The operator's word for the one before which it stands.
-void allow_door(CycleState& state);
+void allow_door(CycleState& state, const CycleConfig& config);
 [[nodiscard]] bool sees_heights(const CycleConfig& config);
 /// Events of all kinds move the mode.
 void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
@@ -122,7 +122,7 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
 [[nodiscard]] bool is_placed(const CycleState& state);
 /// Whether the vehicle knows so surely where it is that goods may be handed over there.
 [[nodiscard]] bool is_place_certain(const LocalizationHealth& health);
-/// Whether the place lies at a door or a lift, where the vehicle waits instead of driving around.
+/// Whether the place lies at a door or a lift of its way, where the vehicle waits instead of driving around.
 [[nodiscard]] bool is_at_door(const CycleState& state, const Point2<Map>& place, const CycleConfig& config);
 /// Whether a door or lift may be what blocks the way. What is remembered only, low and too near to be seen,
 /// is none.

@@ -21,7 +21,9 @@ struct Errand {
   std::optional<Target> target;
   OrderStop stop;
   std::vector<std::size_t> nodes;  ///< of the route
-  Notice no_way;                   ///< why there is no path
+  std::vector<std::size_t>
+      doors;      ///< doors and lifts that it leads through, also one just behind the vehicle
+  Notice no_way;  ///< why there is no path
   bool arrived = false;
   bool reported = false;
   Stamp dwell_until{};

@@ -16,6 +16,11 @@ namespace madori::planning {
 /// What a vehicle does at a node beside passing it.
 enum class NodeAction { None, Load, Unload, Door, Lift };
 
+/// Whether something there may be shut, or not open high enough.
+[[nodiscard]] constexpr bool is_door(NodeAction action) {
+  return action == NodeAction::Door || action == NodeAction::Lift;
+}
+
 /// What path.csv calls an action.
 struct NamedAction {
   const char* name;

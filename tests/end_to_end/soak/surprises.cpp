@@ -38,8 +38,7 @@ Point2<Map> beside(const PathPoint& p, double left_m) {
 
 bool near_door(const app::CycleConfig& config, const Point2<Map>& place) {
   return std::any_of(config.routes.nodes().begin(), config.routes.nodes().end(), [&](const auto& node) {
-    return (node.action == planning::NodeAction::Door || node.action == planning::NodeAction::Lift) &&
-           distance_m(node.position, place) < kAwayFromDoorM;
+    return planning::is_door(node.action) && distance_m(node.position, place) < kAwayFromDoorM;
   });
 }
 

@@ -125,6 +125,18 @@ TEST(AutonomyCycle, WhatLiesBeforeADoorIsNoDoor) {
   EXPECT_THAT(v.events, Contains(HasSubstr("detour found"))) << "a door is waited for, this is driven around";
 }
 
+TEST(AutonomyCycle, WhatStandsBesideADoorThatIsNotOnItsWayIsNoDoor) {
+  auto routes =
+      planning::parse_routes("ID,EDA\n0,1\n1,0 2 3\n2,1\n3,1\n",
+                             "ID,x,y,heading_deg,action\n0,0,0,,\n1,9,0,,\n2,20,0,,\n3,9,-2.5,,door\n");
+  ToyVehicle v(test::toy_config(std::move(routes.graph)), {0.0, 0.0, 0.0});
+  v.lidar.posts.push_back({{8.5, 0.0}, 0.3, 1.5});
+  v.drive_to({{2}});
+  v.say(OperatorWord::Resume);
+  EXPECT_TRUE(v.run_until([&] { return v.delivered(); }, 60.0)) << v.state().standstill.cause.text;
+  EXPECT_THAT(v.events, Contains(HasSubstr("detour found")));
+}
+
 TEST(AutonomyCycle, ADoorThatStaysShutIsLeftOutOfANewRouteAfterAWhile) {
   auto graph =
       planning::parse_routes("ID,EDA\n0,1\n1,0 4 3\n4,1 2\n2,4 3\n3,1 2\n",

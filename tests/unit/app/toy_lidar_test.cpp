@@ -248,6 +248,35 @@ TEST(HeightUnseen, AVehicleThatSeesOnePlaneAsksBeforeADoorAndGoesOnWhenTold) {
   }
 }
 
+/// Where a vehicle that sees one plane stands and asks, by its front, on its way to the last node.
+double front_where_it_asks_m(const std::string& tree, const std::string& path, double start_m, int goal) {
+  auto config = test::toy_config(planning::parse_routes(tree, path).graph);
+  config.lidars = {test::planar_lidar({0.0, 0.0, 0.9, 0.0})};
+  test::ToyVehicle v(config, {start_m, 0.0, 0.0});
+  v.drive_to({{goal}});
+  v.say(OperatorWord::Resume);
+  const auto asks = [&] { return v.state().standstill.cause == notice(Cause::HeightUnseen); };
+  EXPECT_TRUE(v.run_until(asks, 30.0)) << v.state().standstill.cause.text;
+  v.run_until([] { return false; }, 1.0);  // until it stands
+  const double front_m = v.rolling.pose().x_m() + v.config.check.vehicle.front_m;
+  v.say(OperatorWord::GoOn);
+  EXPECT_TRUE(v.run_until([&] { return v.delivered(); }, 60.0)) << v.state().standstill.cause.text;
+  return front_m;
+}
+
+// The sample factory's lift has its node 2.5 m before the door: on the way out the door comes first.
+TEST(HeightUnseen, ItAsksBeforeTheDoorOnTheWayOutOfALiftToo) {
+  EXPECT_LT(front_where_it_asks_m("ID,EDA\n0,1\n1,0 2\n2,1\n",
+                                  "ID,x,y,heading_deg,action\n0,0,0,,\n1,4.5,0,,lift\n2,14,0,,\n", 0.0, 2),
+            2.0);
+}
+
+TEST(HeightUnseen, ItAsksWhereItIsSwitchedOnBetweenTheNodeAndTheDoor) {
+  EXPECT_LT(front_where_it_asks_m("ID,EDA\n0,1\n1,0 2\n2,1\n",
+                                  "ID,x,y,heading_deg,action\n0,0,0,,\n1,7,0,,lift\n2,14,0,,\n", 8.0, 2),
+            9.0);
+}
+
 TEST(SureSight, NoFasterIsDrivenThanALegIsSureToBeSeen) {
   const auto routes = planning::parse_routes("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,0,0\n1,30,0\n").graph;
   auto config = test::toy_config(routes);
