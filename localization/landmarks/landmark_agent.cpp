@@ -67,7 +67,7 @@ std::optional<LandmarkAgent::Recognised> LandmarkAgent::recognise(const Surround
     if (away_m > reach_m + 3.0 * sigma_m) continue;
     if (away_m < seen.corridor_width_m && std::abs(expected.motion.yaw_rad) < 0.25 * kPi) near_known = true;
     const Descriptor& descriptor = hub_->map().descriptor(k);
-    const MatchWindow window{expected.motion, std::min(3.0 * sigma_m, 2.0 * descriptor.median_range_m()),
+    const MatchWindow window{expected.motion, 3.0 * sigma_m,
                              3.0 * std::sqrt(expected.uncertainty.covariance(2, 2))};
     const DescriptorMatch match = match_landmark(descriptor, seen, window);
     if (match.quality < options_.least_quality ||

@@ -17,7 +17,10 @@ constexpr double kLeastQuality = 0.75;      ///< of a match where nothing else s
 
 DescriptorMatch match_landmark(const Descriptor& landmark, const Surroundings& seen,
                                const MatchWindow& window) {
-  DescriptorMatch match = match_descriptor(landmark, seen.descriptor, window);
+  // Whoever stands farther away than it is wide sees another place; the starts grow with the square of that.
+  const double reach_m = std::min(window.reach_m, 2.0 * landmark.median_range_m());
+  DescriptorMatch match =
+      match_descriptor(landmark, seen.descriptor, {window.centre, reach_m, window.reach_rad});
   const double floor_m2 = std::pow(kShareOfRange * landmark.median_range_m(), 2);
   match.uncertainty.covariance =
       match.uncertainty.covariance + Matrix3::diagonal(floor_m2, floor_m2, kLeastSigma_rad * kLeastSigma_rad);

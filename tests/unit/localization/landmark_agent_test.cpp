@@ -178,6 +178,28 @@ double cpu_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// What the vehicle sees when it is switched on in a hall, compared with a crossing of narrow aisles: it was
+/// half a minute a crossing.
+TEST(LandmarkTime, AWideHallIsComparedWithANarrowCrossingAsFastAsTheCrossingItself) {
+  const mapping::Walls aisle = ell();
+  mapping::Walls hall;
+  const double c[5][2] = {{-16, -12}, {16, -12}, {16, 12}, {-16, 12}, {-16, -12}};
+  for (int i = 0; i < 4; ++i) hall.push_back({i, {{c[i][0], c[i][1]}, {c[i + 1][0], c[i + 1][1]}}});
+  const auto in = [](const mapping::Walls& walls) {
+    std::mt19937 random(1);
+    return look_around(
+        scan_points(test::simulate_scan(walls, {0.2, 0.1, 0.3}, test::full_turn(360, 30.0), random), {}));
+  };
+  const Surroundings crossing = in(aisle);
+  const auto takes_s = [&](const Surroundings& seen) {
+    const double before = cpu_s();
+    (void)recognise_anywhere(crossing.descriptor, seen);
+    return cpu_s() - before;
+  };
+  const double itself_s = takes_s(crossing);
+  EXPECT_LT(takes_s(in(hall)), 5.0 * itself_s) << itself_s;
+}
+
 /// 20 landmarks in a grid of aisles, the loop just closed: processor time beside that of Ceres on the same
 /// graph. The limit is the issue's; the ratio does not depend on the machine.
 TEST(LandmarkTime, AnUpdateOfTwentyLandmarks) {
