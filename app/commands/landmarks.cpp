@@ -83,8 +83,7 @@ void simulate(const LandmarkArguments& arguments) {
                all.mean_odometry_end_m, to_deg(all.mean_odometry_end_rad));
 }
 
-/// `LOG` or `LOG@x:y:yaw_deg`: a rough start in the frame of the landmarks, half a metre and 10 degrees (one
-/// sigma).
+/// `LOG` or `LOG@x:y:yaw_deg`: a rough start in the frame of the landmarks, as sure as what a person says.
 AgentTrack run_agent(const std::string& text, const mapping::Site& site, lm::LandmarkHub& hub,
                      bool match_scans, const Transform2<Map, Map>& map_from_origin) {
   const std::size_t at = text.rfind('@');
