@@ -46,6 +46,14 @@ void allow(CycleState& state, std::size_t door) {
     state.block.doors_allowed.push_back(*at);
 }
 
+/// A door that was seen shut is open anew: how high, nobody has looked. One that rises is open first where a
+/// level lidar looks.
+void forget_word_of_shut_door(CycleState& state, const CycleConfig& config) {
+  const bool shut = state.mode == Mode::Waiting && waits_for_door(state, config) && !state.block.by_mover;
+  if (state.block.door_shut && !shut) state.block.doors_allowed.clear();
+  state.block.door_shut = shut;
+}
+
 }  // namespace
 
 bool sees_heights(const CycleConfig& config) {
@@ -57,6 +65,7 @@ bool sees_heights(const CycleConfig& config) {
 void stop_before_doors(CycleState& state, const CycleConfig& config) {
   state.block.height_unseen = false;
   if (sees_heights(config) || state.way.backing) return;
+  forget_word_of_shut_door(state, config);
   const auto& nodes = state.site->routes().nodes();
   const Point2<Map> here = state.pose.map_from_base.translation();
   std::erase_if(state.block.doors_allowed, [&](std::size_t node) {

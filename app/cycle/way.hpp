@@ -72,6 +72,7 @@ struct Block {
   bool unseen = false;         ///< it is remembered from before it came too near for the lidar
   bool height_unseen = false;  ///< ahead is a door or lift of which no lidar sees how high it is open
   std::vector<std::size_t> doors_allowed;  ///< nodes that an operator has looked at
+  bool door_shut = false;                  ///< it stands before one, for what is seen there
   planning::Squeeze squeeze;               ///< until it is out of where it stands too near to something
   std::vector<Stirring> stirring;
   std::optional<Stamp> since;

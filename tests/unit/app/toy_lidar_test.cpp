@@ -277,6 +277,27 @@ TEST(HeightUnseen, ItAsksWhereItIsSwitchedOnBetweenTheNodeAndTheDoor) {
             9.0);
 }
 
+// It has closed meanwhile, and rises as the vehicle comes: the scanner sees no more of it when it is a hand
+// high.
+TEST(HeightUnseen, AWordForADoorThatWasThenSeenShutHoldsNoMore) {
+  auto config = test::toy_config(
+      planning::parse_routes("ID,EDA\n0,1\n1,0\n", "ID,x,y,action\n0,0,0,\n1,4,0,door\n").graph);
+  config.lidars = {test::planar_lidar({0.0, 0.0, 0.2, 0.0})};
+  for (const Mode mode : {Mode::Driving, Mode::Waiting}) {
+    CycleState state(config, nullptr);
+    state.mode = mode;
+    state.errand.doors = state.block.doors_allowed = {1};
+    state.ahead.check.free_m = 3.0;
+    state.ahead.check.where = {4.0, 0.0};
+    stop_before_doors(state, config);
+    EXPECT_EQ(state.block.doors_allowed.size(), 1U) << "it is waited for";
+    state.ahead.check = {};
+    stop_before_doors(state, config);
+    EXPECT_EQ(state.block.doors_allowed.empty(), mode == Mode::Waiting)
+        << "a moment's shape of the noise is no door";
+  }
+}
+
 TEST(SureSight, NoFasterIsDrivenThanALegIsSureToBeSeen) {
   const auto routes = planning::parse_routes("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,0,0\n1,30,0\n").graph;
   auto config = test::toy_config(routes);
