@@ -9,7 +9,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 21;
+constexpr std::uint32_t kFormat = 22;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -97,9 +97,10 @@ void each_of_notice(Bytes& bytes, Notice& n) {
 
 template <class Bytes, class Errand>
 void each_of_errand(Bytes& bytes, Errand& e) {
-  auto& [target, stop, nodes, no_way, arrived, reported, dwell_until, back_outs, backing_held, blocked_legs] =
-      e;
-  each(bytes, target, stop, nodes, arrived, reported, dwell_until, back_outs, backing_held, blocked_legs);
+  auto& [target, stop, nodes, doors, no_way, arrived, reported, dwell_until, back_outs, backing_held,
+         blocked_legs] = e;
+  each(bytes, target, stop, nodes, doors, arrived, reported, dwell_until, back_outs, backing_held,
+       blocked_legs);
   each_of_notice(bytes, no_way);
 }
 
@@ -112,8 +113,10 @@ void each_of_way(Bytes& bytes, Way& w) {
 
 template <class Bytes, class Block>
 void each_of_block(Bytes& bytes, Block& b) {
-  auto& [felt, by_mover, unseen, height_unseen, doors_allowed, squeeze, stirring, since, free_since] = b;
-  each(bytes, felt, by_mover, unseen, height_unseen, doors_allowed, squeeze, stirring, since, free_since);
+  auto& [felt, by_mover, unseen, height_unseen, doors_allowed, door_shut, squeeze, stirring, since,
+         free_since] = b;
+  each(bytes, felt, by_mover, unseen, height_unseen, doors_allowed, door_shut, squeeze, stirring, since,
+       free_since);
 }
 
 template <class Bytes, class Search>
