@@ -374,6 +374,28 @@ TEST(Strategies, AScanThatLooksThroughAWallIsUnlikely) {
   EXPECT_LT(log_likelihood(scan, PointMap(sample_walls(walls, 0.05)), here), likely - 20.0);
 }
 
+/// A lidar at the vehicle's front sees behind corners that hide the same from Base: its beams begin where it
+/// sits, or they pass walls that they never met.
+TEST(Strategies, BeamsBeginAtTheLidar) {
+  std::mt19937 engine(36);
+  const mapping::Walls walls = test::laboratory_hall();
+  const PointMap map(sample_walls(walls, 0.05));
+  const mapping::DistanceField field(walls);
+  const Transform2<Base, Lidar> front(0.7, 0.0, 0.0);
+  LikelihoodOptions options, at_base;
+  options.sensor = front.translation();
+  double most = 0.0, most_at_base = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    const Transform2<Map, Base> eye = test::random_pose(walls, field, 0.5, 4.0, engine);
+    const Transform2<Map, Base> here = eye * Transform2<Base, Base>(-0.7, 0.0, 0.0);
+    const ScanPoints scan = scan_points(test::simulate_scan(walls, eye, {}, engine), front);
+    most = std::max(most, contradiction(scan, map, here, options));
+    most_at_base = std::max(most_at_base, contradiction(scan, map, here, at_base));
+  }
+  EXPECT_LT(most, 0.03);
+  EXPECT_GT(most_at_base, 2.0 * most);
+}
+
 /// In a map that noise made thick some point is near to everything, and walls that a beam grazes have points
 /// far before its end: neither may hide which place it is.
 TEST(Strategies, NoiseHidesNoPlace) {
