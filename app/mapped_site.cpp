@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/iso_time.hpp"
+#include "app/mapping_drive/drive_site.hpp"
 #include "core/result.hpp"
 #include "localization/drawing_fit/wall_lines.hpp"
 #include "mapping/site/site.hpp"
@@ -19,7 +20,10 @@
 namespace madori::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr double kMarginM = 1.0;
+constexpr const char* kDrawing = "drawing.png";
 
 /// The turn that lays the walls along the axes: walls vote by their length for a direction within a quarter
 /// turn, neighbours included.
@@ -81,15 +85,29 @@ std::string picture_png(const mapping::GrayImage& image) {
   return as_text(mapping::palette_png(image.width_px, image.height_px, indices, kInkOnPaper));
 }
 
-mapping::Site site_of(const MappedSite& mapped, const MappedFor& whom) {
+/// What stands in its folder keeps its vehicle, its lidars and who guards it.
+mapping::Site site_of(const MappedSite& mapped, const fs::path& folder, const MappedFor& whom) {
   mapping::Site site;
+  if (fs::exists(folder / "site.yaml")) {
+    site = mapping::load_site(folder);
+    site.georeference.reset();
+  } else {
+    site.vehicle = whom.vehicle;
+    site.sensors = whom.sensors;
+  }
   site.name = whom.name;
-  site.vehicle = whom.vehicle;
-  site.sensors = whom.sensors;
-  site.drawing = {"drawing.png", mapped.width_px, mapped.height_px, 1, 0.0};
+  site.drawing = {kDrawing, mapped.width_px, mapped.height_px, 1, 0.0};
   site.scale =
       mapping::ScaleRecord{MappedSite::kMetresPerPixel, "mapped", 0.0, 0.0, iso_time_utc(), {whom.source}};
   return site;
+}
+
+/// What lies on the map of before, whose frame is another: where routes led there may be anything here.
+void remove_what_lay_there(mapping::SiteTransaction& change, const fs::path& folder, const MappedFor& whom) {
+  if (!fs::exists(folder / "site.yaml")) return;
+  if (const std::string old = mapping::load_site(folder).drawing.file; old != kDrawing) change.remove(old);
+  for (const char* file : {mapping::kOtherLinesFile, "routes/tree.csv", "routes/path.csv", kWayFile})
+    if (!whom.files.contains(file)) change.remove(file);
 }
 
 }  // namespace
@@ -120,14 +138,15 @@ MappedSite map_site(const localization::MemoryCloud& memory, const std::string& 
 void save_mapped_site(const MappedSite& mapped, const std::filesystem::path& folder, const MappedFor& whom) {
   constexpr double kScale = MappedSite::kMetresPerPixel;
   mapping::SiteTransaction change(folder);
+  remove_what_lay_there(change, folder, whom);
   const mapping::GrayImage picture = picture_of(mapped);
   std::vector<mapping::PixelSegment> lines;
   for (const mapping::Wall& wall : mapped.walls)
     lines.push_back(mapping::on_drawing(wall.segment, mapped.height_px, kScale));
   mapping::stage_wall_files(change, mapped.walls, mapped.width_px * kScale, mapped.height_px * kScale, {});
-  change.write("drawing.png", picture_png(picture));
+  change.write(kDrawing, picture_png(picture));
   change.write("import.png", as_text(mapping::import_picture(picture, lines, {}, kScale)));
-  change.write("site.yaml", mapping::site_yaml(site_of(mapped, whom)));
+  change.write("site.yaml", mapping::site_yaml(site_of(mapped, folder, whom)));
   for (const auto& [file, content] : whom.files) change.write(file, content);
   change.commit();
 }

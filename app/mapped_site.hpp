@@ -26,7 +26,8 @@ struct MappedSite {
 /// Straight walls of the memory, turned and shifted onto a picture. Throws Error when there are none.
 [[nodiscard]] MappedSite map_site(const localization::MemoryCloud& memory, const std::string& log);
 
-/// What site.yaml says beside the map, and what else is written with it.
+/// What site.yaml says beside the map, and what else is written with it. A site that is replaced keeps its
+/// own vehicle and lidars.
 struct MappedFor {
   std::string name;
   std::string source;  ///< the log or drive that it was made of
@@ -36,7 +37,8 @@ struct MappedFor {
 };
 
 /// Writes the site folder in one atomic step: walls.csv, walls.pcd, map.pgm, map.yaml, drawing.png (what was
-/// seen), import.png (the walls over it), site.yaml, and `whom.files`. Throws Error.
+/// seen), import.png (the walls over it), site.yaml, and `whom.files`. Routes and all else that lay on a map
+/// that is replaced go with it (its versions keep them). Throws Error.
 void save_mapped_site(const MappedSite& mapped, const std::filesystem::path& folder, const MappedFor& whom);
 
 }  // namespace madori::app

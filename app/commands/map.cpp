@@ -62,13 +62,15 @@ std::vector<std::uint8_t> final_plot(const MappingRun& run, const MappedSite& ma
 
 void map_log(const MapArguments& arguments) {
   expect_json(arguments.json_file, arguments.out);
-  if (!arguments.force && std::filesystem::exists(arguments.out / "site.yaml")) {
+  const bool replaces = std::filesystem::exists(arguments.out / "site.yaml");
+  if (replaces && !arguments.force) {
     throw Error(arguments.out.string(), "is a site already",
                 "choose another --out, or give --force to replace it");
   }
   const std::unique_ptr<localization::Mapper> mapper = make_mapper(arguments.method, arguments.seed);
-  const auto log = sensors::open_log(arguments.log, log_options({}, arguments.wheels));
-  const MappingRun run = run_mapper(*log, log_lidar({}), *mapper);
+  const mapping::Site vehicle_of = replaces ? mapping::load_site(arguments.out) : mapping::Site{};
+  const auto log = sensors::open_log(arguments.log, log_options(vehicle_of, arguments.wheels));
+  const MappingRun run = run_mapper(*log, log_lidar(vehicle_of), *mapper);
   const localization::Memory& memory = run.map.memory;
   const MappedSite mapped = map_site(localization::standing_cloud(memory), arguments.log);
   const std::string name =
@@ -122,7 +124,8 @@ void add_map(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "of the particles; for --method rbpf")
       ->capture_default_str();
-  command->add_flag("--force", arguments->force, "replace an existing site's walls and drawing");
+  command->add_flag("--force", arguments->force,
+                    "replace the map of an existing site; vehicle and lidars stay, routes go");
   command->add_option("--trajectory", arguments->trajectory, "TUM file of the poses as they were known");
   command->add_option("--final", arguments->at_last, "TUM file of the poses after all loops");
   command->add_option("--plot", arguments->plot, "PNG of the walls and the final way");

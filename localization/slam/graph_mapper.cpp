@@ -261,7 +261,12 @@ std::vector<MomentPose> GraphMapper::laid_pieces(const Memory& memory) const {
   return laid;
 }
 
+/// The last look judges, ties and forgets: it is made on a copy, and the drive may go on.
 FinishedMap GraphMapper::finish() {
+  return GraphMapper(*this).finished();
+}
+
+FinishedMap GraphMapper::finished() {
   FinishedMap finished;
   if (map_.memory.empty()) return finished;
   judge_joints(map_.memory.size());

@@ -38,6 +38,7 @@ class GraphMapper final : public Mapper {
 
  private:
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
+  [[nodiscard]] FinishedMap finished();
   void follow(const SurfaceScan& scan);
   void remember(const SurfaceScan& scan);
   void judge_joints(std::size_t until);

@@ -29,7 +29,6 @@ struct FinishedMap {
 class Mapper {
  public:
   Mapper() = default;
-  Mapper(const Mapper&) = delete;
   Mapper& operator=(const Mapper&) = delete;
   virtual ~Mapper() = default;
 
@@ -38,6 +37,9 @@ class Mapper {
   virtual PoseEstimate on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) = 0;
   /// At the end of the drive; the mapper is of no use afterwards.
   [[nodiscard]] virtual FinishedMap finish() = 0;
+
+ protected:
+  Mapper(const Mapper&) = default;  // for a mapper that looks at its end on a copy of itself
 };
 
 }  // namespace madori::localization

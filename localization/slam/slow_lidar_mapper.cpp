@@ -9,6 +9,7 @@
 #include "localization/global/scan_noise.hpp"
 #include "localization/localizer/pose_covariance.hpp"
 #include "localization/pose_axes.hpp"
+#include "localization/slam/joints.hpp"
 
 namespace madori::localization {
 namespace {
@@ -79,37 +80,55 @@ Belief SlowLidarMapper::carried(const Belief& from, const OdometryStep& step) co
 
 /// A pose far from where the wheels say is not believed on one scan: halls are alike in places, and a noisy
 /// scan fits where it is not. It is kept, and believed when the next scans lead to where the wheels carry it.
-bool SlowLidarMapper::is_believed(const Transform2<Map, Base>& pose, const Belief& here,
-                                  const OdometryStep& step) {
+bool SlowLidarMapper::is_believed(const Transform2<Map, Base>& pose, const Belief& here) {
   if (agree(pose, here)) {
     elsewhere_.reset();
     return true;
   }
-  const Belief next = elsewhere_ ? carried(elsewhere_->first, step) : here;
-  const int agreed = elsewhere_ && agree(pose, next) ? elsewhere_->second + 1 : 0;
+  const int agreed = elsewhere_ && agree(pose, elsewhere_->first) ? elsewhere_->second + 1 : 0;
   elsewhere_ = {{pose}, agreed};
   if (agreed < options_.scans_to_jump) return false;
   elsewhere_.reset();
   return true;
 }
 
+/// Whether a scan, where it was laid, contradicts the one that was accepted last. Half of any scan lies near
+/// to some wall wherever it is laid; and what was seen long ago may lie beside itself where no loop was
+/// closed.
+bool SlowLidarMapper::sees_through_last(const ScanPoints& points, const Transform2<Map, Base>& pose,
+                                        const LikelihoodOptions& options) const {
+  const ScanPoints& last = scans_.back();
+  std::vector<Point2<Map>> seen;
+  for (std::size_t i = 0; i < last.size(); ++i) seen.push_back(poses_.back() * last.point(i));
+  return contradiction(points, PointMap(std::move(seen), 0.0), pose, options) > JointOptions().most_through;
+}
+
+/// Algorithm 3: where the scan lies in the map, and is believed to.
+std::optional<StrategyResult> SlowLidarMapper::laid(const ScanPoints& points, const Point2<Base>& sensor,
+                                                    const Belief& assumed) {
+  if (looks_.empty()) return std::nullopt;
+  StrategyOptions options = strategies_for(points);
+  options.likelihood.sensor = sensor;
+  lean_on_wheels(options.icp, assumed.map_from_base, assumed.covariance,
+                 std::max(options_.residual_sigma_m, map_.noise_m()));
+  auto found = localize_around(points, map_.points(), assumed.map_from_base, options);
+  if (!found || !agree(found->fit.map_from_base, assumed) ||
+      sees_through_last(points, found->fit.map_from_base, options.likelihood))
+    found = localize_absolutely(points, map_.points(), options);
+  if (found && !is_believed(found->fit.map_from_base, assumed)) found.reset();
+  return found;
+}
+
 PoseEstimate SlowLidarMapper::on_scan(Stamp stamp, const ScanPoints& points, const Point2<Base>& sensor) {
-  const OdometryStep step = started_ ? track_.between(anchor_stamp_, stamp, model_) : OdometryStep{};
+  const OdometryStep step = looks_.empty() ? OdometryStep{} : track_.between(anchor_stamp_, stamp, model_);
   const Transform2<Map, Base> before = anchor_;
   const Belief assumed = carried({before, covariance_}, step);
+  if (elsewhere_) elsewhere_->first = carried(elsewhere_->first, step);
   path_m_ += step.path_m;
-  std::optional<StrategyResult> found;
-  if (started_) {
-    StrategyOptions options = strategies_for(points);
-    lean_on_wheels(options.icp, assumed.map_from_base, assumed.covariance,
-                   std::max(options_.residual_sigma_m, map_.noise_m()));
-    found = localize_around(points, map_.points(), assumed.map_from_base, options);
-    if (!found || !agree(found->fit.map_from_base, assumed))
-      found = localize_absolutely(points, map_.points(), options);
-    if (found && !is_believed(found->fit.map_from_base, assumed, step)) found.reset();
-  }
-  const bool accepted = found || (!started_ && !points.empty());
-  if (accepted) note_motion(assumed, !found || agree(found->fit.map_from_base, assumed));
+  const std::optional<StrategyResult> found = laid(points, sensor, assumed);
+  if (!found && looks_.size() == 1 && points.size() > scans_.front().size()) begin_anew();
+  const bool accepted = found || (looks_.empty() && !points.empty());
+  if (accepted) note_motion(stamp, assumed, !found || agree(found->fit.map_from_base, assumed));
   anchor_ = found ? found->fit.map_from_base : assumed.map_from_base;
   covariance_ = accepted ? Eigen::Matrix3d::Zero() : assumed.covariance;
   if (found) e_psr_m_.push_back(found->fit.e_psr_m);
@@ -122,17 +141,27 @@ PoseEstimate SlowLidarMapper::on_scan(Stamp stamp, const ScanPoints& points, con
     poses_.push_back(anchor_);
     path_m_ = 0.0;
   }
-  is_lost_ = started_ && !accepted;
+  is_lost_ = !looks_.empty() && !accepted;
   lost_ += is_lost_;
-  started_ = started_ || accepted;
   anchor_stamp_ = stamp;
   since_scan_ = track_.since(stamp, model_);
   return estimate(stamp);
 }
 
+/// In a map of one scan that saw little nothing is ever found again: the scan that saw more begins the map.
+void SlowLidarMapper::begin_anew() {
+  ++lost_;
+  map_ = {};
+  looks_.clear();
+  scans_.clear();
+  poses_.clear();
+  elsewhere_.reset();
+}
+
 /// The wheels' word from the scan accepted last to the one that is about to be: for the last look.
-void SlowLidarMapper::note_motion(const Belief& assumed, bool is_believed) {
+void SlowLidarMapper::note_motion(Stamp stamp, const Belief& assumed, bool is_believed) {
   if (poses_.empty()) return;
+  if (!is_believed) carried_.push_back(stamp);
   const auto n = static_cast<int>(poses_.size());
   const Pose& from = poses_.back();
   const Eigen::Matrix3d covariance = in_map_axes(with_floor(assumed.covariance), -from.yaw_rad());
@@ -144,6 +173,7 @@ FinishedMap SlowLidarMapper::finish() {
   poses_ = bundle_scans(scans_, std::move(poses_), motions_, map_.noise_m());
   FinishedMap finished;
   finished.lost_scans = lost_;
+  finished.carried = carried_;
   map_ = {};
   const Eigen::Matrix3d information = Eigen::Vector3d(400.0, 400.0, 2500.0).asDiagonal();
   LidarNoise noise;

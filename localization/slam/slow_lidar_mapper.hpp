@@ -56,9 +56,13 @@ class SlowLidarMapper final : public Mapper {
   [[nodiscard]] double e_max_m(double noise_m) const;
   [[nodiscard]] PoseEstimate estimate(Stamp stamp) const;
   [[nodiscard]] Belief carried(const Belief& from, const OdometryStep& step) const;
-  [[nodiscard]] bool is_believed(const Transform2<Map, Base>& pose, const Belief& here,
-                                 const OdometryStep& step);
-  void note_motion(const Belief& assumed, bool is_believed);
+  [[nodiscard]] std::optional<StrategyResult> laid(const ScanPoints& points, const Point2<Base>& sensor,
+                                                   const Belief& assumed);
+  [[nodiscard]] bool is_believed(const Transform2<Map, Base>& pose, const Belief& here);
+  [[nodiscard]] bool sees_through_last(const ScanPoints& points, const Transform2<Map, Base>& pose,
+                                       const LikelihoodOptions& options) const;
+  void begin_anew();
+  void note_motion(Stamp stamp, const Belief& assumed, bool is_believed);
 
   struct Look {
     Stamp stamp{};
@@ -74,9 +78,8 @@ class SlowLidarMapper final : public Mapper {
   Transform2<Map, Base> anchor_;                          ///< the pose at the last scan
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  ///< of it, since a scan was laid on the map
   Stamp anchor_stamp_{};
-  /// Where scans lie that the wheels speak against, and how many more have led there.
+  /// Where scans lie that the wheels speak against, carried on by the wheels, and how many more led there.
   std::optional<std::pair<Belief, int>> elsewhere_;
-  bool started_ = false;
   int lost_ = 0;          ///< scans, all in all
   bool is_lost_ = false;  ///< the last one
   double path_m_ = 0.0;   ///< driven since the last accepted scan
@@ -85,6 +88,7 @@ class SlowLidarMapper final : public Mapper {
   std::vector<ScanPoints> scans_;
   std::vector<Transform2<Map, Base>> poses_;
   std::vector<RelativeFactor> motions_;  ///< from each to the next by the wheels
+  std::vector<Stamp> carried_;           ///< of those to which no motion of the wheels leads
 };
 
 }  // namespace madori::localization

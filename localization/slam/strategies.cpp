@@ -189,12 +189,10 @@ bool is_clear_of(const ScanPoints& scan, const Point2<Base>& p, double margin_m)
   return true;
 }
 
-}  // namespace
-
-double log_likelihood(const ScanPoints& scan, const PointMap& map, const Pose& pose,
-                      const LikelihoodOptions& options) {
-  const double sum = log_of_hits(scan, map, pose, options);
-  const RangeRing ring(scan, {});
+/// In how many directions of the ring beams pass a point of the map by.
+std::size_t directions_through(const ScanPoints& scan, const PointMap& map, const Pose& pose,
+                               const LikelihoodOptions& options) {
+  const RangeRing ring(scan, options.sensor);
   std::vector<bool> passed(RangeRing::kSize, false);
   const Transform2<Base, Map> base_from_map = pose.inverse();
   for (const Point2<Map>& p : map.points()) {
@@ -204,9 +202,35 @@ double log_likelihood(const ScanPoints& scan, const PointMap& map, const Pose& p
     if (ring.passes(seen, options.margin_m, direction) && !passed[direction])
       passed[direction] = is_clear_of(scan, seen, options.margin_m);
   }
-  const auto directions = static_cast<double>(std::count(passed.begin(), passed.end(), true));
+  return static_cast<std::size_t>(std::count(passed.begin(), passed.end(), true));
+}
+
+/// In how many beams end at a point of the map.
+std::size_t directions_met(const ScanPoints& scan, const PointMap& map, const Pose& pose,
+                           const LikelihoodOptions& options) {
+  std::vector<bool> met(RangeRing::kSize, false);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Point2<Base> p = scan.point(i);
+    if (map.nearest(pose * p).squared_distance_m2 < options.margin_m * options.margin_m)
+      met[RangeRing::index(std::atan2(p.y_m - options.sensor.y_m, p.x_m - options.sensor.x_m))] = true;
+  }
+  return static_cast<std::size_t>(std::count(met.begin(), met.end(), true));
+}
+
+}  // namespace
+
+double log_likelihood(const ScanPoints& scan, const PointMap& map, const Pose& pose,
+                      const LikelihoodOptions& options) {
+  const auto directions = static_cast<double>(directions_through(scan, map, pose, options));
   const double beams = directions / RangeRing::kSize * static_cast<double>(scan.size()) * options.turn_share;
-  return sum + beams * std::log(options.other);
+  return log_of_hits(scan, map, pose, options) + beams * std::log(options.other);
+}
+
+double contradiction(const ScanPoints& scan, const PointMap& map, const Pose& pose,
+                     const LikelihoodOptions& options) {
+  const auto through = static_cast<double>(directions_through(scan, map, pose, options));
+  const auto met = static_cast<double>(directions_met(scan, map, pose, options));
+  return through > 0.0 ? through / (through + met) : 0.0;
 }
 
 std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,

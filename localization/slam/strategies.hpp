@@ -12,6 +12,7 @@ namespace madori::localization {
 
 /// What a scan says of a pose beyond how near its points lie to the map's.
 struct LikelihoodOptions {
+  Point2<Base> sensor;      ///< where the lidar sits: its beams begin there
   double sigma_m = 0.06;    ///< of a point from the nearest of the map
   double other = 0.1;       ///< of a point that lies on nothing that is in the map, or passes it by
   double margin_m = 0.3;    ///< a beam that ends so much farther has passed a point by
@@ -85,6 +86,11 @@ class GlobalViews {
 /// its beams pass by. A scan that looks through walls is wrong, however well its points fit.
 [[nodiscard]] double log_likelihood(const ScanPoints& scan, const PointMap& map,
                                     const Transform2<Map, Base>& pose, const LikelihoodOptions& options = {});
+
+/// Share of the directions in which the scan and the map say something of each other at a pose, in which they
+/// contradict: beams that pass points of the map by, beside those that end at some.
+[[nodiscard]] double contradiction(const ScanPoints& scan, const PointMap& map,
+                                   const Transform2<Map, Base>& pose, const LikelihoodOptions& options = {});
 
 /// Algorithm 2: RDNM over the whole map's grid, then ICP; nothing when e_psr stays above the limit.
 [[nodiscard]] std::optional<StrategyResult> localize_absolutely(const ScanPoints& scan, const PointMap& map,

@@ -7,7 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "app/mapped_site.hpp"
+#include "mapping/site/atomic_file.hpp"
 #include "tests/support/lidar_models.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace madori::app {
 namespace {
@@ -83,6 +86,37 @@ TEST(MappingRun, KnowsNothingBetweenTheScansWhereTheVehicleWasCarried) {
   EXPECT_TRUE(is_known_at(run, 1.5));
   EXPECT_FALSE(is_known_at(run, 2.5));
   EXPECT_FALSE(is_known_at(run, 3.5));
+}
+
+/// A map lies in a frame of its own: a site that is mapped anew keeps its vehicle, and no route of before.
+TEST(MappedSite, ReplacesTheMapOfASiteAndNotItsVehicle) {
+  const test::TemporaryFolder folder;
+  const auto site = folder.path() / "site";
+  MappedSite mapped;
+  mapped.walls = {{1, {{1.0, 1.0}, {9.0, 1.0}}}, {2, {{1.0, 1.0}, {1.0, 5.0}}}};
+  mapped.width_px = 500;
+  mapped.height_px = 300;
+  save_mapped_site(mapped, site, {"hall", "a.log", {}, {}, {{"driven_way.csv", "time_s,x_m,y_m,yaw_rad\n"}}});
+  mapping::Site record = mapping::load_site(site);
+  record.vehicle.length_m = 2.5;
+  record.sensors = {{"front", "lms1xx", 2.0, 0.0, 0.25, 0.0}};
+  record.low_bodies_guarded_by = "a bumper";
+  record.georeference = mapping::GeoreferenceRecord{35.0, 136.0, 0.0};
+  mapping::save_site(site, record);
+  std::filesystem::create_directories(site / "routes");
+  folder.write("site/routes/path.csv", "id\n");
+  folder.write("site/routes/tree.csv", "id\n");
+  folder.write("site/other_lines.csv", "id,x1,y1,x2,y2\n");
+
+  save_mapped_site(mapped, site, {"hall again", "b.log"});
+  const mapping::Site now = mapping::load_site(site);
+  EXPECT_EQ(now.name, "hall again");
+  EXPECT_DOUBLE_EQ(now.vehicle.length_m, 2.5);
+  EXPECT_EQ(now.sensors, record.sensors);
+  EXPECT_EQ(now.low_bodies_guarded_by, "a bumper");
+  EXPECT_FALSE(now.georeference);
+  for (const char* file : {"routes/path.csv", "routes/tree.csv", "other_lines.csv", "driven_way.csv"})
+    EXPECT_FALSE(std::filesystem::exists(site / file)) << file;
 }
 
 }  // namespace

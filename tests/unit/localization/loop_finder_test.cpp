@@ -197,10 +197,12 @@ struct Mapped {
   double worst_m = 0.0;  ///< of the scans' poses, the map laid on the truth by its first scan
 };
 
-Mapped mapped(const CarriedDrive& drive) {
+/// `asked_at`: the moment at which a map is asked for that nobody takes.
+Mapped mapped(const CarriedDrive& drive, std::optional<std::size_t> asked_at = {}) {
   GraphMapper mapper;
   std::vector<std::pair<Stamp, Pose>> truth;
   for (const auto& m : drive.moments) {
+    if (asked_at && &m == &drive.moments[*asked_at]) (void)mapper.finish();
     (void)mapper.on_odometry(m.odometry);
     if (!m.has_scan) continue;
     (void)mapper.on_scan(m.scan.stamp, scan_points(m.scan, {}), {});
@@ -221,17 +223,30 @@ Mapped mapped(const CarriedDrive& drive) {
 
 const std::vector<Point2<Map>> kRound{{2.5, 1.2},  {11.0, 1.2}, {14.4, 1.0}, {14.4, 4.2}, {14.4, 8.2},
                                       {12.5, 8.2}, {11.0, 7.2}, {7.0, 7.8},  {6.5, 3.8},  {6.5, 1.2}};
+const std::vector<Point2<Map>> kBackAgain{{14.4, 8.2}, {14.4, 4.2}, {14.4, 1.0}, {11.0, 1.2},
+                                          {6.5, 1.2},  {6.5, 3.8},  {7.0, 7.8}};
 
 TEST(GraphMapper, TiesThePiecesOfAVehicleThatWasCarriedAway) {
-  const std::vector<Point2<Map>> again{{14.4, 8.2}, {14.4, 4.2}, {14.4, 1.0}, {11.0, 1.2},
-                                       {6.5, 1.2},  {6.5, 3.8},  {7.0, 7.8}};
-  const CarriedDrive drive = carried_drive(test::laboratory_hall(), {kRound, again});
+  const CarriedDrive drive = carried_drive(test::laboratory_hall(), {kRound, kBackAgain});
   const Mapped result = mapped(drive);
   EXPECT_EQ(result.map.lost_scans, 0);
   ASSERT_EQ(result.map.carried.size(), 1U);
   EXPECT_LT(std::abs(to_seconds(result.map.carried.front() - drive.moments[drive.starts[1]].odometry.stamp)),
             0.7);  // a scan comes every 0.3 s
   EXPECT_LT(result.worst_m, 0.08);
+}
+
+/// A map is asked for while a piece is tied to nothing yet, and nobody takes it: the drive goes on behind it.
+TEST(GraphMapper, GoesOnBehindAFinishAsIfNobodyHadAsked) {
+  const CarriedDrive drive = carried_drive(test::laboratory_hall(), {kRound, kBackAgain});
+  const Mapped unasked = mapped(drive), asked = mapped(drive, drive.starts[1] + 30);
+  EXPECT_EQ(asked.map.lost_scans, 0);
+  ASSERT_EQ(asked.map.scans.size(), unasked.map.scans.size());
+  for (std::size_t i = 0; i < asked.map.scans.size(); ++i) {
+    const Pose &a = asked.map.scans[i].map_from_base, &b = unasked.map.scans[i].map_from_base;
+    ASSERT_DOUBLE_EQ(a.x_m(), b.x_m()) << i;
+    ASSERT_DOUBLE_EQ(a.y_m(), b.y_m()) << i;
+  }
 }
 
 /// A building that it has never seen is no part of the map, and is said to be lost.

@@ -168,38 +168,90 @@ TEST(SlowLidarMapper, KeepsTheWheelsWordForAScanThatLiesNowhere) {
   EXPECT_EQ(mapper.finish().lost_scans, 1);
 }
 
-/// Carried to another place of the hall between two scans: the wheels tell nothing of it, the scans do.
-TEST(SlowLidarMapper, BelievesAJumpOnceScansAgreeOnItAndNotBefore) {
-  std::mt19937 engine(7);
-  test::DriveSettings settings;
-  settings.lidar = test::ScanSettings{};
-  settings.steps_per_scan = 6;
-  const mapping::Walls walls = test::laboratory_hall();
-  const auto moments = test::drive(walls, test::kTwoRounds, settings, engine);
+/// Twice around the hall, and then carried to another place of it between two scans: the wheels tell nothing
+/// of that, the scans do.
+class CarriedAway : public testing::Test {
+ protected:
+  CarriedAway() : moments_(test::drive(walls_, test::kTwoRounds, settings(), engine_)) {
+    for (const auto& moment : moments_) {
+      (void)mapper_.on_odometry(moment.odometry);
+      if (moment.has_scan) (void)mapper_.on_scan(moment.scan.stamp, scan_points(moment.scan, {}), {});
+    }
+  }
+  static test::DriveSettings settings() {
+    test::DriveSettings settings;
+    settings.lidar = test::ScanSettings{};
+    settings.steps_per_scan = 6;
+    return settings;
+  }
+  /// The k-th scan since, `way_m` from where it was put down; what another thing before the lidar hides is
+  /// `blinded`.
+  LocalizationState see(int k, double way_m, bool blinded = false) {
+    const auto truth = put_down_ * Transform2<Base, Base>(way_m, 0.0, 0.0);
+    const auto& last = moments_.back().odometry;
+    const Stamp stamp = last.stamp + duration_from_seconds(2.0 * k);
+    (void)mapper_.on_odometry({stamp, last.odom_from_base * Transform2<Base, Base>(way_m, 0.0, 0.0)});
+    ScanPoints scan = scan_points(test::simulate_scan(walls_, truth, settings().lidar, engine_), {});
+    if (blinded) {
+      scan = {};
+      std::uniform_real_distribution<double> at(-3.0, 3.0);
+      for (int i = 0; i < 300; ++i) scan.add(at(engine_), at(engine_));
+    }
+    const PoseEstimate pose = mapper_.on_scan(stamp, scan, {});
+    const auto right = moments_.front().truth.inverse() * truth;
+    off_m_ = std::hypot(pose.map_from_base.x_m() - right.x_m(), pose.map_from_base.y_m() - right.y_m());
+    return pose.health.state;
+  }
+
+  std::mt19937 engine_{7};
+  const mapping::Walls walls_ = test::laboratory_hall();
+  const Transform2<Map, Base> put_down_{5.0, 7.8, 0.0};
+  std::vector<test::DriveMoment> moments_;
+  SlowLidarMapper mapper_;
+  double off_m_ = 0.0;  ///< the last answer, off the truth
+};
+
+TEST_F(CarriedAway, IsBelievedOnceScansAgreeOnItAndNotBefore) {
+  EXPECT_EQ(see(1, 0.2), LocalizationState::Lost);
+  EXPECT_EQ(see(2, 0.4), LocalizationState::Lost);
+  EXPECT_EQ(see(3, 0.6), LocalizationState::Localized);
+  EXPECT_EQ(see(4, 0.8), LocalizationState::Localized);
+  EXPECT_LT(off_m_, 0.1);
+  // Between the scan before and the one that was believed no way leads.
+  const FinishedMap map = mapper_.finish();
+  EXPECT_EQ(map.lost_scans, 2);
+  ASSERT_EQ(map.carried.size(), 1U);
+  EXPECT_EQ(map.carried.front(), moments_.back().odometry.stamp + duration_from_seconds(6.0));
+}
+
+TEST_F(CarriedAway, IsBelievedAlthoughAScanBetweenSaysNothing) {
+  EXPECT_EQ(see(1, 0.6), LocalizationState::Lost);
+  EXPECT_EQ(see(2, 1.2, true), LocalizationState::Lost);
+  EXPECT_EQ(see(3, 1.8), LocalizationState::Lost);
+  EXPECT_EQ(see(4, 2.4), LocalizationState::Localized);
+  EXPECT_LT(off_m_, 0.1);
+}
+
+/// The first scan saw next to nothing (the lidar had just begun to turn): no other is ever found in its map.
+TEST(SlowLidarMapper, AFirstScanThatSawLittleIsNotTheMap) {
+  std::mt19937 engine(12);
+  const auto moments =
+      test::drive(test::laboratory_hall(), {{2.5, 1.2}, {11.0, 1.2}}, test::half_hertz(), engine);
   SlowLidarMapper mapper;
+  int scans = 0;
   for (const auto& moment : moments) {
     (void)mapper.on_odometry(moment.odometry);
-    if (moment.has_scan) (void)mapper.on_scan(moment.scan.stamp, scan_points(moment.scan, {}), {});
+    if (!moment.has_scan) continue;
+    ScanPoints points = scan_points(moment.scan, {});
+    if (scans++ == 0) {
+      points = {};
+      for (int i = 0; i < 5; ++i) points.add(0.4, 0.01 * i);
+    }
+    (void)mapper.on_scan(moment.scan.stamp, points, {});
   }
-  const Transform2<Map, Base> elsewhere(5.0, 7.8, 2.0), start = moments.front().truth;
-  const auto& last = moments.back().odometry;
-  std::vector<LocalizationState> states;
-  double off_m = 0.0;
-  for (int k = 1; k <= 4; ++k) {
-    const double way_m = 0.2 * k;
-    const auto truth = elsewhere * Transform2<Base, Base>(way_m, 0.0, 0.0);
-    const Stamp stamp = last.stamp + duration_from_seconds(2.0 * k);
-    (void)mapper.on_odometry({stamp, last.odom_from_base * Transform2<Base, Base>(way_m, 0.0, 0.0)});
-    const auto scan = scan_points(test::simulate_scan(walls, truth, settings.lidar, engine), {});
-    const PoseEstimate pose = mapper.on_scan(stamp, scan, {});
-    states.push_back(pose.health.state);
-    const auto right = start.inverse() * truth;
-    off_m = std::hypot(pose.map_from_base.x_m() - right.x_m(), pose.map_from_base.y_m() - right.y_m());
-  }
-  EXPECT_EQ(states[0], LocalizationState::Lost);
-  EXPECT_EQ(states[1], LocalizationState::Lost);
-  EXPECT_EQ(states[3], LocalizationState::Localized);
-  EXPECT_LT(off_m, 0.1);
+  const FinishedMap map = mapper.finish();
+  EXPECT_EQ(map.lost_scans, 1);
+  EXPECT_EQ(static_cast<int>(map.scans.size()), scans - 1);
 }
 
 TEST(GrowingMap, ForgetsWhatIsSeenThrough) {
@@ -320,6 +372,28 @@ TEST(Strategies, AScanThatLooksThroughAWallIsUnlikely) {
   const double likely = log_likelihood(scan, PointMap(sample_walls(walls, 0.05)), here);
   test::add_wall(walls, 3.5, 0.2, 3.5, 2.0);
   EXPECT_LT(log_likelihood(scan, PointMap(sample_walls(walls, 0.05)), here), likely - 20.0);
+}
+
+/// A lidar at the vehicle's front sees behind corners that hide the same from Base: its beams begin where it
+/// sits, or they pass walls that they never met.
+TEST(Strategies, BeamsBeginAtTheLidar) {
+  std::mt19937 engine(36);
+  const mapping::Walls walls = test::laboratory_hall();
+  const PointMap map(sample_walls(walls, 0.05));
+  const mapping::DistanceField field(walls);
+  const Transform2<Base, Lidar> front(0.7, 0.0, 0.0);
+  LikelihoodOptions options, at_base;
+  options.sensor = front.translation();
+  double most = 0.0, most_at_base = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    const Transform2<Map, Base> eye = test::random_pose(walls, field, 0.5, 4.0, engine);
+    const Transform2<Map, Base> here = eye * Transform2<Base, Base>(-0.7, 0.0, 0.0);
+    const ScanPoints scan = scan_points(test::simulate_scan(walls, eye, {}, engine), front);
+    most = std::max(most, contradiction(scan, map, here, options));
+    most_at_base = std::max(most_at_base, contradiction(scan, map, here, at_base));
+  }
+  EXPECT_LT(most, 0.03);
+  EXPECT_GT(most_at_base, 2.0 * most);
 }
 
 /// In a map that noise made thick some point is near to everything, and walls that a beam grazes have points
