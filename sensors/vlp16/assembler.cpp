@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::int64_t kLateUs = 1'000'000;     ///< further back it is the clock that jumped
 constexpr std::int64_t kSilenceUs = 1'000'000;  ///< longer: what was gathered belongs to no common frame
+constexpr std::int64_t kDoubtUs = 100'000;      ///< one turn: less than it takes to count as silent
 constexpr int kMaxGapCdeg = 400;                ///< 20 Hz turn 0.8 deg a block; a lost block doubles it
 constexpr int kMaxBackCdeg = 100;               ///< a standing rotor's azimuth trembles
 constexpr double kCircleCdeg = 36'000.0;
@@ -73,9 +74,12 @@ PushVerdict Assembler::check_order(Stamp received) {
     packet_us_ = packet_.time_us;
   } else {
     const std::int64_t step_us = since(packet_us_);
+    const bool jumped = step_us <= -kLateUs || step_us > kSilenceUs;
+    if (!jumped) doubt_.reset();
     if (step_us == 0) return ++counters_.duplicates, PushVerdict::Duplicate;
-    if (step_us < 0 && step_us > -kLateUs) return ++counters_.late, PushVerdict::Late;
-    if (step_us < 0 || step_us > kSilenceUs) {
+    if (step_us < 0 && !jumped) return ++counters_.late, PushVerdict::Late;
+    if (jumped && !is_new_time(received)) return ++counters_.late, PushVerdict::Late;
+    if (jumped) {
       restart(step_us);
     } else {
       if (is_too_fast()) return ++counters_.refused, PushVerdict::ForeignSensor;
@@ -89,6 +93,7 @@ PushVerdict Assembler::check_order(Stamp received) {
     if (packet_.mode != mode_) finish_frame();
   }
   started_ = true;
+  taken_ = received;
   seen_us_ = packet_us_;
   mode_ = packet_.mode;
   clock_.observe(packet_us_ + std::llround(packet_us(packet_.mode)), received);
@@ -103,10 +108,26 @@ std::int64_t Assembler::since(std::int64_t time_us) const {
   return step_us > kHour / 2 ? step_us - kHour : step_us;
 }
 
+/// Whether a packet of another time tells that the sensor was silent or its clock was set. What a network has
+/// kept, or sends twice, lies between packets of the right time or comes faster than it was measured: a clock
+/// that was set is believed after a turn of the new time alone.
+bool Assembler::is_new_time(Stamp received) {
+  if (received - taken_ > std::chrono::microseconds(kSilenceUs)) return true;
+  const std::int64_t step_us = doubt_ ? since(doubt_->last_us) : 0;
+  if (step_us <= 0 || step_us > kSilenceUs) {
+    doubt_ = Doubt{packet_.time_us, packet_.time_us, received};
+    return false;
+  }
+  doubt_->last_us = packet_.time_us;
+  const std::int64_t measured_us = since(doubt_->first_us);
+  return measured_us >= kDoubtUs && received - doubt_->begun >= std::chrono::microseconds(measured_us / 2);
+}
+
 /// The sensor was silent, or its clock was set: what was gathered ends here.
 void Assembler::restart(std::int64_t step_us) {
   finish_frame();
   clock_.reset();
+  doubt_.reset();
   ++counters_.silences;
   packet_us_ = step_us < 0 ? packet_.time_us : packet_us_ + step_us;
   impossible_steps_ = 0;
@@ -150,6 +171,7 @@ bool Assembler::stays_foreign() {
 
 void Assembler::begin_anew() {
   started_ = false;
+  doubt_.reset();
   foreign_sensor_.clear();
   impossible_steps_ = possible_steps_ = 0;
   rotor_stands_ = false;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -41,8 +42,8 @@ struct AssemblerCounters {
 
 /// Data packets become frames. A frame ends where a block's azimuth is smaller than its forerunner's, and
 /// where a whole turn is missing. Lost packets are counted and leave a gap; late and repeated ones are
-/// counted and thrown away, and so is what a rotor sees that stands or takes longer for a turn than any
-/// VLP-16 may.
+/// counted and thrown away, however late, and so is what a rotor sees that stands or takes longer for a turn
+/// than any VLP-16 may.
 class Assembler {
  public:
   explicit Assembler(FrameSink sink, AssemblerOptions options = {});
@@ -61,7 +62,14 @@ class Assembler {
   [[nodiscard]] bool rotor_stands() const { return rotor_stands_; }
 
  private:
+  /// Packets of another time than those before, in the order of their coming.
+  struct Doubt {
+    std::int64_t first_us = 0, last_us = 0;
+    Stamp begun;
+  };
+
   PushVerdict check_order(Stamp received);
+  bool is_new_time(Stamp received);
   [[nodiscard]] std::int64_t since(std::int64_t time_us) const;
   void restart(std::int64_t step_us);
   [[nodiscard]] bool is_too_fast();
@@ -83,6 +91,8 @@ class Assembler {
   std::string foreign_sensor_;
   std::int64_t packet_us_ = 0;  ///< unwrapped time of the last packet that was taken
   std::int64_t seen_us_ = 0;    ///< and of the last one at all
+  Stamp taken_{};               ///< when the last one came that was taken
+  std::optional<Doubt> doubt_;
   ReturnMode mode_ = ReturnMode::Strongest;
   bool started_ = false;
   bool rotor_stands_ = false;

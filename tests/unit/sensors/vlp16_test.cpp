@@ -278,6 +278,53 @@ TEST(Vlp16Assembler, GoesOnOverTheHour) {
   EXPECT_NEAR(to_seconds(got.frames[1].cloud.stamp - got.frames[0].cloud.stamp), 0.0995, 1e-3);
 }
 
+TEST(Vlp16Assembler, WhatANetworkSendsOnceMoreLaterIsNoNewTime) {
+  Collected got;
+  Assembler assembler(got.sink);
+  Sensor sensor;
+  std::vector<std::array<std::uint8_t, kDataBytes>> sent;
+  constexpr std::size_t kBehind = 1130;  // 1.5 s
+  for (std::size_t i = 0; i < 3000; ++i) {
+    sent.push_back(sensor.next());
+    const Stamp now = at_us(sensor.time_us());
+    EXPECT_EQ(assembler.push(sent.back(), now), PushVerdict::Taken);
+    if (i < kBehind) continue;
+    EXPECT_EQ(assembler.push(sent[i - kBehind], now), PushVerdict::Late);
+    if (i % 500 != 499 || i < 2 * kBehind) continue;
+    for (std::size_t k = i - kBehind; k < i - kBehind + 300; ++k) assembler.push(sent[k], now);  // at once
+  }
+  EXPECT_EQ(assembler.counters().silences, 0U);
+  ASSERT_EQ(got.frames.size(), 39U);
+  for (const Frame& frame : got.frames) EXPECT_EQ(frame.blocks, 900);
+}
+
+TEST(Vlp16Assembler, AClockThatWasSetIsBelievedAfterATurn) {
+  for (const double by_us : {-10e6, 10e6}) {
+    Collected got;
+    Assembler assembler(got.sink);
+    Sensor sensor;
+    sensor.set_time_us(100e6);
+    for (int i = 0; i < 300; ++i) assembler.push(sensor.next(), at_us(sensor.time_us()));
+    sensor.set_time_us(sensor.time_us() + by_us);
+    int late = 0;
+    for (int i = 0; i < 300; ++i)
+      late += assembler.push(sensor.next(), at_us(sensor.time_us() - by_us)) == PushVerdict::Late ? 1 : 0;
+    EXPECT_EQ(late, 76);  // packets of a turn
+    EXPECT_EQ(assembler.counters().silences, 1U);
+  }
+}
+
+TEST(Vlp16Assembler, ASensorThatWasSilentBeginsAtOnce) {
+  Collected got;
+  Assembler assembler(got.sink);
+  Sensor sensor;
+  sensor.set_time_us(100e6);
+  for (int i = 0; i < 300; ++i) assembler.push(sensor.next(), at_us(sensor.time_us()));
+  const double off_us = sensor.time_us() + 5e6;
+  sensor.set_time_us(0.0);  // switched off and on
+  EXPECT_EQ(assembler.push(sensor.next(), at_us(off_us)), PushVerdict::Taken);
+}
+
 TEST(Vlp16Assembler, ChoosesAmongDualReturns) {
   for (const auto& [choice, expected] : {std::pair{DualReturn::Strongest, 1}, std::pair{DualReturn::Last, 1},
                                          std::pair{DualReturn::Both, 2}}) {
