@@ -25,12 +25,11 @@ namespace {
 /// Whether the drive shall be enabled. It arms itself on a command without enable only: one that came back
 /// while all commands were enabled (its link opened late, it restarted) is given such a one every 10 steps.
 bool enables(CycleState& state, bool may_move) {
-  constexpr int kStepsToRun = 10;
   const auto drive = state.drive.state;
   const bool idle = drive == control::wire::DriveState::Idle;
   const bool wanted = may_move && (idle || drive == control::wire::DriveState::Running);
-  state.unarmed_steps = wanted && idle && state.unarmed_steps < kStepsToRun ? state.unarmed_steps + 1 : 0;
-  return wanted && (!idle || state.unarmed_steps > 0);
+  state.unarmed_steps = wanted && idle ? state.unarmed_steps + 1 : 0;
+  return wanted && (!idle || state.unarmed_steps % (kStepsToRun + 1) > 0);
 }
 
 /// No step came for so long that the drive has stopped by itself, and that what was heard is of another time:

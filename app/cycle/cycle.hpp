@@ -243,7 +243,7 @@ struct CycleState {
   control::WheelWatch wheels;
   Stamp wheels_at{};                                     ///< of the reading they were last judged by
   std::optional<control::DisobedientWheel> disobedient;  ///< until a person confirms
-  int unarmed_steps = 0;                                 ///< enabled in a row while the drive stayed idle
+  int unarmed_steps = 0;                                 ///< in a row that it was to run and stayed idle
   MountingWatch mounting;
   std::vector<char> lidars_missed;  ///< each: it is silent, and that was said
   bool floor_unseen = false;        ///< it drives slowly since nobody sees who lies before it; that was said

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/cycle/stages.hpp"
+#include "control/diff_drive/kinematics.hpp"
 #include "core/angle.hpp"
 #include "planning/obstacle_check/clearance.hpp"
 
@@ -65,6 +66,17 @@ bool is_led_into(const CycleState& state, const std::vector<Point2<Map>>& obstac
          });
 }
 
+/// Of two wheels that are said to stand, the one that was told to turn faster.
+control::DisobedientWheel still_wheel(const VelocityCommand& told, const CycleState& state,
+                                      const CycleConfig& config) {
+  const double half_m = config.wheel_watch.half_separation_m;
+  const auto asked = control::rim_speeds(half_m, told);
+  const auto turned =
+      control::rim_speeds(half_m, {state.odometry.linear_mps(), state.odometry.angular_radps()});
+  const bool left = std::abs(asked.left_mps) >= std::abs(asked.right_mps);
+  return {left, left ? asked.left_mps : asked.right_mps, left ? turned.left_mps : turned.right_mps};
+}
+
 }  // namespace
 
 double outline_mps(const planning::VehicleOutline& vehicle, const VelocityCommand& command) {
@@ -107,13 +119,20 @@ void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig&
   effort.asked_m += (std::abs(driven.linear_mps) + std::abs(driven.angular_radps) * lever_m(config)) * step_s;
   const double moved_m = distance_m(here.translation(), effort.from.translation()) +
                          std::abs(wrap_angle(here.yaw_rad() - effort.from.yaw_rad())) * lever_m(config);
-  if (moved_m > kGotOnM) {
+  // Both wheels are said to stand, and the lidar sees the vehicle get on: the encoders do not work.
+  const double lever = lever_m(config);
+  const bool turns =
+      std::abs(state.odometry.linear_mps()) + std::abs(state.odometry.angular_radps()) * lever >
+      kLeastShare * (std::abs(driven.linear_mps) + std::abs(driven.angular_radps) * lever);
+  if (moved_m > kGotOnM && turns) {
     effort = {here, now, 0.0, 0.0, direction};
     state.block.felt = false;
     return;
   }
   const bool held =
       effort.driven_s > kShortestS && effort.asked_m > kLeastAskedM && moved_m < kLeastShare * effort.asked_m;
+  const bool unseen = effort.driven_s > kShortestS && moved_m > kGotOnM / kLeastShare;
+  if (unseen) state.disobedient = still_wheel(driven, state, config);
   if (!held) return;
   output.events.emplace_back(
       "the vehicle drives and does not get on: something that it does not see holds it");

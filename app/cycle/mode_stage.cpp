@@ -103,6 +103,10 @@ bool is_drive_deaf(const CycleState& state, Stamp now, const CycleConfig& config
   return state.drive_deaf && to_seconds(now - *state.drive_deaf) > config.drive_silent_s;
 }
 
+bool are_wheels_untold(const CycleState& state, Stamp now, const CycleConfig& config) {
+  return !state.gap && is_silent(state.odometry.reading().stamp, now, config.drive_silent_s);
+}
+
 bool may_drive(LocalizationState state) {
   return state == LocalizationState::Localized || state == LocalizationState::Degraded;
 }

@@ -67,6 +67,8 @@ enum class Cause : std::uint8_t {
   StopUnsure,
   StopTaken,
   DriveDeaf,
+  WheelsUntold,
+  DriveIdle,
 };
 
 /// What a person can do about it.
@@ -154,6 +156,9 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"stop-unsure", "the vehicle is only to {percent} % sure that this is node {node}"},
     CatalogueEntry{"stop-taken", "something stands at node {node}: the vehicle is {metres} m away from it"},
     CatalogueEntry{"drive-deaf", "the drive answers, but hears no commands"},
+    CatalogueEntry{"wheels-untold",
+                   "the drive answers, but what it tells of its wheels is late or makes no sense"},
+    CatalogueEntry{"drive-idle", "the drive answers, but does not start although it is told to"},
 };
 
 inline constexpr std::array kRemedies{

@@ -48,6 +48,7 @@ Standstill why_deaf(const CycleState& state, Stamp now, const CycleConfig& confi
   if (silent(state.drive_heard, config.drive_silent_s))
     return because(Cause::DriveSilent, Remedy::CheckDrive, now);
   if (is_drive_deaf(state, now, config)) return because(Cause::DriveDeaf, Remedy::CheckDrive, now);
+  if (are_wheels_untold(state, now, config)) return because(Cause::WheelsUntold, Remedy::CheckDrive, now);
   const bool asks_person = is_to_be_confirmed(state.mode);
   if (!asks_person && silent(state.lidar_heard, config.lidar_silent_s)) {
     const std::string names = silent_lidars(state, now, config);
@@ -127,6 +128,8 @@ Standstill standstill_of(const CycleState& state, const CycleInput& input, const
       state.mode == Mode::Idle || state.mode == Mode::Localizing || state.mode == Mode::Paused;
   if (asks_order && mounting_forbids(state.mounting))
     return {mounting_notice(*state.mounting.doubt(), config), notice(Remedy::CorrectMounting), input.now};
+  if (state.unarmed_steps > 2 * (kStepsToRun + 1))
+    return because(Cause::DriveIdle, Remedy::CheckDrive, input.now);
   switch (state.mode) {
     case Mode::Driving:
     case Mode::Detouring:

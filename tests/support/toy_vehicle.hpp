@@ -58,7 +58,8 @@ class ToyVehicle {
     controller_.tick({emergency_stop, bumper, drive_faults, angle(left_rad_), angle(right_rad_), battery_mv},
                      micros);
     (void)controller_.next_status();  // one every 10 ms, heard or not
-    const auto status = controller_.next_status();
+    auto status = controller_.next_status();
+    if (each_status) each_status(status);
     if (!drive_silent) waiting_.push_back(status);
     if (hung) return;
     app::CycleInput input;
@@ -144,6 +145,7 @@ class ToyVehicle {
   std::vector<VelocityCommand> driven;  ///< the command of every step
   std::vector<std::string> events;
   std::function<void()> each_step;
+  std::function<void(control::wire::Status&)> each_status;  ///< may change what the drive tells
   std::function<void(const app::CycleInput&, const app::CycleOutput&, const app::CycleState&)> on_step;
   TruePose* pose = nullptr;
 

@@ -125,6 +125,43 @@ TEST(AutonomyCycle, ADriveThatHearsNothingIsNamedAndStartsAnewFromStandstill) {
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
 }
 
+/// Statuses come, but the wheels' angles are noise, or the controller's clock stands.
+TEST(AutonomyCycle, AStatusThatTellsNothingOfTheWheelsIsNoSignOfLife) {
+  for (const bool noise : {false, true}) {
+    auto v = vehicle_at_speed();
+    std::optional<std::uint32_t> stood;
+    int told = 0;
+    v->each_status = [&](control::wire::Status& status) {
+      stood = stood.value_or(status.time_us);
+      if (noise)
+        status.left_turns = static_cast<std::int16_t>(status.left_turns + 1000 * ++told);
+      else
+        status.time_us = *stood;
+    };
+    EXPECT_TRUE(v->run_until([&] { return v->output.command == VelocityCommand{}; }, 0.5)) << noise;
+    v->run_until([&] { return false; }, 0.25);
+    EXPECT_EQ(v->state().standstill.cause.code, "wheels-untold");
+    v->each_status = {};
+    EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+  }
+}
+
+/// Its motors are switched off at a switch of their own.
+TEST(AutonomyCycle, ADriveThatStaysIdleIsNamedAndGoesOn) {
+  auto v = vehicle_at_speed();
+  v->drive_deaf = true;
+  v->each_status = [](control::wire::Status& status) {
+    status.state = control::wire::DriveState::Idle;
+    status.watchdog_expired = false;
+  };
+  v->run_until([&] { return false; }, 1.5);
+  EXPECT_EQ(v->state().standstill.cause, notice(Cause::DriveIdle));
+  EXPECT_THAT(v->events, Contains(HasSubstr("does not start although it is told to - check its power")));
+  v->drive_deaf = false;
+  v->each_status = {};
+  EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+}
+
 TEST(AutonomyCycle, SweepsOfAnotherTimeTellNothingOfNow) {
   auto v = vehicle_at_speed();
   v->cloud_age_s = 1.0;

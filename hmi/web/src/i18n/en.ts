@@ -449,6 +449,8 @@ export const en = {
   "cause.emergency-stop-over": "The vehicle was stopped by emergency stop, bumper or loss of power",
   "cause.drive-silent": "The drive does not answer",
   "cause.drive-deaf": "The drive answers, but hears no commands",
+  "cause.wheels-untold": "The drive answers, but what it tells of its wheels is late or makes no sense",
+  "cause.drive-idle": "The drive answers, but does not start although it is told to",
   "cause.drive-fault": "The drive reports: {faults}",
   "cause.fault-over": "The drive had a fault, which is gone",
   "cause.no-scan": "No scan has come yet",

@@ -450,6 +450,8 @@ export const ja: Record<TextKey, string> = {
   "cause.emergency-stop-over": "非常停止、バンパー、または電源断で止まりました",
   "cause.drive-silent": "駆動部が応答しません",
   "cause.drive-deaf": "駆動部は応答しますが、指令が届いていません",
+  "cause.wheels-untold": "駆動部は応答しますが、車輪の値が古いか、異常です",
+  "cause.drive-idle": "駆動部は応答しますが、指令しても動き出しません",
   "cause.drive-fault": "駆動部の異常: {faults}",
   "cause.fault-over": "駆動部の異常は解消しました",
   "cause.no-scan": "スキャンがまだ届きません",
