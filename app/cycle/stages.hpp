@@ -115,8 +115,8 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
 [[nodiscard]] std::optional<ModeEvent> event_of(OperatorWord word);
 /// Whether nobody has heard of a device for too long.
 [[nodiscard]] bool is_silent(const std::optional<Stamp>& heard, Stamp now, double limit_s);
-/// Statuses come, but none that moves the odometry on: a driven wheel's angle or the controller's clock jumps
-/// or stands still, or they come late. After a gap of the computer's time all stamps are late for a while.
+/// Statuses come, but none that moves the odometry on: a wheel's angle jumps, or they come late. After a gap
+/// of the computer's time all stamps are late for a while.
 [[nodiscard]] bool are_wheels_untold(const CycleState& state, Stamp now, const CycleConfig& config);
 /// A drive that stays idle is given a command without enable, which arms it, after so many with it.
 inline constexpr int kStepsToRun = 10;

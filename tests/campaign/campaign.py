@@ -18,6 +18,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "end_to_end")]
 
 from faults import FAULTS, DriveWire, LidarWire, Scene  # noqa: E402
+from more_faults import MORE_FAULTS  # noqa: E402
 from truth_listener import come_first  # noqa: E402
 from running import STANDS_MPS, Factory, Routes, Run, free_port, wait_for  # noqa: E402
 from sample_site import make_site  # noqa: E402
@@ -76,8 +77,8 @@ def try_fault(scene, routes, fault):
     went_on = goes_on()
     stood_s = stands_after(factory, moment, moment + acted_s)
     detours = run.detours_after(before)
-    off_m = max(routes.distance_m(t["x_m"], t["y_m"]) for t in factory.truth.since(moment)
-                if not any(begun <= t["received"] <= ended for begun, ended in detours))
+    off_m = max((routes.distance_m(t["x_m"], t["y_m"]) for t in factory.truth.since(moment)
+                 if not any(begun <= t["received"] <= ended for begun, ended in detours)), default=0.0)
     log = run.events_after(before)
     told = [word for word in words if any(word in event for event in log)]
     wrong = []
@@ -111,8 +112,9 @@ def scene_of(seed, folder):
     factory, run_port, lives = Factory(arguments.madori, folder, site), free_port(), iter(range(1, 1000))
     lidar, drive = LidarWire(factory.lidar_port, run_port), DriveWire(factory.devices / "drive")
 
-    def life():
-        return Run(arguments.madori, folder, site, factory, name=f"run{next(lives)}", lidar_port=run_port, drive=drive.name)
+    def life(**more):
+        return Run(arguments.madori, folder, site, factory, name=f"run{next(lives)}", lidar_port=run_port, drive=drive.name,
+                   **more)
 
     scene = Scene(arguments.madori, site, factory, life(), lidar, drive, seed, life)
     scene.run.order([13, 15], repeat=900)
@@ -144,7 +146,7 @@ def campaign(seed, rows):
     scene = None
     with contextlib.nullcontext(arguments.keep) if arguments.keep else tempfile.TemporaryDirectory() as name:
         try:
-            for number, fault in enumerate(FAULTS):
+            for number, fault in enumerate(FAULTS + MORE_FAULTS):
                 if not re.search(arguments.only, fault.name) or (arguments.short and not fault.short):
                     continue
                 scene = scene or scene_of(seed, pathlib.Path(name) / f"{seed}-{number}")

@@ -54,26 +54,45 @@ class DriveWire:
     """Between the virtual drive and the program, a pseudo-terminal of its own; `fault(bytes, to_drive)` likewise."""
 
     def __init__(self, sim_device):
-        self.fault = None
-        self.run_end, far = pty.openpty()
-        tty.setraw(self.run_end)
-        tty.setraw(far)
-        self.name, self.kept = os.ttyname(far), far
+        self.fault, self.name = None, sim_device.with_name("wire")
         self.sim_end = os.open(sim_device, os.O_RDWR | os.O_NOCTTY)
         tty.setraw(self.sim_end)
+        self.plug_in()
         threading.Thread(target=self.pass_on, daemon=True).start()
+
+    def plug_in(self):
+        """The program's end, by a name that stays."""
+        run_end, far = pty.openpty()
+        tty.setraw(run_end)
+        tty.setraw(far)
+        self.name.unlink(missing_ok=True)
+        self.name.symlink_to(os.ttyname(far))
+        self.run_end, self.kept = run_end, far
+
+    def unplug(self):
+        """The device is gone, as a USB adapter whose plug is pulled."""
+        ends, self.run_end = (self.run_end, self.kept), None
+        self.name.unlink()
+        for end in ends:
+            os.close(end)
 
     def pass_on(self):
         come_first()
         while True:
-            for ready in select.select([self.run_end, self.sim_end], [], [])[0]:
-                data = os.read(ready, 4096)
-                if not data:
-                    return  # the virtual drive has gone
-                to_drive = ready == self.run_end
-                data = self.fault(data, to_drive) if self.fault else data
-                if data:
-                    os.write(self.sim_end if to_drive else self.run_end, data)
+            ends = [end for end in (self.run_end, self.sim_end) if end is not None]
+            try:
+                for ready in select.select(ends, [], [], 0.05)[0]:
+                    data = os.read(ready, 4096)
+                    if not data:
+                        return  # the virtual drive has gone
+                    to_drive = ready != self.sim_end
+                    data = self.fault(data, to_drive) if self.fault else data
+                    out = self.sim_end if to_drive else self.run_end
+                    if data and out is not None:
+                        os.write(out, data)
+            except (OSError, ValueError):
+                if self.run_end in ends:  # not the end that was unplugged
+                    raise
 
 
 def unstuffed(frame):
