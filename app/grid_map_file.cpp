@@ -77,10 +77,11 @@ void save_grid_map(const std::filesystem::path& stem, const GridMap& map) {
   pgm.append(map.pixels.begin(), map.pixels.end());
   std::ostringstream yaml;
   yaml.precision(12);
+  // map_server calls free what is below free_thresh: unknown, 50 / 255 = 0.19608, must not be.
   yaml << "image: " << stem.filename().string() << ".pgm\nmode: trinary\nresolution: " << map.cell_m
        << "\norigin: [" << map.origin.x_m << ", " << map.origin.y_m << ", " << map.yaw_rad
        << "]\nnegate: " << (map.negate ? 1 : 0) << "\noccupied_thresh: " << map.occupied_over
-       << "\nfree_thresh: 0.25\n";
+       << "\nfree_thresh: 0.196\n";
   mapping::write_file_atomically(stem.string() + ".pgm", pgm);
   mapping::write_file_atomically(stem.string() + ".yaml", yaml.str());
 }

@@ -64,6 +64,20 @@ TEST(MapComparison, AMapIsFoundNearAndAnywhere) {
   EXPECT_LT(mean_m(found, "map_to_building"), 0.02);
 }
 
+/// The rule of map_server and nav2: free is what is below free_thresh. Nobody may plan through the unseen.
+TEST(MapComparison, MapServerReadsTheUnknownAsUnknown) {
+  const test::TemporaryFolder folder;
+  GridMap map;
+  map.width = map.height = 1;
+  map.pixels = {205};
+  save_grid_map(folder.path() / "static", map);
+  const std::string yaml = mapping::file_content(folder.path() / "static.yaml");
+  const std::string key = "free_thresh: ";
+  const double free_below = std::stod(yaml.substr(yaml.find(key) + key.size()));
+  EXPECT_GE((255 - 205) / 255.0, free_below);
+  EXPECT_LT((255 - 254) / 255.0, free_below);
+}
+
 TEST(MapComparison, GridMapsAreReadAsTheyAreWritten) {
   const test::TemporaryFolder folder;
   GridMap map;
