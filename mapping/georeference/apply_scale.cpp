@@ -1,6 +1,7 @@
 #include "mapping/georeference/apply_scale.hpp"
 
 #include "mapping/drawing/plan.hpp"
+#include "mapping/georeference/local_plane.hpp"
 #include "mapping/wall_map/import_picture.hpp"
 #include "mapping/wall_map/wall_files.hpp"
 
@@ -39,11 +40,17 @@ double apply_scale(const fs::path& folder, const ScaleEstimate& estimate, const 
   SiteTransaction change(folder);
   site = load_site(folder);
   require_possible_size(folder.string(), site.drawing, estimate.m_per_px);
-  const double factor = estimate.m_per_px / (site.scale ? site.scale->m_per_px : 1.0);
+  const double unit = site.scale ? site.scale->m_per_px : 1.0;
+  const double factor = estimate.m_per_px / unit;
+  if (estimate.georeference) {
+    site.georeference = estimate.georeference;
+  } else if (site.georeference && site.scale) {  // it was laid on its place about its middle
+    const Point2<Map> middle{0.5 * site.drawing.width_px * unit, 0.5 * site.drawing.height_px * unit};
+    site.georeference = rescaled(*site.georeference, middle, factor);
+  }
   site.scale = ScaleRecord{
       estimate.m_per_px, estimate.method,     estimate.relative_uncertainty, estimate.error_m, date,
       estimate.inputs,   estimate.residuals_m};
-  if (estimate.georeference) site.georeference = estimate.georeference;
   Walls walls = load_walls(folder / "walls.csv");
   scale_walls(walls, factor);
   (void)stage_wall_files(change, walls, site.drawing.width_px * estimate.m_per_px,

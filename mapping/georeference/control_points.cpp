@@ -77,8 +77,10 @@ void find_stretch(const Points2N& from, const Points2N& to, const Similarity& fi
 GeoreferenceRecord georeference_of(const Similarity& fit, const LocalPlane& plane, int height_px) {
   const Eigen::Vector2d origin = fit.apply({0.0, -static_cast<double>(height_px)});
   const LatLon place = plane.place_of({origin.x(), origin.y()});
-  // North differs between the two tangent planes by less than a thousandth of a degree at factory size.
-  return {place.latitude_deg, place.longitude_deg, to_deg(fit.yaw_rad)};
+  // North of the first point is not north of the origin: seen from there, the x axis is turned by a little.
+  const Eigen::Vector2d along = fit.apply({1e3, -static_cast<double>(height_px)});
+  const Point2<Enu> x_axis = LocalPlane(place).enu_of(plane.place_of({along.x(), along.y()}));
+  return {place.latitude_deg, place.longitude_deg, to_deg(std::atan2(x_axis.y_m, x_axis.x_m))};
 }
 
 void fill_errors(const Points2N& from, const Points2N& to, const Similarity& fit, ScaleEstimate& e) {
@@ -143,6 +145,8 @@ ScaleEstimate fit_control_points(const std::vector<ControlPoint>& points, int he
     e.outlier = find_outlier(from, to, fit.scale);
     find_stretch(from, to, fit, e);
     e.georeference = georeference_of(fit, plane, height_px);
+    const Eigen::Vector2d middle = from.rowwise().mean();
+    e.held = {fit.scale * middle.x(), fit.scale * (height_px + middle.y())};
   }
   if (!e.verified)
     e.notes.push_back("two points fit always: nothing verifies them; give a third and a fourth");

@@ -27,4 +27,10 @@ LatLon place_of(const GeoreferenceRecord& georeference, const Point2<Map>& point
   return LocalPlane({georeference.latitude_deg, georeference.longitude_deg}).place_of(enu_from_map * point);
 }
 
+GeoreferenceRecord rescaled(const GeoreferenceRecord& georeference, const Point2<Map>& held, double factor) {
+  const double shrunk = 1.0 - factor;
+  const LatLon origin = place_of(georeference, {held.x_m * shrunk, held.y_m * shrunk});
+  return {origin.latitude_deg, origin.longitude_deg, georeference.enu_from_map_yaw_deg};
+}
+
 }  // namespace madori::mapping

@@ -21,4 +21,8 @@ class LocalPlane {
 /// Where a point of the Map lies on Earth.
 [[nodiscard]] LatLon place_of(const GeoreferenceRecord& georeference, const Point2<Map>& point);
 
+/// The same once the Map is `factor` times as large, and what lay at `held` has kept its place on Earth.
+[[nodiscard]] GeoreferenceRecord rescaled(const GeoreferenceRecord& georeference, const Point2<Map>& held,
+                                          double factor);
+
 }  // namespace madori::mapping

@@ -48,10 +48,12 @@ double take(Values& values, const std::string& key, std::optional<double> fallba
   return value;
 }
 
+Point2<Map> anchor_of(const Overlay& o, double m_per_px, int width_px, int height_px) {
+  return {o.u.value_or(width_px / 2.0) * m_per_px, (height_px - o.v.value_or(height_px / 2.0)) * m_per_px};
+}
+
 /// The Map origin lies where the anchor says, turned by the rotation.
-GeoreferenceRecord georeference_of(const Overlay& o, double m_per_px, int width_px, int height_px) {
-  const Point2<Map> anchor{o.u.value_or(width_px / 2.0) * m_per_px,
-                           (height_px - o.v.value_or(height_px / 2.0)) * m_per_px};
+GeoreferenceRecord georeference_of(const Overlay& o, const Point2<Map>& anchor) {
   const Transform2<Enu, Map> turn(0.0, 0.0, to_rad(o.rotation_deg));
   const Point2<Enu> turned = turn * anchor;
   const LatLon origin = LocalPlane(o.place).place_of({o.east_m - turned.x_m, o.north_m - turned.y_m});
@@ -92,7 +94,8 @@ ScaleEstimate fit_overlay(const Overlay& o, int width_px, int height_px) {
                           o.place.latitude_deg, o.place.longitude_deg, o.layout_zoom, o.photo_zoom,
                           o.tile_pixels)};
   if (o.placed) {
-    e.georeference = georeference_of(o, e.m_per_px, width_px, height_px);
+    e.held = anchor_of(o, e.m_per_px, width_px, height_px);
+    e.georeference = georeference_of(o, e.held);
     e.inputs.front() +=
         fmt::format(",rotation_deg={:g},east_m={:g},north_m={:g},u={:g},v={:g}", o.rotation_deg, o.east_m,
                     o.north_m, o.u.value_or(width_px / 2.0), o.v.value_or(height_px / 2.0));

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/frames.hpp"
+#include "core/point2.hpp"
 #include "mapping/georeference/tile_math.hpp"
 #include "mapping/site/site.hpp"
 
@@ -28,6 +30,7 @@ struct ScaleEstimate {
   bool mirrored = false;
   std::optional<double> stretch;  ///< scale along u over scale along v, minus 1, where it is significant
   std::optional<GeoreferenceRecord> georeference;
+  Point2<Map> held;  ///< what the georeference laid on its place: at another scale it stays there
   Verdict verdict = Verdict::Refused;
   std::string reason;              ///< of the verdict, in words
   std::vector<std::string> notes;  ///< what else the operator should know

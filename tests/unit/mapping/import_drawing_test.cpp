@@ -16,6 +16,7 @@
 
 #include "core/result.hpp"
 #include "mapping/georeference/apply_scale.hpp"
+#include "mapping/georeference/local_plane.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/wall_map/wall_files.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -107,6 +108,23 @@ TEST_F(ImportDrawing, WhatIsDrawnAndNoWallIsKeptAndScaled) {
   ASSERT_EQ(scaled.size(), unscaled.size());
   for (std::size_t i = 0; i < scaled.size(); ++i)
     EXPECT_NEAR(scaled[i].segment.b.x_m, 0.02 * unscaled[i].segment.b.x_m, 2e-6);
+}
+
+/// It was laid on a photograph about its middle, and then measured: the middle stays.
+TEST_F(ImportDrawing, AnotherScaleKeepsTheMiddleInItsPlaceOnEarth) {
+  ImportOptions o = options(draw_room(folder_));
+  o.m_per_px = 0.02;
+  import_drawing(o);
+  Site site = load_site(o.site);
+  site.georeference = GeoreferenceRecord{35.464478, 136.739235, 30.0};
+  save_site(o.site, site);
+  const LatLon before = place_of(*site.georeference, {250 * 0.02, 175 * 0.02});
+  ScaleEstimate estimate;
+  estimate.m_per_px = 0.022;
+  estimate.method = "known";
+  apply_scale(o.site, estimate, "2026-11-27T00:00:00Z", {});
+  const LatLon now = place_of(*load_site(o.site).georeference, {250 * 0.022, 175 * 0.022});
+  EXPECT_LT(geodesic_m(before, now), 0.001);
 }
 
 TEST_F(ImportDrawing, WithoutScaleNothingMayDriveOnIt) {

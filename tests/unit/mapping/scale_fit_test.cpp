@@ -7,6 +7,8 @@
 #include "mapping/georeference/control_points.hpp"
 #include "mapping/georeference/known_lengths.hpp"
 #include "mapping/georeference/local_plane.hpp"
+#include "mapping/georeference/overlay.hpp"
+#include "mapping/georeference/scale_choice.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -55,6 +57,15 @@ TEST(KnownLengths, OneIsUsableAndUnverified) {
   EXPECT_THAT(e.reason, HasSubstr("unverified"));
 }
 
+/// A hall of 100 m, and a door of 1 m that was clicked a pixel short at both ends.
+TEST(KnownLengths, AShortOneIsOffByItsClicksWithoutContradicting) {
+  const ScaleEstimate e = fit_known_lengths({{0, 0, 4000, 0, 100.0}, {100, 0, 138, 0, 1.0}});
+  EXPECT_NEAR(e.m_per_px, 0.025, 1e-5);
+  EXPECT_NE(e.verdict, Verdict::Refused) << e.reason;
+  EXPECT_GT(e.relative_uncertainty, 0.005);  // a door says little about a hall
+  EXPECT_EQ(fit_known_lengths({{0, 0, 4000, 0, 100.0}, {100, 0, 130, 0, 1.0}}).verdict, Verdict::Refused);
+}
+
 TEST(KnownLengths, RefusesWhatIsNone) {
   for (const char* text : {"1,2,3=4", "1,2,3,4", "1,2,3,4=0", "1,2,3,4=-2", "1,2,1,2=3", "1,2,3,4=nan", ""})
     EXPECT_THROW((void)parse_known_length(text), Error) << text;
@@ -80,6 +91,19 @@ TEST(ControlPoints, FindThePlaceOfTheDrawing) {
   EXPECT_NEAR(e.georeference->longitude_deg, 136.739235, 1e-9);
   EXPECT_NEAR(e.georeference->enu_from_map_yaw_deg, 30.0, 1e-3);
   EXPECT_EQ(e.verdict, Verdict::Good) << e.reason;
+}
+
+/// A kilometre at 65 degrees north, the first point far from the Map origin: north turns by 0.02 degrees on
+/// the way, a third of a metre at the far end.
+TEST(ControlPoints, TheirNorthIsThatOfTheMapOrigin) {
+  const GeoreferenceRecord truth{65.0, 25.0, -20.0};
+  std::vector<ControlPoint> points;
+  for (const auto& [u, v] : {std::pair{2000.0, 10.0}, {1950.0, 900.0}, {20.0, 950.0}, {10.0, 30.0}})
+    points.push_back({u, v, place_of(truth, {u * 0.5, (1000.0 - v) * 0.5})});
+  const ScaleEstimate e = fit_control_points(points, 1000);
+  ASSERT_TRUE(e.georeference);
+  for (const auto& p : points)
+    EXPECT_LT(geodesic_m(place_of(*e.georeference, {p.u * 0.5, (1000.0 - p.v) * 0.5}), p.place), 0.002);
 }
 
 TEST(ControlPoints, TwoAreUnverified) {
@@ -141,6 +165,25 @@ TEST(ScaleSources, SayWhereTheyDisagree) {
   EXPECT_THAT(disagreements({known, paper}), testing::ElementsAre(HasSubstr("disagree by 100")));
   EXPECT_THROW((void)paper_scale(200.0, 0.0), Error);
   EXPECT_THROW((void)paper_scale(0.0, 300.0), Error);
+}
+
+/// Laid over a photograph 4 % too large; a measured length gives the scale, and the middle of the drawing
+/// stays where it was laid.
+TEST(ScaleSources, ThePlaceOnEarthIsThatOfTheChosenScale) {
+  const ScaleEstimate known = fit_known_lengths(office());
+  Overlay overlay;
+  overlay.zoom = 18;
+  overlay.place = {-33.9, 18.4};
+  overlay.photo_zoom = 1.0;
+  overlay.layout_zoom = 1.04 * known.m_per_px / (tile_side_m(-33.9, 18) / kTilePixels);
+  overlay.rotation_deg = 40.0;
+  overlay.placed = true;
+  const ScaleChoice choice = choose_scale({fit_overlay(overlay, 3000, 2000), known});
+  ASSERT_EQ(choice.best.method, "known");
+  ASSERT_TRUE(choice.best.georeference);
+  const LatLon middle =
+      place_of(*choice.best.georeference, {1500.0 * known.m_per_px, 1000.0 * known.m_per_px});
+  EXPECT_LT(geodesic_m(middle, overlay.place), 0.001);
 }
 
 }  // namespace
