@@ -10,7 +10,6 @@
 #include "app/commands.hpp"
 #include "app/commands/within.hpp"
 #include "app/json_output.hpp"
-#include "core/result.hpp"
 #include "mapping/georeference/mosaic.hpp"
 #include "mapping/georeference/tile_store.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -36,12 +35,6 @@ void show_progress(std::size_t done, std::size_t all) {
     std::fprintf(stderr, "\r\033[K%zu of %zu tiles%s", done, all, done == all ? "\r\033[K" : "");
 }
 
-void check_zoom(const mapping::TileSource& source, int zoom) {
-  if (zoom < source.min_zoom || zoom > source.max_zoom)
-    throw Error("--zoom " + std::to_string(zoom), source.name + " has no such tiles",
-                "use " + std::to_string(source.min_zoom) + " to " + std::to_string(source.max_zoom));
-}
-
 void report(const TilesArguments& a, const mapping::DownloadReport& done, std::size_t all,
             const std::string& mosaic) {
   const double side = mapping::tile_side_m(a.place.latitude_deg, a.zoom);
@@ -63,7 +56,7 @@ void run(const TilesArguments& a) {
   expect_json(a.json_file, std::filesystem::path(a.site) / "tiles");
   (void)mapping::load_site(a.site);
   const mapping::TileSource source = mapping::find_tile_source(a.source, a.attribution);
-  check_zoom(source, a.zoom);
+  mapping::require_zoom(source, a.zoom);
   const auto tiles = mapping::tiles_around(a.place, a.radius_m, a.zoom);
   const mapping::TileStore store(std::filesystem::path(a.site) / "tiles", source);
   mapping::FetchOptions fetch;
@@ -72,9 +65,6 @@ void run(const TilesArguments& a) {
   const auto sleep = [](std::chrono::milliseconds time) { std::this_thread::sleep_for(time); };
   const auto done =
       mapping::download_tiles(store, tiles, mapping::http_fetcher(fetch), sleep, a.download, show_progress);
-  if (done.missing.size() == tiles.size())
-    throw Error(source.name, "has no tile there at zoom " + std::to_string(a.zoom),
-                "check the place, or use a smaller zoom");
   const auto mosaic = store.folder() / ("mosaic-z" + std::to_string(a.zoom) + ".png");
   mapping::write_file_atomically(mosaic, mapping::mosaic_png(store, tiles));
   report(a, done, tiles.size(), mosaic.string());

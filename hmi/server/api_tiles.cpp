@@ -99,14 +99,15 @@ json sources() {
 }
 
 Response fetch_tiles(ApiContext& context, const json& wanted) {
+  const int zoom = whole_number<int>(wanted.at("zoom"));
   const mapping::LatLon place{wanted.at("latitude_deg").get<double>(),
                               wanted.at("longitude_deg").get<double>()};
-  const auto tiles =
-      mapping::tiles_around(place, wanted.at("radius_m").get<double>(), whole_number<int>(wanted.at("zoom")));
+  const auto tiles = mapping::tiles_around(place, wanted.at("radius_m").get<double>(), zoom);
   const auto name = wanted.at("source").get<std::string>();
   if (name.starts_with("file"))
     throw Error(name, "is no source for the panel", "use http or https, or fetch them with madori tiles");
   const mapping::TileSource source = mapping::find_tile_source(name, wanted.value("attribution", ""));
+  mapping::require_zoom(source, zoom);
   const fs::path folder = context.editor.folder() / "tiles";
   const bool started = context.job.start("tiles", [folder, source, tiles](const Job::Progress& progress) {
     const mapping::TileStore store(folder, source);

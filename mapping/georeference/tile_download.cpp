@@ -48,6 +48,9 @@ DownloadReport download_tiles(const TileStore& store, const std::vector<TileId>&
     ++done;
     if (progress) progress(done, tiles.size());
   }
+  if (!tiles.empty() && report.missing.size() == tiles.size())
+    throw Error(store.source().name, "has no tile there at zoom " + std::to_string(tiles.front().zoom),
+                "check the place, or use a smaller zoom");
   return report;
 }
 

@@ -28,6 +28,12 @@ std::string TileSource::url_of(const TileId& tile) const {
   return text;
 }
 
+void require_zoom(const TileSource& source, int zoom) {
+  if (zoom < source.min_zoom || zoom > source.max_zoom)
+    throw Error("zoom " + std::to_string(zoom), source.name + " has no such tiles",
+                "use " + std::to_string(source.min_zoom) + " to " + std::to_string(source.max_zoom));
+}
+
 const std::vector<TileSource>& known_tile_sources() {
   static const std::vector<TileSource> sources{gsi("seamlessphoto", 2, "jpg"), gsi("ort", 14, "jpg"),
                                                gsi("std", 5, "png"), gsi("pale", 5, "png")};

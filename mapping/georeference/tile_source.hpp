@@ -26,6 +26,9 @@ struct TileSource {
   [[nodiscard]] std::string url_of(const TileId& tile) const;
 };
 
+/// Throws Error where the source has no such tiles.
+void require_zoom(const TileSource& source, int zoom);
+
 /// The Geospatial Information Authority of Japan's layers (maps.gsi.go.jp/development/ichiran.html).
 [[nodiscard]] const std::vector<TileSource>& known_tile_sources();
 

@@ -31,6 +31,14 @@ void remove_leftovers(const fs::path& folder) {
   for (const auto& file : leftovers) fs::remove(file);
 }
 
+/// In {z}/{x}.
+bool holds_any(const fs::path& folder) {
+  constexpr int kDepth = 2;
+  for (auto at = fs::recursive_directory_iterator(folder); at != fs::recursive_directory_iterator(); ++at)
+    if (at.depth() == kDepth && at->is_regular_file()) return true;
+  return false;
+}
+
 /// Distance from `value` to the piece [low, low + 1].
 double gap(double value, double low) {
   return std::max({low - value, value - low - 1.0, 0.0});
@@ -80,7 +88,7 @@ TileStore::~TileStore() {
 
 void TileStore::describe() const {
   const fs::path file = folder_ / "source.json";
-  if (fs::exists(file)) {
+  if (fs::exists(file) && holds_any(folder_)) {  // a source that gave nothing makes room for another
     const json known = json::parse(file_content(file), nullptr, false);
     if (!known.is_object() || known.value("name", "") != source_.name)
       throw Error(folder_.string(), "holds tiles of another source",

@@ -59,7 +59,8 @@ using Sleep = std::function<void(std::chrono::milliseconds)>;
 using TileProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Fetches what the store does not hold yet; the next call goes on where this one ended. Throws Error when
-/// the source cannot be used (after the last attempt); what was fetched until then stays.
+/// the source cannot be used (after the last attempt), what was fetched until then stays; and where it has
+/// none of these tiles.
 DownloadReport download_tiles(const TileStore& store, const std::vector<TileId>& tiles,
                               const FetchTile& fetch, const Sleep& sleep, const DownloadOptions& options = {},
                               const TileProgress& progress = {});

@@ -148,10 +148,25 @@ TEST(TileStore, RefusesTilesOfAnotherSourceAndASecondWriter) {
   const TileSource gsi = find_tile_source("seamlessphoto");
   {
     const TileStore store(folder.path(), gsi);
+    store.save({14, 1, 2}, picture(256));
     EXPECT_THROW(TileStore(folder.path(), gsi), Error);
   }
   EXPECT_THROW(TileStore(folder.path(), find_tile_source("pale")), Error);
   EXPECT_NO_THROW(TileStore(folder.path(), gsi));
+}
+
+/// An address with a slip in it, or a zoom that the source does not have: nothing is saved, it is said, and
+/// another source may be tried.
+TEST(TileStore, ASourceThatHasNothingThereIsAnErrorAndMakesRoomForAnother) {
+  const test::TemporaryFolder folder;
+  const Outcome o = download(folder.path(), [](const auto&) { return TileReply{.status = 404}; });
+  EXPECT_THAT(o.error, HasSubstr("has no tile there at zoom 3"));
+  {
+    const TileStore store(folder.path(), find_tile_source("pale"));
+    store.save({14, 1, 2}, picture(256));
+  }
+  EXPECT_THROW(TileStore(folder.path(), find_tile_source("std")), Error);
+  EXPECT_NO_THROW(TileStore(folder.path(), find_tile_source("pale")));
 }
 
 TEST(TileStore, ReadsAFolderOfTiles) {
@@ -174,6 +189,8 @@ TEST(TileSources, KnowTheirNamesAndTemplates) {
   EXPECT_EQ(find_tile_source("ort").url_of({14, 14622, 6017}),
             "https://cyberjapandata.gsi.go.jp/xyz/ort/14/14622/6017.jpg");
   EXPECT_THAT(find_tile_source("std").attribution, HasSubstr("国土地理院"));
+  EXPECT_NO_THROW(require_zoom(find_tile_source("std"), 18));
+  EXPECT_THROW(require_zoom(find_tile_source("std"), 19), Error);
   EXPECT_THROW((void)find_tile_source("bing"), Error);
   EXPECT_THROW((void)find_tile_source("https://host/{z}/{x}.png"), Error);
   EXPECT_THROW((void)find_tile_source("ftp://host/{z}/{x}/{y}.png"), Error);
