@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -73,6 +74,27 @@ void find_stretch(const Points2N& from, const Points2N& to, const Similarity& fi
                   100.0 * std::abs(found.stretch), found.stretch > 0.0 ? "larger" : "smaller"));
 }
 
+/// Across the line that lies nearest to all of them they scatter no more than their clicks do.
+bool lie_on_a_line(const Points2N& points) {
+  const Points2N about = points.colwise() - points.rowwise().mean();
+  const Eigen::Matrix2d squares = about * about.transpose() / static_cast<double>(points.cols());
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(squares).eigenvalues()[0] <
+         std::pow(3.0 * kClickPx, 2);
+}
+
+/// What three points or more say of the drawing. Beside a line, clicks alone make any stretch.
+void find_faults(const Points2N& from, const Points2N& to, const Similarity& fit, ScaleEstimate& e) {
+  const bool line = lie_on_a_line(from);
+  if (line)
+    e.notes.emplace_back(
+        "the points lie on one line, which shows neither a mirrored nor a stretched drawing; give one far "
+        "beside it");
+  e.mirrored = !line && kClearly * error_of(flipped(from), to) < error_of(from, to);
+  if (e.mirrored) return;
+  e.outlier = find_outlier(from, to, fit.scale);
+  if (!line) find_stretch(from, to, fit, e);
+}
+
 /// The Map origin is the lower-left corner of the drawing's pixel grid, (u, v) = (0, height).
 GeoreferenceRecord georeference_of(const Similarity& fit, const LocalPlane& plane, int height_px) {
   const Eigen::Vector2d origin = fit.apply({0.0, -static_cast<double>(height_px)});
@@ -139,11 +161,9 @@ ScaleEstimate fit_control_points(const std::vector<ControlPoint>& points, int he
   const Similarity fit = fit_similarity(from, to);
   e.m_per_px = fit.scale;
   e.verified = points.size() > 2;
-  e.mirrored = e.verified && kClearly * error_of(flipped(from), to) < error_of(from, to);
+  if (e.verified) find_faults(from, to, fit, e);
   fill_errors(from, to, fit, e);
   if (!e.mirrored) {
-    e.outlier = find_outlier(from, to, fit.scale);
-    find_stretch(from, to, fit, e);
     e.georeference = georeference_of(fit, plane, height_px);
     const Eigen::Vector2d middle = from.rowwise().mean();
     e.held = {fit.scale * middle.x(), fit.scale * (height_px + middle.y())};

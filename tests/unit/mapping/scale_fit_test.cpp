@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "core/result.hpp"
 #include "mapping/georeference/control_points.hpp"
@@ -141,6 +142,22 @@ TEST(ControlPoints, SeeAStretchedDrawing) {
   ASSERT_TRUE(e.stretch);
   EXPECT_NEAR(*e.stretch, 0.01, 1e-6);
   EXPECT_FALSE(fit_control_points(hall(), 1400).stretch);
+}
+
+/// Clicks scatter a pixel about the line: of a stretch, in every fifth case, or a mirror they say nothing.
+TEST(ControlPoints, OnOneLineShowNeitherStretchNorMirror) {
+  const GeoreferenceRecord truth{35.464478, 136.739235, 30.0};
+  std::mt19937 engine(1);
+  std::normal_distribution<double> click(0.0, 1.0);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<ControlPoint> points;
+    for (double u = 100.0; u < 1400.0; u += 250.0)
+      points.push_back(
+          {u + click(engine), 1400.0 - u + click(engine), place_of(truth, {u * 0.05, u * 0.05})});
+    const ScaleEstimate e = fit_control_points(points, 1400);
+    EXPECT_FALSE(e.stretch || e.mirrored) << round;
+    EXPECT_THAT(e.notes, testing::ElementsAre(HasSubstr("on one line")));
+  }
 }
 
 TEST(ControlPoints, SeeAMirroredDrawing) {
