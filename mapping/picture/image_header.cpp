@@ -53,16 +53,20 @@ ImageHeader png(std::span<const std::uint8_t> bytes) {
   ImageHeader header{ImageFormat::Png, read.u32(16), read.u32(20), 0, png_bytes_per_px(read)};
   for (std::size_t at = 8; at + 12 <= read.size();) {
     if (read.is(at + 4, "IDAT")) break;
-    if (read.is(at + 4, "pHYs") && read.integer(at + 16, 1) == 1) header.dpi = read.u32(at + 8) * kInch;
+    if (read.is(at + 4, "pHYs") && read.integer(at + 16, 1) == 1) {
+      header.dpi = read.u32(at + 8) * kInch;
+      header.dpi_v = read.u32(at + 12) * kInch;
+    }
     at += 12 + static_cast<std::size_t>(read.u32(at));
   }
   return header;
 }
 
-double jfif_dpi(const Reader& read, std::size_t at) {
-  if (!read.is(at + 4, "JFIF")) return 0;
-  const std::uint32_t unit = read.integer(at + 11, 1);
-  return unit == 1 ? read.u16(at + 12) : unit == 2 ? read.u16(at + 12) * 2.54 : 0;
+void read_jfif(const Reader& read, std::size_t at, ImageHeader& header) {
+  const std::uint32_t unit = read.is(at + 4, "JFIF") ? read.integer(at + 11, 1) : 0;
+  const double inches = unit == 1 ? 1 : unit == 2 ? 2.54 : 0;
+  header.dpi = read.u16(at + 12) * inches;
+  header.dpi_v = read.u16(at + 14) * inches;
 }
 
 ImageHeader jpeg(std::span<const std::uint8_t> bytes) {
@@ -70,7 +74,7 @@ ImageHeader jpeg(std::span<const std::uint8_t> bytes) {
   ImageHeader header{ImageFormat::Jpeg, 0, 0, 0, 3};
   for (std::size_t at = 2; at + 9 <= read.size() && read.integer(at, 1) == 0xFF;) {
     const std::uint32_t marker = read.integer(at + 1, 1);
-    if (marker == 0xE0) header.dpi = jfif_dpi(read, at);
+    if (marker == 0xE0) read_jfif(read, at, header);
     const bool frame = marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
     if (frame) {
       header.height_px = read.u16(at + 5);
@@ -88,7 +92,9 @@ ImageHeader tiff(std::span<const std::uint8_t> bytes) {
   const Reader read(bytes, bytes[0] == 'M');
   ImageHeader header{ImageFormat::Tiff, 0, 0, 0};
   const std::size_t directory = read.u32(4);
-  double resolution = 0;
+  const auto ratio = [&](std::uint32_t where) {
+    return read.u32(where) / std::max(1.0, 1.0 * read.u32(std::size_t{where} + 4));
+  };
   std::uint32_t unit = 2, bits = 1, samples = 1;
   for (std::size_t i = 0; i < read.u16(directory); ++i) {
     const std::size_t at = directory + 2 + 12 * i;
@@ -110,7 +116,10 @@ ImageHeader tiff(std::span<const std::uint8_t> bytes) {
         samples = std::max(samples, value);
         break;
       case 282:
-        resolution = read.u32(value) / std::max(1.0, 1.0 * read.u32(std::size_t{value} + 4));
+        header.dpi = ratio(value);
+        break;
+      case 283:
+        header.dpi_v = ratio(value);
         break;
       case 296:
         unit = value;
@@ -120,7 +129,9 @@ ImageHeader tiff(std::span<const std::uint8_t> bytes) {
     }
   }
   header.bytes_per_px = static_cast<int>(std::clamp(samples, 1U, 4U) * std::clamp((bits + 7) / 8, 1U, 8U));
-  header.dpi = unit == 2 ? resolution : unit == 3 ? resolution * 2.54 : 0;
+  const double inches = unit == 2 ? 1 : unit == 3 ? 2.54 : 0;
+  header.dpi *= inches;
+  header.dpi_v *= inches;
   return header;
 }
 
@@ -129,7 +140,8 @@ ImageHeader bmp(std::span<const std::uint8_t> bytes) {
   if (read.u32(14) == 12) return {ImageFormat::Bmp, read.u16(18), read.u16(20), 0, 3};
   const std::int64_t height = static_cast<std::int32_t>(read.u32(22));  // negative: top-down
   const int bytes_per_px = read.u16(28) == 32 ? 4 : 3;
-  return {ImageFormat::Bmp, read.u32(18), height < 0 ? -height : height, read.u32(38) * kInch, bytes_per_px};
+  return {ImageFormat::Bmp,     read.u32(18), height < 0 ? -height : height,
+          read.u32(38) * kInch, bytes_per_px, read.u32(42) * kInch};
 }
 
 std::optional<ImageHeader> header_of(std::span<const std::uint8_t> bytes) {
@@ -147,8 +159,13 @@ std::optional<ImageHeader> header_of(std::span<const std::uint8_t> bytes) {
 
 std::optional<ImageHeader> read_image_header(std::span<const std::uint8_t> bytes) {
   constexpr double kLeastDpi = 1.0, kMostDpi = 100'000.0;
+  constexpr double kLongestPixel = 4.0;  // of a fax 2.1: what states more than this has no such pixels
   auto header = header_of(bytes);
-  if (header && !(header->dpi >= kLeastDpi && header->dpi <= kMostDpi)) header->dpi = 0;
+  if (!header) return header;
+  if (!(header->dpi >= kLeastDpi && header->dpi <= kMostDpi)) header->dpi = 0;
+  const bool both =
+      header->dpi_v >= header->dpi / kLongestPixel && header->dpi_v <= header->dpi * kLongestPixel;
+  if (!both) header->dpi_v = header->dpi;
   return header;
 }
 

@@ -13,8 +13,9 @@ struct ImageHeader {
   ImageFormat format = ImageFormat::Png;
   std::int64_t width_px = 0;  ///< 0 where the header does not say
   std::int64_t height_px = 0;
-  double dpi = 0;        ///< 0 = not stated, or not that of a drawing (below 1, above 100,000)
+  double dpi = 0;        ///< along u; 0 = not stated, or not that of a drawing (below 1, above 100,000)
   int bytes_per_px = 1;  ///< of the decoded picture: channels times bytes of a sample
+  double dpi_v = 0;      ///< along v: a fax has 204 x 196 or 204 x 98; as along u where none is stated
 };
 
 /// The header, or nothing where the bytes are none of these formats. Never reads outside `bytes`.

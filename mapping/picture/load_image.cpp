@@ -44,14 +44,32 @@ void expect_at_most(const fs::path& file, double amount, double most, const char
                 "export it at a lower resolution (12 megapixels are plenty for a floor)");
 }
 
+/// How many times as long a pixel is as it is wide, or the other way round; 1 where it makes no difference.
+double longest_pixel(const ImageHeader& header) {
+  constexpr double kSquare = 1.005;  // no scale is better known
+  const auto [less, more] = std::minmax(header.dpi, header.dpi_v);
+  return more > kSquare * less ? more / std::max(less, 1.0) : 1.0;
+}
+
+/// A fax is coarser in one direction: that is enlarged until the pixels are square, as viewers do.
+cv::Mat squared(cv::Mat picture, const ImageHeader& header) {
+  const double longest = longest_pixel(header);
+  if (longest == 1.0) return picture;
+  const bool turned = picture.cols != header.width_px;  // by its EXIF orientation
+  const bool wide = (header.dpi < header.dpi_v) != turned;
+  cv::Mat even;
+  cv::resize(picture, even, {}, wide ? longest : 1.0, wide ? 1.0 : longest, cv::INTER_LINEAR);
+  return even;
+}
+
 ImageHeader checked_header(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
   if (bytes.empty()) throw Error(file.string(), "is empty", kFormats);
   const auto header = read_image_header(bytes);
   if (!header) throw Error(file.string(), "is not an image that Madori reads", kFormats);
   if (header->width_px <= 0 || header->height_px <= 0)
     throw Error(file.string(), "has no pixels or is cut off", "export it again");
-  const double megapixels =
-      static_cast<double>(header->width_px) * static_cast<double>(header->height_px) / 1e6;
+  const double megapixels = longest_pixel(*header) * static_cast<double>(header->width_px) *
+                            static_cast<double>(header->height_px) / 1e6;
   expect_at_most(file, megapixels, kMaxImageMegapixels, " megapixels");
   expect_at_most(file, megapixels * header->bytes_per_px, kMaxDecodedMb, " MB decoded");
   return *header;
@@ -123,14 +141,15 @@ bool colour_row(const cv::Mat& row, std::uint8_t* red_green, std::uint8_t* yello
 GrayImage load_image(const fs::path& file) {
   const auto bytes = read_bytes(file);
   const ImageHeader header = checked_header(file, bytes);
-  if (header.format == ImageFormat::Png)
+  if (header.format == ImageFormat::Png && longest_pixel(header) == 1.0)
     if (auto pixels = decode_grey_png(bytes))
       return {.width_px = static_cast<int>(header.width_px),
               .height_px = static_cast<int>(header.height_px),
               .pixels = std::move(*pixels),
               .dpi = header.dpi};
-  const cv::Mat picture = decode(file, bytes, header.format);
-  GrayImage image{.width_px = picture.cols, .height_px = picture.rows, .dpi = header.dpi};
+  const cv::Mat picture = squared(decode(file, bytes, header.format), header);
+  GrayImage image{
+      .width_px = picture.cols, .height_px = picture.rows, .dpi = std::max(header.dpi, header.dpi_v)};
   image.pixels.resize(picture.total());
   const bool colours = picture.channels() >= 3;
   if (colours) image.red_green.resize(picture.total()), image.yellow_blue.resize(picture.total());

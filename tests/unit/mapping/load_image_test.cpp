@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
@@ -88,6 +89,23 @@ TEST_F(LoadImage, EveryDepthAndFormat) {
   cv::imwrite((folder_.path() / "bit.png").string(), bilevel, one_bit);
   EXPECT_EQ(load_image(folder_.path() / "bit.png").at(1, 2), 0);
   EXPECT_EQ(load_image(folder_.path() / "bit.png").at(0, 0), 255);
+}
+
+/// A square drawn on a sheet that was faxed at 204 x 98 dots per inch, and at 204 x 196.
+TEST_F(LoadImage, AFaxIsNoLongerSquashed) {
+  for (const int dpi_v : {98, 196}) {
+    const int rows = 408 * dpi_v / 204;
+    cv::Mat fax(rows, 408, CV_8UC1, cv::Scalar(255));
+    cv::rectangle(fax, {102, rows / 4}, {305, rows * 3 / 4 - 1}, 0, cv::FILLED);
+    const auto file = folder_.path() / "fax.tif";
+    cv::imwrite(file.string(), fax,
+                {cv::IMWRITE_TIFF_RESUNIT, 2, cv::IMWRITE_TIFF_XDPI, 204, cv::IMWRITE_TIFF_YDPI, dpi_v});
+    const GrayImage image = load_image(file);
+    EXPECT_EQ(image.width_px, 408);
+    EXPECT_EQ(image.height_px, 408) << dpi_v;
+    EXPECT_EQ(image.dpi, 204.0);
+    EXPECT_EQ(std::ranges::count_if(image.pixels, [](std::uint8_t value) { return value < 128; }), 204 * 204);
+  }
 }
 
 TEST_F(LoadImage, BadInputIsNamedWithItsMend) {
