@@ -10,6 +10,7 @@
 #include "app/mapping_drive/mapping_desk.hpp"
 #include "app/pose/pose_store.hpp"
 #include "mapping/site/site.hpp"
+#include "mapping/site/site_versions.hpp"
 #include "planning/route_graph/taught_route.hpp"
 
 namespace madori::app {
@@ -20,8 +21,7 @@ struct MappingSetup {
   std::vector<mapping::SensorRecord> sensors;
 };
 
-/// The way that was driven when a site was mapped: time_s,x_m,y_m,yaw_rad, Map frame.
-inline constexpr const char* kWayFile = "driven_way.csv";
+using mapping::kWayFile;
 
 /// Files of a map by driving, in a folder that is no site yet.
 [[nodiscard]] std::filesystem::path drive_file(const std::filesystem::path& site);

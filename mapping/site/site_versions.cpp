@@ -131,8 +131,9 @@ std::string author() {
 }  // namespace
 
 bool is_kept(const std::string& name) {
-  return name == "site.yaml" || name == "walls.csv" || name == kOtherLinesFile || name == "import.png" ||
-         name == "routes/tree.csv" || name == "routes/path.csv" || name.starts_with("drawing.");
+  return name == "site.yaml" || name == "walls.csv" || name == kOtherLinesFile || name == kWayFile ||
+         name == "import.png" || name == "routes/tree.csv" || name == "routes/path.csv" ||
+         name.starts_with("drawing.");
 }
 
 std::string object_name(std::string_view content) {

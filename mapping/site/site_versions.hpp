@@ -35,6 +35,9 @@ struct StagedFiles {
 void stage_version(SiteTransaction& change, const std::filesystem::path& site,
                    const std::filesystem::path& staging, const StagedFiles& files);
 
+/// The way that was driven when a site was mapped: time_s,x_m,y_m,yaw_rad, Map frame. No other map's.
+inline constexpr const char* kWayFile = "driven_way.csv";
+
 /// Whether a file of a site belongs to its versions.
 [[nodiscard]] bool is_kept(const std::string& name);
 /// The name of a content below versions/objects: FNV-1a of 128 bits, and the length; keeps no secret.

@@ -48,6 +48,25 @@ TEST_F(SiteVersionsTest, EverySaveIsOneAndAnyCanBeBroughtBack) {
   EXPECT_EQ(site_versions(site_).size(), 5U);
 }
 
+/// A drawing was laid over a map by driving, and the map is brought back; then the drawing.
+TEST_F(SiteVersionsTest, TheWayThatWasDrivenGoesAndComesWithItsMap) {
+  {
+    SiteTransaction change(site_);
+    change.write(kWayFile, "of the map");
+    change.commit();
+  }
+  {
+    SiteTransaction change(site_);
+    change.remove(kWayFile);
+    change.write("routes/tree.csv", "of the drawing");
+    change.commit();
+  }
+  restore_version(site_, 1);
+  EXPECT_EQ(file_content(site_ / kWayFile), "of the map");
+  restore_version(site_, 2);
+  EXPECT_FALSE(std::filesystem::exists(site_ / kWayFile));
+}
+
 TEST_F(SiteVersionsTest, WhatAnotherProgramSavedIsKeptBeforeTheNextSave) {
   save(site_, 1);
   std::ofstream(site_ / "routes/tree.csv") << "by hand";
