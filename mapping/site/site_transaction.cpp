@@ -81,12 +81,14 @@ SiteTransaction::SiteTransaction(fs::path site) : site_(std::move(site)) {
     throw Error(site_.string(), "cannot be made: " + error.message(),
                 "choose a folder that you may write to");
   lock_ = take_lock(site_, false);
-  if (fs::exists(journal_of(site_))) apply_journal(site_);
-  fs::remove_all(site_ / kStaging, error);
-  fs::create_directories(site_ / kStaging, error);
-  if (error) {
-    ::close(lock_);
-    throw Error(site_.string(), "cannot be written: " + error.message(), "check its permissions");
+  try {
+    if (fs::exists(journal_of(site_))) apply_journal(site_);
+    fs::remove_all(site_ / kStaging, error);
+    fs::create_directories(site_ / kStaging, error);
+    if (error) throw Error(site_.string(), "cannot be written: " + error.message(), "check its permissions");
+  } catch (...) {
+    ::close(lock_);  // else a panel would say until its end that another command changes the site
+    throw;
   }
 }
 
@@ -172,7 +174,12 @@ bool is_being_changed(const fs::path& site) {
 void recover_site(const fs::path& site) {
   if (!fs::exists(journal_of(site))) return;
   const int lock = take_lock(site, true);
-  if (fs::exists(journal_of(site))) apply_journal(site);
+  try {
+    if (fs::exists(journal_of(site))) apply_journal(site);
+  } catch (...) {
+    ::close(lock);  // load_site would wait for it for ever
+    throw;
+  }
   ::close(lock);
 }
 

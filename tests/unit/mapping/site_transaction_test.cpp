@@ -81,6 +81,21 @@ TEST(SiteTransaction, FinishesACommitThatWasCutShort) {
   EXPECT_FALSE(fs::exists(folder.path() / ".staging"));
 }
 
+/// The disk refuses the last step of a commit that was cut short. Who tries again, in the same program, is
+/// neither refused for its own lock nor waits for it.
+TEST(SiteTransaction, AChangeThatCannotBeFinishedKeepsNoLock) {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder.path() / ".staging");
+  fs::create_directories(folder.path() / "walls.csv" / "in the way");
+  folder.write(".staging/walls.csv", "new");
+  folder.write(".staging/JOURNAL", "+ walls.csv\n");
+  EXPECT_THROW(SiteTransaction(folder.path()), fs::filesystem_error);
+  EXPECT_THROW(recover_site(folder.path()), fs::filesystem_error);
+  fs::remove_all(folder.path() / "walls.csv");
+  { SiteTransaction change(folder.path()); }
+  EXPECT_EQ(file_content(folder.path() / "walls.csv"), "new");
+}
+
 TEST(SiteTransaction, SurvivesKillAtAnyMoment) {
   const test::TemporaryFolder folder;
   folder.write("a", "0");
