@@ -78,6 +78,7 @@ ScaleEstimate recorded_scale(const ScaleRecord& record) {
   e.m_per_px = record.m_per_px;
   e.relative_uncertainty = record.relative_uncertainty;
   e.error_m = record.residual_m;
+  e.verified = e.error_m > 0.0;  // where nothing checks it, nothing is left over
   e.inputs = record.inputs;
   judge(e);
   return e;

@@ -184,6 +184,14 @@ TEST(ScaleSources, SayWhereTheyDisagree) {
   EXPECT_THROW((void)paper_scale(0.0, 300.0), Error);
 }
 
+TEST(ScaleSources, AScaleThatWasVerifiedIsNotCalledUnverifiedLater) {
+  const ScaleEstimate known = fit_known_lengths(office());
+  ScaleRecord record{known.m_per_px, "known", known.relative_uncertainty, known.error_m, "", known.inputs};
+  EXPECT_EQ(recorded_scale(record).verdict, Verdict::Good) << recorded_scale(record).reason;
+  record.residual_m = 0.0;
+  EXPECT_EQ(recorded_scale(record).verdict, Verdict::Usable);
+}
+
 /// Laid over a photograph 4 % too large; a measured length gives the scale, and the middle of the drawing
 /// stays where it was laid.
 TEST(ScaleSources, ThePlaceOnEarthIsThatOfTheChosenScale) {
