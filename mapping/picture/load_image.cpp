@@ -48,11 +48,11 @@ void expect_at_most(const fs::path& file, double amount, double most, const char
 double longest_pixel(const ImageHeader& header) {
   constexpr double kSquare = 1.005;  // no scale is better known
   const auto [less, more] = std::minmax(header.dpi, header.dpi_v);
-  return more > kSquare * less ? more / std::max(less, 1.0) : 1.0;
+  return more > kSquare * less ? more / less : 1.0;
 }
 
 /// A fax is coarser in one direction: that is enlarged until the pixels are square, as viewers do.
-cv::Mat squared(cv::Mat picture, const ImageHeader& header) {
+cv::Mat squared(const cv::Mat& picture, const ImageHeader& header) {
   const double longest = longest_pixel(header);
   if (longest == 1.0) return picture;
   const bool turned = picture.cols != header.width_px;  // by its EXIF orientation

@@ -13,8 +13,9 @@ constexpr double kMaxDecodedMb = 600;  ///< 200 megapixels of 8-bit colour, 75 o
 constexpr double kWantedPx = 5000;
 
 /// Reads PNG (grey, colour, palette, alpha; 1 to 16 bit), JPEG (its EXIF orientation applied), TIFF and BMP.
-/// Transparent becomes white; pixels that are not square (a fax of 204 x 196 dots per inch) become so. Throws Error naming the file and the mend: no regular file, not readable, not
-/// an image, truncated, empty, too large.
+/// Transparent becomes white; pixels that are not square (a fax of 204 x 196 dots per inch) become so. Throws
+/// Error naming the file and the mend: no regular file, not readable, not an image, truncated, empty, too
+/// large.
 [[nodiscard]] GrayImage load_image(const std::filesystem::path& file);
 
 }  // namespace madori::mapping
