@@ -7,9 +7,7 @@
 
 #include "app/lidars.hpp"
 #include "app/panel/notices.hpp"
-#include "app/panel/reference_lidar.hpp"
 #include "app/route_tools.hpp"
-#include "core/angle.hpp"
 #include "hmi/server/scan_frame.hpp"
 
 namespace madori::app {

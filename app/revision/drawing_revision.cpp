@@ -13,6 +13,7 @@
 #include "mapping/revision/wall_changes.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/wall_map/wall.hpp"
+#include "planning/route_graph/route_check.hpp"
 #include "planning/route_graph/route_csv.hpp"
 #include "planning/route_graph/route_search.hpp"
 #include "planning/route_graph/vehicle_fit.hpp"

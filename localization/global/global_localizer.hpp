@@ -7,7 +7,6 @@
 #include "localization/global/global_answer.hpp"
 #include "localization/global/global_options.hpp"
 #include "localization/global/place_index.hpp"
-#include "localization/global/scan_noise.hpp"
 
 namespace madori::localization {
 

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "app/mapping_drive/drive_site.hpp"
 #include "mapping/site/site.hpp"
 #include "mapping/site/site_transaction.hpp"
+#include "mapping/site/site_versions.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::app {

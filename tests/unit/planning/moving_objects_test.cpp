@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "core/angle.hpp"
-#include "planning/waypoints/waypoints.hpp"
 #include "tests/support/straight_way.hpp"
 #include "tests/support/toy_lidar.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <functional>
 
 #include "core/angle.hpp"
 #include "sensors/pcap/reader.hpp"
