@@ -284,9 +284,4 @@ LiveCopy::Look LiveCopy::look(std::size_t lidar) const {
   return look;
 }
 
-bool LiveCopy::hears_lidar() const {
-  const std::scoped_lock lock(mutex_);
-  return std::ranges::any_of(revolutions_, [](const auto& lidar) { return !lidar.second.empty(); });
-}
-
 }  // namespace madori::app
