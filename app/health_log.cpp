@@ -1,6 +1,5 @@
 #include "app/health_log.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numeric>

@@ -19,6 +19,12 @@ namespace {
 
 using nlohmann::json;
 
+// Which estimate belongs to a stamp.
+constexpr double kMaxDtS = 0.05;   ///< largest distance to the nearest estimate
+constexpr double kMaxGapS = 10.0;  ///< with relations: largest interval that is interpolated over
+constexpr double kWithinM = 0.5;
+constexpr double kWithinRad = to_rad(10.0);
+
 /// Ordered by time, one pose a stamp (the last written).
 std::vector<StampedPose> in_order(std::vector<StampedPose> poses) {
   std::stable_sort(poses.begin(), poses.end(),
@@ -43,9 +49,9 @@ Transform2<Map, Base> between(const StampedPose& a, const StampedPose& b, Stamp 
 }
 
 /// The estimate at `stamp`: interpolated between two poses at most `max_gap_s` apart, else the nearest within
-/// `max_dt_s`; nothing otherwise.
+/// kMaxDtS; nothing otherwise.
 std::optional<Transform2<Map, Base>> sample(const std::vector<StampedPose>& poses, Stamp stamp,
-                                            const ScoreOptions& options, double max_gap_s, bool interpolate) {
+                                            double max_gap_s, bool interpolate) {
   if (poses.empty()) return std::nullopt;
   const auto after = std::lower_bound(poses.begin(), poses.end(), stamp,
                                       [](const StampedPose& pose, Stamp t) { return pose.stamp < t; });
@@ -60,7 +66,7 @@ std::optional<Transform2<Map, Base>> sample(const std::vector<StampedPose>& pose
   }
   const double to_a = std::abs(to_seconds(stamp - a.stamp));
   const double to_b = std::abs(to_seconds(stamp - b.stamp));
-  if (std::min(to_a, to_b) >= options.max_dt_s) {
+  if (std::min(to_a, to_b) >= kMaxDtS) {
     return std::nullopt;
   }
   return to_a <= to_b ? a.map_from_base : b.map_from_base;
@@ -138,8 +144,7 @@ Transform2<Map, Map> load_map_from_reference(const std::filesystem::path& file) 
   throw Error(file.string(), "holds no map_from_reference with x_m, y_m and yaw_deg", "check the file");
 }
 
-json score_against_truth(std::vector<StampedPose> estimate, std::vector<StampedPose> truth,
-                         const ScoreOptions& options) {
+json score_against_truth(std::vector<StampedPose> estimate, std::vector<StampedPose> truth) {
   const std::vector<StampedPose> poses = in_order(std::move(estimate));
   const std::vector<StampedPose> stations = in_order(std::move(truth));
   const bool denser =
@@ -148,13 +153,13 @@ json score_against_truth(std::vector<StampedPose> estimate, std::vector<StampedP
   std::vector<double> degrees;
   std::size_t good = 0;
   for (const StampedPose& t : stations) {
-    const auto at = sample(poses, t.stamp, options, 10.0 * options.max_dt_s, denser);
+    const auto at = sample(poses, t.stamp, 10.0 * kMaxDtS, denser);
     if (!at) continue;
     const double d = distance_m(at->translation(), t.map_from_base.translation());
     const double h = std::abs(wrap_angle(at->yaw_rad() - t.map_from_base.yaw_rad()));
     metres.push_back(d);
     degrees.push_back(to_deg(h));
-    good += d < options.within_m && h < options.within_rad ? 1 : 0;
+    good += d < kWithinM && h < kWithinRad ? 1 : 0;
   }
   if (metres.empty()) {
     throw Error("evaluate", "no estimate lies near a stamp of the truth", "are both of the same log?");
@@ -171,19 +176,18 @@ json score_against_truth(std::vector<StampedPose> estimate, std::vector<StampedP
             {"p95", percentile(degrees, 0.95)},
             {"max", *std::max_element(degrees.begin(), degrees.end())}}},
           {"within",
-           {{"metres", options.within_m},
-            {"degrees", to_deg(options.within_rad)},
+           {{"metres", kWithinM},
+            {"degrees", to_deg(kWithinRad)},
             {"share", static_cast<double>(good) / matched}}}};
 }
 
-json score_against_relations(std::vector<StampedPose> estimate, const std::vector<Relation>& relations,
-                             const ScoreOptions& options) {
+json score_against_relations(std::vector<StampedPose> estimate, const std::vector<Relation>& relations) {
   const std::vector<StampedPose> poses = in_order(std::move(estimate));
   std::vector<double> metres;
   std::vector<double> degrees;
   for (const Relation& r : relations) {
-    const auto from = sample(poses, r.from, options, options.max_gap_s, true);
-    const auto to = sample(poses, r.to, options, options.max_gap_s, true);
+    const auto from = sample(poses, r.from, kMaxGapS, true);
+    const auto to = sample(poses, r.to, kMaxGapS, true);
     if (!from || !to) continue;
     const Transform2<Base, Base> motion = from->inverse() * *to;
     metres.push_back(std::hypot(motion.x_m() - r.motion.x_m(), motion.y_m() - r.motion.y_m()));

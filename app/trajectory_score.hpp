@@ -17,14 +17,6 @@ struct Relation {
   Transform2<Base, Base> motion;
 };
 
-/// Which estimate belongs to a stamp.
-struct ScoreOptions {
-  double max_dt_s = 0.05;   ///< largest distance to the nearest estimate
-  double max_gap_s = 10.0;  ///< with relations: largest interval that is interpolated over
-  double within_m = 0.5;
-  double within_rad = to_rad(10.0);
-};
-
 /// `t1 t2 x y z roll pitch yaw` a line, seconds, metres, radians. Throws Error with file and line.
 [[nodiscard]] std::vector<Relation> load_relations(const std::filesystem::path& file);
 /// The transform of a layout file (`map_from_reference: {x_m, y_m, yaw_deg}`). Throws Error.
@@ -32,12 +24,10 @@ struct ScoreOptions {
 
 /// Errors in position and heading at the stamps of `truth`. Throws Error when no stamp finds an estimate.
 [[nodiscard]] nlohmann::json score_against_truth(std::vector<StampedPose> estimate,
-                                                 std::vector<StampedPose> truth,
-                                                 const ScoreOptions& options = {});
+                                                 std::vector<StampedPose> truth);
 /// Errors of the motions between the stamps of the relations. Throws Error when none can be scored.
 [[nodiscard]] nlohmann::json score_against_relations(std::vector<StampedPose> estimate,
-                                                     const std::vector<Relation>& relations,
-                                                     const ScoreOptions& options = {});
+                                                     const std::vector<Relation>& relations);
 /// Either result in words.
 [[nodiscard]] std::string score_text(const nlohmann::json& score);
 

@@ -43,12 +43,8 @@ struct LidarModel {
   double beam_m;           ///< diameter where it leaves the device
   double beam_spread_rad;  ///< how it grows with the range
 
-  /// The narrowest body that a sweep is sure to hit at a range: a beam and the gap to the next one
-  /// (SICK's rule; Eq. 6.1-6.3 of the tele-operated mapping source).
-  [[nodiscard]] double least_object_m(double range_m) const {
-    return beam_m + range_m * (beam_spread_rad + step_rad);
-  }
-  /// The farthest range at which a body that wide is sure to be hit; never beyond the lidar's range.
+  /// The farthest range at which a sweep is sure to hit a body that wide, a beam and the gap to the next one
+  /// (SICK's rule; Eq. 6.1-6.3 of the tele-operated mapping source); never beyond the lidar's range.
   [[nodiscard]] double sure_range_m(double width_m) const {
     return std::fmin(std::fmax((width_m - beam_m) / (beam_spread_rad + step_rad), 0.0), range_max_m);
   }

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <string>
 
 #include "core/odometry.hpp"
 #include "core/wheels.hpp"

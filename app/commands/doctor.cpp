@@ -9,11 +9,11 @@
 
 #include "app/commands.hpp"
 #include "app/commands/doctor_mounting.hpp"
-#include "app/lidars.hpp"
 #include "app/runner/device_run.hpp"
 #include "app/runner/device_search.hpp"
 #include "app/runner/self_test.hpp"
 #include "core/result.hpp"
+#include "sensors/lidar/registry.hpp"
 
 namespace madori::app {
 namespace {

@@ -14,7 +14,6 @@
 #include "app/log_options.hpp"
 #include "app/pose_argument.hpp"
 #include "core/pose_hypothesis.hpp"
-#include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "sensors/open_log.hpp"
 

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -23,13 +22,11 @@
 #include "app/trajectory_file.hpp"
 #include "app/trajectory_plot.hpp"
 #include "core/median.hpp"
-#include "core/result.hpp"
 #include "localization/drawing_learner/drawing_learner.hpp"
 #include "localization/wall_reliability/reliability_file.hpp"
 #include "localization/warp/warp_file.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
-#include "mapping/wall_map/wall_fingerprint.hpp"
 
 namespace madori::app {
 namespace {

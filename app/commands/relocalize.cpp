@@ -94,7 +94,7 @@ void relocalize(const RelocalizeArguments& arguments) {
   const std::filesystem::path folder(arguments.site);
   const mapping::Site site = mapping::load_scaled_site(folder);
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
-  const loc::GlobalLocalizer global(walls, {}, place_index(folder, walls));
+  const loc::GlobalLocalizer global(walls, place_index(folder, walls));
   const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
   const LidarModel lidar = log_lidar(site);
   Tally tally;

@@ -45,8 +45,7 @@ struct RouteArguments {
 void print_findings(const std::vector<planning::RouteFinding>& findings) {
   constexpr std::size_t kMostPrinted = 20;  // --json holds all of them
   for (std::size_t i = 0; i < std::min(findings.size(), kMostPrinted); ++i)
-    std::fprintf(stderr, "%s: %s\n", findings[i].severity == planning::Severity::Error ? "error" : "warning",
-                 findings[i].text().c_str());
+    std::fprintf(stderr, "%s: %s\n", to_string(findings[i].severity), findings[i].text().c_str());
   if (findings.size() > kMostPrinted)
     std::fprintf(stderr, "... and %zu more\n", findings.size() - kMostPrinted);
 }
@@ -54,10 +53,8 @@ void print_findings(const std::vector<planning::RouteFinding>& findings) {
 json findings_json(const std::vector<planning::RouteFinding>& findings) {
   json list = json::array();
   for (const auto& f : findings)
-    list.push_back({{"severity", f.severity == planning::Severity::Error ? "error" : "warning"},
-                    {"file", f.file},
-                    {"line", f.line},
-                    {"message", f.message}});
+    list.push_back(
+        {{"severity", to_string(f.severity)}, {"file", f.file}, {"line", f.line}, {"message", f.message}});
   return list;
 }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "app/cycle/stages.hpp"
 #include "core/angle.hpp"

@@ -5,8 +5,6 @@
 #include <optional>
 
 #include "core/frames.hpp"
-#include "core/lidar_model.hpp"
-#include "core/pose_estimate.hpp"
 #include "core/stamp.hpp"
 #include "core/transform2.hpp"
 

@@ -3,7 +3,6 @@
 
 #include "app/cycle/recoveries.hpp"
 #include "app/cycle/stages.hpp"
-#include "core/angle.hpp"
 
 namespace madori::app {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -16,7 +15,6 @@
 #include "app/runner/socket_link.hpp"
 #include "app/simulated/live_factory.hpp"
 #include "core/clock.hpp"
-#include "core/result.hpp"
 #include "core/segment_distance.hpp"
 
 namespace madori::app {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/angle.hpp"
+
 namespace madori::app {
 namespace {
 

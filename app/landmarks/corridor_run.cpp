@@ -1,7 +1,6 @@
 #include "app/landmarks/corridor_run.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 

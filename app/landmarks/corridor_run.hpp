@@ -4,7 +4,7 @@
 
 #include "app/landmarks/corridor_scenario.hpp"
 #include "core/frames.hpp"
-#include "core/transform2.hpp"
+#include "core/point2.hpp"
 
 namespace madori::app {
 

@@ -1,5 +1,6 @@
 #include "app/landmarks/corridor_scenario.hpp"
 
+#include "core/angle.hpp"
 #include "mapping/site/strict_yaml.hpp"
 
 namespace madori::app {

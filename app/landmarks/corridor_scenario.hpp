@@ -2,8 +2,6 @@
 
 #include <filesystem>
 
-#include "core/angle.hpp"
-
 namespace madori::app {
 
 /// Random errors that grow with the root of the way; a turn counts in full turns.

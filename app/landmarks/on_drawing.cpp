@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/pose_estimate.hpp"
 #include "core/pose_hypothesis.hpp"
 #include "localization/drawing_fit/drawing_fit.hpp"
 #include "localization/memory/memory.hpp"

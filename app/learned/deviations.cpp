@@ -1,6 +1,5 @@
 #include "app/learned/deviations.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>

@@ -2,7 +2,6 @@
 
 #include <mutex>
 #include <optional>
-#include <string>
 
 #include "app/learned/latest_look.hpp"
 #include "core/lidar_model.hpp"

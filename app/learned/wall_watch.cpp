@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
-#include <utility>
 
 #include "core/angle.hpp"
 #include "localization/wall_reliability/reliability_file.hpp"

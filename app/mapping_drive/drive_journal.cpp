@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -50,6 +49,11 @@ bool hand_out(std::string_view payload, const DriveReader& reader) {
 }
 
 }  // namespace
+
+OdometryReading as_kept(const OdometryReading& reading) {
+  const auto& p = reading.odom_from_base;
+  return {reading.stamp, {p.x_m(), p.y_m(), p.yaw_rad()}};
+}
 
 std::uintmax_t read_drive(const std::filesystem::path& file, const DriveReader& reader) {
   std::ifstream in(file, std::ios::binary);

@@ -19,6 +19,9 @@ struct DriveScan {
   std::vector<Point2<Base>> points;
 };
 
+/// A reading as a file gives it back, to the bit.
+[[nodiscard]] OdometryReading as_kept(const OdometryReading& reading);
+
 /// Who reads a drive, record by record in the order in which it was driven.
 struct DriveReader {
   std::function<void(const OdometryReading&)> on_odometry;

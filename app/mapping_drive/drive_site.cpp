@@ -7,7 +7,6 @@
 
 #include "app/lidars.hpp"
 #include "app/mapped_site.hpp"
-#include "core/result.hpp"
 #include "localization/drawing_fit/standing.hpp"
 #include "localization/drawing_fit/wall_lines.hpp"
 #include "mapping/site/atomic_file.hpp"

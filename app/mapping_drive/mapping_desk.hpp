@@ -3,7 +3,6 @@
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
-#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -12,7 +11,6 @@
 #include <string>
 #include <thread>
 #include <variant>
-#include <vector>
 
 #include "app/mapping_drive/drive_journal.hpp"
 #include "app/mapping_drive/mapping_picture.hpp"

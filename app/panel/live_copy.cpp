@@ -7,9 +7,7 @@
 
 #include "app/lidars.hpp"
 #include "app/panel/notices.hpp"
-#include "app/panel/reference_lidar.hpp"
 #include "app/route_tools.hpp"
-#include "core/angle.hpp"
 #include "hmi/server/scan_frame.hpp"
 
 namespace madori::app {
@@ -284,11 +282,6 @@ LiveCopy::Look LiveCopy::look(std::size_t lidar) const {
   const std::size_t shown = std::min(points.size(), kMost);
   for (std::size_t i = 0; i < shown; ++i) look.points.push_back(points[i * points.size() / shown]);
   return look;
-}
-
-bool LiveCopy::hears_lidar() const {
-  const std::scoped_lock lock(mutex_);
-  return std::ranges::any_of(revolutions_, [](const auto& lidar) { return !lidar.second.empty(); });
 }
 
 }  // namespace madori::app

@@ -31,7 +31,6 @@ class LiveCopy {
   [[nodiscard]] hmi::LiveState live() const;
   [[nodiscard]] hmi::LocateView locate() const;
   [[nodiscard]] Mode mode() const;
-  [[nodiscard]] bool hears_lidar() const;
   /// What each lidar saw last, Base frame, at most 400 points, and its sweeps in the last second.
   struct Look {
     std::vector<Point2<Base>> points;

@@ -1,5 +1,4 @@
 // What the panel asks of a vehicle that makes a map by driving, and of the way that was driven by hand.
-#include <algorithm>
 
 #include "app/lidars.hpp"
 #include "app/panel/found_devices.hpp"

@@ -1,7 +1,6 @@
 #include "app/panel/panel_orders.hpp"
 
 #include <array>
-#include <chrono>
 #include <utility>
 
 #include "app/panel/event_words.hpp"

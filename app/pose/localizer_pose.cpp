@@ -6,9 +6,7 @@ namespace madori::app {
 
 LocalizerPose::LocalizerPose(const mapping::Walls& walls, std::vector<LidarModel> lidars,
                              const LocalizerPoseOptions& options)
-    : options_(options),
-      scans_(std::move(lidars), options.walls),
-      localizer_(walls, std::nullopt, options.localizer) {
+    : options_(options), scans_(std::move(lidars)), localizer_(walls, std::nullopt, options.localizer) {
   if (options_.memory) localizer_.recall(*std::exchange(options_.memory, std::nullopt));
 }
 

@@ -13,7 +13,6 @@
 namespace madori::app {
 
 struct LocalizerPoseOptions {
-  localization::CloudWallOptions walls;
   localization::LocalizerOptions localizer = localization::driving_options();
   std::optional<localization::Memory> memory;  ///< of an earlier drive
   /// Sees the points on walls of every revolution (Base frame) and the pose there; nothing comes back.

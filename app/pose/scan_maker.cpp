@@ -24,12 +24,8 @@ Point2<Base> ScanMaker::eye(const std::vector<LidarModel>& lidars) {
   return middle;
 }
 
-ScanMaker::ScanMaker(std::vector<LidarModel> lidars, const localization::CloudWallOptions& walls)
-    : walls_(walls),
-      lidars_(std::move(lidars)),
-      looks_(lidars_.size(), false),
-      eye_(eye(lidars_)),
-      newest_(lidars_.size()) {
+ScanMaker::ScanMaker(std::vector<LidarModel> lidars)
+    : lidars_(std::move(lidars)), looks_(lidars_.size(), false), eye_(eye(lidars_)), newest_(lidars_.size()) {
   for (std::size_t i = 0; i < lidars_.size(); ++i) looks_[i] = tells_place(lidars_, i);
 }
 
@@ -49,7 +45,7 @@ void ScanMaker::merge(Stamp now, const Transform2<Odom, Base>& odom_from_base) {
 std::optional<ScanMaker::Scan> ScanMaker::on_cloud(const PointCloud<Base>& cloud,
                                                    const Transform2<Odom, Base>& odom_from_base) {
   const LidarModel& lidar = lidars_[cloud.lidar];
-  const auto& points = extractor_.extract(cloud, lidar, walls_);
+  const auto& points = extractor_.extract(cloud, lidar);
   if (lidar.kind == LidarKind::Spinning) return Scan{cloud.stamp, points, odom_from_base};
   Look& look = newest_[cloud.lidar] ? *newest_[cloud.lidar] : newest_[cloud.lidar].emplace();
   look.stamp = cloud.stamp;

@@ -22,7 +22,7 @@ class ScanMaker {
     Transform2<Odom, Base> odom_from_base;
   };
 
-  explicit ScanMaker(std::vector<LidarModel> lidars, const localization::CloudWallOptions& walls = {});
+  explicit ScanMaker(std::vector<LidarModel> lidars);
 
   /// Whether that lidar tells of the place.
   [[nodiscard]] bool looks(std::size_t lidar) const { return looks_[lidar]; }
@@ -43,7 +43,6 @@ class ScanMaker {
   };
   void merge(Stamp now, const Transform2<Odom, Base>& odom_from_base);
 
-  localization::CloudWallOptions walls_;
   std::vector<LidarModel> lidars_;
   std::vector<bool> looks_;
   Point2<Base> eye_;

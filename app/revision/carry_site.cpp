@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
-#include "app/mapping_drive/drive_site.hpp"
 #include "core/angle.hpp"
 #include "mapping/drawing/plan.hpp"
 #include "mapping/georeference/local_plane.hpp"
@@ -12,6 +10,7 @@
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
 #include "mapping/site/site_transaction.hpp"
+#include "mapping/site/site_versions.hpp"
 #include "mapping/wall_map/wall_files.hpp"
 #include "planning/route_graph/route_csv.hpp"
 
@@ -148,7 +147,7 @@ void carry_site(const fs::path& site, const fs::path& beside, const mapping::Sim
   if (fs::exists(site / "routes/path.csv"))
     change.write("routes/path.csv",
                  planning::path_csv(carried(planning::load_routes(site / "routes"), now_from_old)));
-  change.remove(kWayFile);  // it lies on the old drawing
+  change.remove(mapping::kWayFile);  // it lies on the old drawing
   change.write("site.yaml", mapping::site_yaml(now));
   change.commit();
 }

@@ -13,6 +13,7 @@
 #include "mapping/revision/wall_changes.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/wall_map/wall.hpp"
+#include "planning/route_graph/route_check.hpp"
 #include "planning/route_graph/route_csv.hpp"
 #include "planning/route_graph/route_search.hpp"
 #include "planning/route_graph/vehicle_fit.hpp"
@@ -192,7 +193,7 @@ nlohmann::json revision_json(const DrawingRevision& revision, bool applied) {
   const auto& by = revision.laid.old_from_new;
   nlohmann::json findings = nlohmann::json::array();
   for (const auto& finding : revision.findings)
-    findings.push_back({{"severity", finding.severity == planning::Severity::Error ? "error" : "warning"},
+    findings.push_back({{"severity", to_string(finding.severity)},
                         {"file", finding.file},
                         {"line", finding.line},
                         {"message", finding.message},

@@ -9,7 +9,7 @@
 #include "mapping/drawing/import_drawing.hpp"
 #include "mapping/revision/register_walls.hpp"
 #include "mapping/wall_map/wall.hpp"
-#include "planning/route_graph/route_check.hpp"
+#include "planning/route_graph/route_csv.hpp"
 
 namespace madori::app {
 

@@ -8,7 +8,6 @@
 #include "app/runner/vehicle_link.hpp"
 #include "control/drive_link/drive_link.hpp"
 #include "mapping/site/site.hpp"
-#include "sensors/lidar/registry.hpp"
 
 namespace madori::app {
 

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <utility>  // which Boost 1.74's awaitable.hpp leaves out
 
 namespace madori::app {
 

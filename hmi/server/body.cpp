@@ -7,7 +7,6 @@
 #include <functional>
 #include <optional>
 
-#include "hmi/server/json_text.hpp"
 #include "hmi/server/wire.hpp"
 
 namespace madori::hmi {

@@ -3,7 +3,6 @@
 #include <exception>
 #include <utility>
 
-#include "core/result.hpp"
 #include "hmi/server/wire.hpp"
 
 namespace madori::hmi {

@@ -4,9 +4,9 @@
 #include <sys/stat.h>
 
 #include <array>
+#include <initializer_list>
 #include <string_view>
 
-#include "core/result.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
 

@@ -90,7 +90,7 @@ json routes_to_wire(const planning::RouteGraph& graph, const std::vector<plannin
   for (const auto& leg : graph.legs()) legs.push_back({graph.nodes()[leg.from].id, graph.nodes()[leg.to].id});
   json list = json::array();
   for (const auto& f : findings)
-    list.push_back({{"severity", f.severity == planning::Severity::Error ? "error" : "warning"},
+    list.push_back({{"severity", to_string(f.severity)},
                     {"file", f.file},
                     {"line", f.line},
                     {"message", f.message},

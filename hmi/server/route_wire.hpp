@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.hpp"
-#include "core/point2.hpp"
 #include "planning/route_graph/route_csv.hpp"
 
 namespace madori::hmi {

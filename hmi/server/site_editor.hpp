@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <string>

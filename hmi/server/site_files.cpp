@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mapping/site/site.hpp"
-#include "mapping/wall_map/wall_files.hpp"
+#include "mapping/wall_map/wall.hpp"
+#include "planning/route_graph/route_check.hpp"
 #include "planning/route_graph/vehicle_fit.hpp"
 
 namespace madori::hmi {

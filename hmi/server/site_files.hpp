@@ -6,7 +6,8 @@
 
 #include "core/frames.hpp"
 #include "core/point2.hpp"
-#include "planning/route_graph/route_check.hpp"
+#include "planning/route_graph/route_csv.hpp"
+#include "planning/route_graph/route_graph.hpp"
 
 /// What the site_editor*.cpp share.
 namespace madori::hmi {

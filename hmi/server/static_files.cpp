@@ -1,6 +1,5 @@
 #include "hmi/server/static_files.hpp"
 
-#include <fstream>
 #include <iterator>
 
 #include "core/result.hpp"

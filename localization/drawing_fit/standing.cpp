@@ -1,6 +1,5 @@
 #include "localization/drawing_fit/standing.hpp"
 
-#include <cmath>
 #include <vector>
 
 #include "localization/memory/sights.hpp"

@@ -5,6 +5,7 @@
 #include "localization/global/global_answer.hpp"
 #include "localization/particle_filter/likelihood_field.hpp"
 #include "localization/registration/segment_grid.hpp"
+#include "localization/scan_points.hpp"
 #include "mapping/wall_map/distance_field.hpp"
 
 namespace madori::localization {

@@ -9,6 +9,14 @@
 namespace madori::localization {
 namespace {
 
+constexpr double kCertain = 0.9999;       ///< probability from which on the best is an answer
+constexpr double kWellExplained = 0.6;    ///< a best that puts less of the scan on walls must also ...
+constexpr double kClearNats = 25.0;       ///< ... lead by this log-likelihood: chance fits lead by up to 20
+constexpr double kLeastExplained = 0.35;  ///< share of the scan's weight that an answer puts on walls
+/// Share of beams through drawn walls, above which a best must both explain well and lead clearly.
+constexpr double kDoubtfulThrough = 0.12;
+constexpr double kMostThrough = 0.25;  ///< share of the beams that an answer may lead through drawn walls
+
 void sort_by_likelihood(std::vector<Hypothesis>& all) {
   std::sort(all.begin(), all.end(),
             [](const Hypothesis& a, const Hypothesis& b) { return a.log_likelihood > b.log_likelihood; });
@@ -22,22 +30,22 @@ void fill_in_probabilities(std::vector<Hypothesis>& all) {
 }
 
 /// State and reason, from hypotheses by falling likelihood; at least one.
-void believe_or_doubt(GlobalAnswer& answer, const GlobalOptions& options) {
+void believe_or_doubt(GlobalAnswer& answer) {
   const auto& all = answer.hypotheses;
   const Hypothesis& best = all.front();
-  const double lead = all.size() > 1 ? best.log_likelihood - all[1].log_likelihood : options.clear_nats;
-  const bool is_clear = best.fit.inlier_fraction >= options.well_explained && lead >= options.clear_nats;
-  if (best.fit.inlier_fraction < options.least_explained) {
+  const double lead = all.size() > 1 ? best.log_likelihood - all[1].log_likelihood : kClearNats;
+  const bool is_clear = best.fit.inlier_fraction >= kWellExplained && lead >= kClearNats;
+  if (best.fit.inlier_fraction < kLeastExplained) {
     answer.reason = reason::kNoPlace.english;
-  } else if (best.through_walls > options.most_through) {
+  } else if (best.through_walls > kMostThrough) {
     answer.reason = reason::kThroughWalls.english;
-  } else if (best.probability < options.certain) {
+  } else if (best.probability < kCertain) {
     answer.state = GlobalState::Ambiguous;
     answer.reason = reason::kTwoAlike.english;
-  } else if (best.fit.inlier_fraction < options.well_explained && lead < options.clear_nats) {
+  } else if (best.fit.inlier_fraction < kWellExplained && lead < kClearNats) {
     answer.state = GlobalState::Ambiguous;
     answer.reason = reason::kMuchUndrawn.english;
-  } else if (best.through_walls > options.doubtful_through && !is_clear) {
+  } else if (best.through_walls > kDoubtfulThrough && !is_clear) {
     answer.state = GlobalState::Ambiguous;
     answer.reason = reason::kThroughSomeWalls.english;
   } else {
@@ -59,7 +67,7 @@ const char* to_string(GlobalState state) {
   return "NOWHERE";
 }
 
-GlobalAnswer decide(std::vector<Hypothesis> hypotheses, const GlobalOptions& options) {
+GlobalAnswer decide(std::vector<Hypothesis> hypotheses) {
   GlobalAnswer answer;
   answer.hypotheses = std::move(hypotheses);
   if (answer.hypotheses.empty()) {
@@ -68,7 +76,7 @@ GlobalAnswer decide(std::vector<Hypothesis> hypotheses, const GlobalOptions& opt
   }
   sort_by_likelihood(answer.hypotheses);
   fill_in_probabilities(answer.hypotheses);
-  believe_or_doubt(answer, options);
+  believe_or_doubt(answer);
   return answer;
 }
 

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "localization/global/global_options.hpp"
 #include "localization/registration/registration_result.hpp"
 
 namespace madori::localization {
@@ -29,7 +28,7 @@ struct GlobalAnswer {
 
 /// The decision: sorts the hypotheses by likelihood, fills in their probabilities and says whether the first
 /// is to be believed, else why not.
-[[nodiscard]] GlobalAnswer decide(std::vector<Hypothesis> hypotheses, const GlobalOptions& options);
+[[nodiscard]] GlobalAnswer decide(std::vector<Hypothesis> hypotheses);
 
 /// The hypotheses by falling likelihood, none at the same place as one before.
 [[nodiscard]] std::vector<Hypothesis> distinct(std::vector<Hypothesis> all, double same_m, double same_rad);

@@ -12,7 +12,9 @@ namespace {
 
 using Pose = Transform2<Map, Base>;
 
-constexpr double kRemembered = 1e-3;  // hypotheses below this probability are dropped
+constexpr std::size_t kCandidates = 1000;  ///< views most like the scan's that are looked at closer
+constexpr std::size_t kRefined = 60;       ///< of these, as many are registered
+constexpr double kRemembered = 1e-3;       // hypotheses below this probability are dropped
 
 /// The hypotheses of the answer before, where the vehicle has moved to since.
 struct Carried {
@@ -42,14 +44,12 @@ struct Carried {
 
 }  // namespace
 
-GlobalLocalizer::GlobalLocalizer(const mapping::Walls& walls, const GlobalOptions& options,
-                                 std::optional<PlaceIndex> index, const BeamModel& model)
-    : options_(options),
-      tables_(walls, model),
+GlobalLocalizer::GlobalLocalizer(const mapping::Walls& walls, std::optional<PlaceIndex> index)
+    : tables_(walls, {.hit_sigma_m = 0.04}),
       index_(index ? std::move(*index) : PlaceIndex(walls, tables_.distance)) {}
 
 std::vector<Pose> GlobalLocalizer::candidates(const ScanPoints& points) const {
-  return search_views(points, index_, tables_.coarse, options_.candidates, options_.refined);
+  return search_views(points, index_, tables_.coarse, kCandidates, kRefined);
 }
 
 double GlobalLocalizer::lead_of_nearby(const ScanPoints& points, const Pose& map_from_base) const {
@@ -57,7 +57,7 @@ double GlobalLocalizer::lead_of_nearby(const ScanPoints& points, const Pose& map
 }
 
 GlobalAnswer GlobalLocalizer::judge(const ScanPoints& points, const std::vector<Pose>& poses) const {
-  return decide(refine_poses(points, poses, tables_, options_), options_);
+  return decide(refine_poses(points, poses, tables_));
 }
 
 GlobalAnswer GlobalLocalizer::locate(const ScanPoints& points) const {
@@ -69,9 +69,9 @@ GlobalAnswer GlobalLocalizer::locate(const ScanPoints& points, const GlobalAnswe
   const Carried carried(before, moved);
   std::vector<Pose> poses = carried.poses;
   for (const Pose& fresh : candidates(points)) poses.push_back(fresh);
-  std::vector<Hypothesis> hypotheses = refine_poses(points, poses, tables_, options_);
+  std::vector<Hypothesis> hypotheses = refine_poses(points, poses, tables_);
   for (Hypothesis& h : hypotheses) h.log_likelihood += carried.log_prior(h.fit.map_from_base);
-  return decide(std::move(hypotheses), options_);
+  return decide(std::move(hypotheses));
 }
 
 }  // namespace madori::localization

@@ -5,9 +5,7 @@
 
 #include "localization/global/evidence.hpp"
 #include "localization/global/global_answer.hpp"
-#include "localization/global/global_options.hpp"
 #include "localization/global/place_index.hpp"
-#include "localization/global/scan_noise.hpp"
 
 namespace madori::localization {
 
@@ -18,9 +16,7 @@ namespace madori::localization {
 class GlobalLocalizer {
  public:
   /// Prepares the tables of `walls` (seconds for a large site); `index` is taken when it was saved for them.
-  explicit GlobalLocalizer(const mapping::Walls& walls, const GlobalOptions& options = {},
-                           std::optional<PlaceIndex> index = std::nullopt,
-                           const BeamModel& model = {.hit_sigma_m = 0.04});
+  explicit GlobalLocalizer(const mapping::Walls& walls, std::optional<PlaceIndex> index = std::nullopt);
 
   /// From one scan alone.
   [[nodiscard]] GlobalAnswer locate(const ScanPoints& points) const;
@@ -45,7 +41,6 @@ class GlobalLocalizer {
  private:
   [[nodiscard]] std::vector<Transform2<Map, Base>> candidates(const ScanPoints& points) const;
 
-  GlobalOptions options_;
   WallTables tables_;
   PlaceIndex index_;
 };

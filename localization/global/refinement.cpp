@@ -3,12 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/global/global_answer.hpp"
 #include "localization/global/scan_noise.hpp"
+#include "localization/registration/segment_icp.hpp"
 
 namespace madori::localization {
 namespace {
 
 using Pose = Transform2<Map, Base>;
+
+constexpr double kSamePlaceM = 0.4;  ///< poses nearer than both are one hypothesis
+constexpr double kSamePlaceRad = 0.15;
+constexpr double kThroughWallNats = 3.0;  ///< against a pose, for each effective beam through a wall
+
+/// Candidates are near: a wide start would only draw them to the wall beside.
+SegmentIcpOptions near_start() {
+  SegmentIcpOptions near;
+  near.first_scale_m = 0.5;
+  near.coarse_points = 180;
+  return near;
+}
 
 /// Starts beside the likeliest hypotheses: a wall has two faces, and a scan that lies on the wrong ones is a
 /// local optimum as far off as the wall is thick.
@@ -47,20 +61,20 @@ std::vector<Hypothesis> registered(const ScanPoints& points, const std::vector<P
 }  // namespace
 
 std::vector<Hypothesis> refine_poses(const ScanPoints& points, const std::vector<Pose>& poses,
-                                     const WallTables& tables, const GlobalOptions& options) {
+                                     const WallTables& tables) {
   const double noise = scan_noise_m(points);
-  const double same_m = std::max(options.same_m, noise);
+  const double same_m = std::max(kSamePlaceM, noise);
   const auto weighed = [&](const std::vector<Pose>& starts, const SegmentIcpOptions& icp) {
     std::vector<Hypothesis> all = registered(points, starts, tables.grid, forgiving(icp, noise));
-    if (!all.empty()) weigh(points, noise, tables, options.through_wall_nats, all);
+    if (!all.empty()) weigh(points, noise, tables, kThroughWallNats, all);
     return all;
   };
-  std::vector<Hypothesis> best = distinct(weighed(poses, options.icp), same_m, options.same_rad);
-  SegmentIcpOptions narrow = options.icp;
+  std::vector<Hypothesis> best = distinct(weighed(poses, near_start()), same_m, kSamePlaceRad);
+  SegmentIcpOptions narrow = near_start();
   narrow.first_scale_m = 0.15;
   const std::vector<Hypothesis> beside = weighed(other_faces(best), narrow);
   best.insert(best.end(), beside.begin(), beside.end());
-  return distinct(std::move(best), same_m, options.same_rad);
+  return distinct(std::move(best), same_m, kSamePlaceRad);
 }
 
 }  // namespace madori::localization

@@ -11,6 +11,6 @@ namespace madori::localization {
 /// scan's own noise.
 [[nodiscard]] std::vector<Hypothesis> refine_poses(const ScanPoints& points,
                                                    const std::vector<Transform2<Map, Base>>& poses,
-                                                   const WallTables& tables, const GlobalOptions& options);
+                                                   const WallTables& tables);
 
 }  // namespace madori::localization

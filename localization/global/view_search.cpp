@@ -4,7 +4,6 @@
 #include <array>
 
 #include "localization/global/circular_match.hpp"
-#include "localization/global/global_answer.hpp"
 #include "localization/particle_filter/sensor_kernel.hpp"
 #include "localization/pose_axes.hpp"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "localization/localizer/pose_covariance.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 

@@ -4,7 +4,7 @@
 
 #include "core/frames.hpp"
 #include "core/transform2.hpp"
-#include "localization/memory/memory.hpp"
+#include "localization/memory/keyframe.hpp"
 #include "localization/motion_model/odometry_model.hpp"
 
 namespace madori::localization {

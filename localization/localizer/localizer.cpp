@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "localization/localizer/pose_covariance.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 Localizer::Localizer(const mapping::Walls& walls, const std::optional<InitialPose>& initial,

@@ -5,7 +5,6 @@
 #include "core/frames.hpp"
 #include "core/transform2.hpp"
 #include "localization/health/health.hpp"
-#include "localization/memory/memory.hpp"
 #include "localization/memory/surface_scan.hpp"
 #include "localization/motion_model/odometry_model.hpp"
 #include "localization/placement/placement.hpp"

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include "localization/localizer/map_state.hpp"
-#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "localization/localizer/pose_covariance.hpp"
+#include "localization/pose_axes.hpp"
 
 namespace madori::localization {
 namespace {

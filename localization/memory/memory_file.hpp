@@ -6,7 +6,6 @@
 
 #include "core/result.hpp"
 #include "localization/memory/memory.hpp"
-#include "mapping/wall_map/wall.hpp"
 
 namespace madori::localization {
 

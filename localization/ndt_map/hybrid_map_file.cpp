@@ -1,7 +1,5 @@
 #include "localization/ndt_map/hybrid_map_file.hpp"
 
-#include <utility>
-
 #include "core/fnv1a.hpp"
 #include "localization/byte_stream.hpp"
 

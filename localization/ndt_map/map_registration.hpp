@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "core/frames.hpp"
 #include "core/transform2.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/angle.hpp"
 #include "core/result.hpp"
 
 namespace madori::localization {

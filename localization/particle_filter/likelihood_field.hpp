@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "localization/scan_points.hpp"
 #include "mapping/wall_map/grid_frame.hpp"
 #include "mapping/wall_map/wall.hpp"
 

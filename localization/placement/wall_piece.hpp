@@ -3,8 +3,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/frames.hpp"
-
 namespace madori::localization {
 
 /// Metres: errors of a drawing persist along a wall for about so long.

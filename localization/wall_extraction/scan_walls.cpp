@@ -7,6 +7,12 @@
 namespace madori::localization {
 namespace {
 
+constexpr double kGapM = 0.3;        ///< neighbours farther apart (plus 5 % of the range) are of two surfaces
+constexpr double kStraightM = 0.04;  ///< a surface bends where it leaves the chord by more (+ 0.5 % of range)
+constexpr double kSureLengthM = 0.8;  ///< a straight stretch this long is surely a wall, shorter ones less
+constexpr double kLeastWeight = 0.1;  ///< of a return without any line
+constexpr double kRangeMinM = 0.1;
+
 double range_of(const ScanPoints& p, std::size_t i) {
   return std::hypot(p.x_m[i], p.y_m[i]);
 }
@@ -25,7 +31,7 @@ std::pair<std::size_t, double> farthest(const ScanPoints& p, std::size_t first, 
 }
 
 /// Normal and weight of a straight stretch: total least squares through its points.
-void mark_line(ScanPoints& p, std::size_t first, std::size_t last, const ScanWallOptions& options) {
+void mark_line(ScanPoints& p, std::size_t first, std::size_t last) {
   const auto n = static_cast<double>(last - first + 1);
   if (n < 3.0) return;
   double mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
@@ -40,7 +46,7 @@ void mark_line(ScanPoints& p, std::size_t first, std::size_t last, const ScanWal
   double ny = std::cos(along);
   if (nx * mx + ny * my > 0.0) nx = -nx, ny = -ny;  // towards the sensor
   const double length = std::hypot(p.x_m[last] - p.x_m[first], p.y_m[last] - p.y_m[first]);
-  const double weight = std::clamp(length / options.sure_length_m, options.least_weight, 1.0);
+  const double weight = std::clamp(length / kSureLengthM, kLeastWeight, 1.0);
   for (std::size_t i = first; i <= last; ++i) {
     p.normal_x[i] = static_cast<float>(nx);
     p.normal_y[i] = static_cast<float>(ny);
@@ -48,31 +54,30 @@ void mark_line(ScanPoints& p, std::size_t first, std::size_t last, const ScanWal
   }
 }
 
-void split(ScanPoints& p, std::size_t first, std::size_t last, const ScanWallOptions& options) {
+void split(ScanPoints& p, std::size_t first, std::size_t last) {
   if (last < first + 2) return;
   const auto [at, distance] = farthest(p, first, last);
-  if (distance > options.straight_m + 0.005 * range_of(p, at)) {
-    split(p, first, at, options);
-    split(p, at, last, options);
+  if (distance > kStraightM + 0.005 * range_of(p, at)) {
+    split(p, first, at);
+    split(p, at, last);
   } else {
-    mark_line(p, first, last, options);
+    mark_line(p, first, last);
   }
 }
 
 }  // namespace
 
-ScanPoints extract_walls(const LaserScan& scan, const Transform2<Base, Lidar>& base_from_lidar,
-                         const ScanWallOptions& options) {
-  ScanPoints points = scan_points(scan, base_from_lidar, options.range_min_m);
-  points.weight.assign(points.size(), static_cast<float>(options.least_weight));
+ScanPoints extract_walls(const LaserScan& scan, const Transform2<Base, Lidar>& base_from_lidar) {
+  ScanPoints points = scan_points(scan, base_from_lidar, kRangeMinM);
+  points.weight.assign(points.size(), static_cast<float>(kLeastWeight));
   points.normal_x.assign(points.size(), 0.0F);
   points.normal_y.assign(points.size(), 0.0F);
   std::size_t first = 0;
   for (std::size_t i = 1; i <= points.size(); ++i) {
     const bool broken = i == points.size() || distance_m(points.point(i - 1), points.point(i)) >
-                                                  options.gap_m + 0.05 * range_of(points, i - 1);
+                                                  kGapM + 0.05 * range_of(points, i - 1);
     if (!broken) continue;
-    split(points, first, i - 1, options);
+    split(points, first, i - 1);
     first = i;
   }
   return points;

@@ -11,8 +11,7 @@ namespace madori::localization {
 class WallExtractor {
  public:
   /// Good until the next call.
-  const ScanPoints& extract(const PointCloud<Base>& cloud, const LidarModel& lidar,
-                            const CloudWallOptions& options = {});
+  const ScanPoints& extract(const PointCloud<Base>& cloud, const LidarModel& lidar);
 
   /// A return inside the region of interest.
   struct Return {
@@ -23,11 +22,10 @@ class WallExtractor {
   };
 
  private:
-  void find_region_of_interest(const PointCloud<Base>& cloud, const LidarMounting& lidar,
-                               const CloudWallOptions& options);
-  void sort_returns(int sectors);
-  void find_surfaces(const PointCloud<Base>& cloud, const LidarModel& lidar, const CloudWallOptions& options);
-  void thin(double voxel_m);
+  void find_region_of_interest(const PointCloud<Base>& cloud, const LidarMounting& lidar);
+  void sort_returns();
+  void find_surfaces(const PointCloud<Base>& cloud, const LidarModel& lidar);
+  void thin();
 
   /// What fell into a voxel.
   struct Sum {

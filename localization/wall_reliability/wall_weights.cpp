@@ -13,21 +13,23 @@ struct Verdict {
   friend bool operator==(const Verdict&, const Verdict&) = default;
 };
 
+constexpr double kSureLooks = 5.0;     ///< before a wall is left out or moved
+constexpr double kSureShare = 0.7;     ///< of the looks that must agree
+constexpr double kSureSigmaM = 0.1;    ///< a place beside that is less certain is not used
+constexpr double kUnsure = 0.3;        ///< weight of a piece that is neither sure nor confirmed
 constexpr double kOffsetStepM = 0.02;  // so that neighbours moved alike are one wall again
 
-Verdict verdict(const WallReliability& reliability, std::size_t cell, const WallWeightOptions& options) {
+Verdict verdict(const WallReliability& reliability, std::size_t cell) {
   const WallBelief& b = reliability.beliefs()[cell];
-  const auto sure = [&](double count) {
-    return b.looks() >= options.sure_looks && count >= options.sure_share * b.looks();
-  };
+  const auto sure = [&](double count) { return b.looks() >= kSureLooks && count >= kSureShare * b.looks(); };
   switch (reliability.state(cell)) {
     case WallState::Unseen:
     case WallState::Confirmed:
       return {};
     case WallState::Missing:
-      return {sure(b.missed) ? 0.0 : options.unsure, 0.0};
+      return {sure(b.missed) ? 0.0 : kUnsure, 0.0};
     case WallState::Displaced:
-      if (!sure(b.beside) || b.offset_sigma_m > options.sure_sigma_m) return {options.unsure, 0.0};
+      if (!sure(b.beside) || b.offset_sigma_m > kSureSigmaM) return {kUnsure, 0.0};
       return {1.0, kOffsetStepM * std::round(b.offset_m / kOffsetStepM)};
   }
   return {};
@@ -43,20 +45,18 @@ Segment2<Map> moved_aside(const Segment2<Map>& s, double offset_m) {
 
 }  // namespace
 
-bool is_surely_missing(const WallReliability& reliability, std::size_t cell,
-                       const WallWeightOptions& options) {
-  return verdict(reliability, cell, options).weight <= 0.0;
+bool is_surely_missing(const WallReliability& reliability, std::size_t cell) {
+  return verdict(reliability, cell).weight <= 0.0;
 }
 
-WallWeights wall_weights(const mapping::Walls& walls, const WallReliability& reliability,
-                         const WallWeightOptions& options) {
+WallWeights wall_weights(const mapping::Walls& walls, const WallReliability& reliability) {
   WallWeights result;
   const WallCells& cells = reliability.cells();
   for (std::size_t wall = 0; wall < walls.size(); ++wall) {
     for (std::size_t c = cells.first(wall); c < cells.first(wall + 1);) {
-      const Verdict first = verdict(reliability, c, options);
+      const Verdict first = verdict(reliability, c);
       const std::size_t begin = c;
-      while (c < cells.first(wall + 1) && verdict(reliability, c, options) == first) ++c;
+      while (c < cells.first(wall + 1) && verdict(reliability, c) == first) ++c;
       if (first.weight <= 0.0) continue;
       const bool whole = begin == cells.first(wall) && c == cells.first(wall + 1);
       const Segment2<Map> piece =

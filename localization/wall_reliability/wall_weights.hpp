@@ -14,20 +14,11 @@ struct WallWeights {
   std::vector<double> weights;
 };
 
-struct WallWeightOptions {
-  double sure_looks = 5.0;    ///< before a wall is left out or moved
-  double sure_share = 0.7;    ///< of the looks that must agree
-  double sure_sigma_m = 0.1;  ///< a place beside that is less certain is not used
-  double unsure = 0.3;        ///< weight of a piece that is neither sure nor confirmed
-};
-
 /// Whether a piece is taken for gone: so many looks through it agree that wall_weights() leaves it out.
-[[nodiscard]] bool is_surely_missing(const WallReliability& reliability, std::size_t cell,
-                                     const WallWeightOptions& options = {});
+[[nodiscard]] bool is_surely_missing(const WallReliability& reliability, std::size_t cell);
 
 /// Neighbouring pieces of a wall that are believed alike are put together again; walls of which nothing is
 /// known come out as they went in, with weight 1.
-[[nodiscard]] WallWeights wall_weights(const mapping::Walls& walls, const WallReliability& reliability,
-                                       const WallWeightOptions& options = {});
+[[nodiscard]] WallWeights wall_weights(const mapping::Walls& walls, const WallReliability& reliability);
 
 }  // namespace madori::localization

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "core/angle.hpp"
 #include "core/beam_to_segment.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/angle.hpp"
 #include "core/segment_distance.hpp"
 #include "localization/drawing_fit/visible_faces.hpp"
 #include "localization/drawing_fit/wall_hits.hpp"

@@ -3,7 +3,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/angle.hpp"
 #include "localization/warp/cubic_basis.hpp"

@@ -10,17 +10,23 @@ namespace {
 using Days = std::span<const DayMap>;
 using Reads = bool (*)(DayState);
 
-bool are_alike(double a_m, double b_m, const MovedOptions& options) {
-  return std::abs(a_m - b_m) <= std::max(options.extent_m, options.extent_share * std::max(a_m, b_m));
+// What is taken for the same thing in another place.
+constexpr double kFarthestM = 3.0;   ///< between the centres
+constexpr double kCellsRatio = 0.5;  ///< of the smaller to the larger: another side of it may be seen there
+constexpr double kExtentM = 0.5;  ///< two cells: the boxes' longer and shorter sides may differ by this ...
+constexpr double kExtentShare = 0.3;  ///< ... or this share of the longer box's, where that is more
+
+bool are_alike(double a_m, double b_m) {
+  return std::abs(a_m - b_m) <= std::max(kExtentM, kExtentShare * std::max(a_m, b_m));
 }
 
-bool may_be_same(const DayCluster& gone, const DayCluster& added, const MovedOptions& options) {
+bool may_be_same(const DayCluster& gone, const DayCluster& added) {
   const auto [few, many] = std::minmax({gone.cells.size(), added.cells.size()});
   const auto [gone_short, gone_long] = std::minmax({gone.width_m, gone.height_m});
   const auto [added_short, added_long] = std::minmax({added.width_m, added.height_m});
-  return distance_m(gone.centre, added.centre) <= options.farthest_m &&
-         static_cast<double>(few) >= options.cells_ratio * static_cast<double>(many) &&
-         are_alike(gone_long, added_long, options) && are_alike(gone_short, added_short, options);
+  return distance_m(gone.centre, added.centre) <= kFarthestM &&
+         static_cast<double>(few) >= kCellsRatio * static_cast<double>(many) &&
+         are_alike(gone_long, added_long) && are_alike(gone_short, added_short);
 }
 
 /// Whether at least half of the cells read so.
@@ -61,12 +67,11 @@ DayChange change_of(ChangeKind kind, const DayCluster& cluster, const Dates& dat
 
 /// The nearest pairs first; each cluster belongs to one pair at most.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<DayCluster>& gone,
-                                                          const std::vector<DayCluster>& added,
-                                                          const MovedOptions& options) {
+                                                          const std::vector<DayCluster>& added) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> near;
   for (std::size_t i = 0; i < gone.size(); ++i)
     for (std::size_t j = 0; j < added.size(); ++j)
-      if (may_be_same(gone[i], added[j], options))
+      if (may_be_same(gone[i], added[j]))
         near.emplace_back(distance_m(gone[i].centre, added[j].centre), i, j);
   std::ranges::sort(near);
   std::vector<bool> gone_taken(gone.size()), added_taken(added.size());
@@ -81,7 +86,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<DayC
 
 }  // namespace
 
-std::vector<DayChange> changes_between(Days days, const MovedOptions& options) {
+std::vector<DayChange> changes_between(Days days) {
   if (days.size() < 2) return {};
   const auto gone = vanished(days.front(), days.back());
   const auto added = vanished(days.back(), days.front());
@@ -90,7 +95,7 @@ std::vector<DayChange> changes_between(Days days, const MovedOptions& options) {
     went.push_back(change_of(ChangeKind::Gone, c, dates_of(days, c, stands, is_free)));
   for (const auto& c : added)
     came.push_back(change_of(ChangeKind::New, c, dates_of(days, c, is_free, stands)));
-  for (const auto& [i, j] : pairs_of(gone, added, options)) {
+  for (const auto& [i, j] : pairs_of(gone, added)) {
     came[j].kind = ChangeKind::Moved;
     came[j].from = went[i].centre;
     came[j].before = went[i].before;

@@ -69,12 +69,4 @@ double geodesic_m(const LatLon& a, const LatLon& b) {
   return distance;
 }
 
-double spherical_m(const LatLon& a, const LatLon& b) {
-  const double f1 = to_rad(a.latitude_deg);
-  const double f2 = to_rad(b.latitude_deg);
-  const double cosine = std::sin(f1) * std::sin(f2) +
-                        std::cos(f1) * std::cos(f2) * std::cos(to_rad(b.longitude_deg - a.longitude_deg));
-  return kPaperRadiusM * std::acos(std::clamp(cosine, -1.0, 1.0));
-}
-
 }  // namespace madori::mapping

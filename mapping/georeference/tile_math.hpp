@@ -11,8 +11,6 @@ inline constexpr int kTilePixels = 256;
 inline constexpr double kMaxLatitudeDeg = 85.05112877980659;
 /// Radius of Web Mercator's sphere, metres (WGS84's equator).
 inline constexpr double kMercatorRadiusM = 6378137.0;
-/// `r` of Eq. (7), metres.
-inline constexpr double kPaperRadiusM = 6378130.0;
 
 /// A place on Earth, WGS84 degrees.
 struct LatLon {
@@ -44,7 +42,5 @@ struct TileSides {
 
 /// Shortest way on the WGS84 ellipsoid, metres (GeographicLib).
 [[nodiscard]] double geodesic_m(const LatLon& a, const LatLon& b);
-/// Eq. (7), for comparison: a sphere, up to 0.5 % off.
-[[nodiscard]] double spherical_m(const LatLon& a, const LatLon& b);
 
 }  // namespace madori::mapping

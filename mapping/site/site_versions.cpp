@@ -8,7 +8,6 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <utility>
 
 #include "core/clock.hpp"
 #include "core/result.hpp"

@@ -1,6 +1,5 @@
 #include "mapping/site/strict_yaml.hpp"
 
-#include <cmath>
 #include <sstream>
 #include <utility>
 

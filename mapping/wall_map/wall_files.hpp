@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/wall_map/point_map.hpp"
 #include "mapping/wall_map/wall.hpp"

@@ -9,22 +9,28 @@
 namespace madori::planning {
 namespace {
 
-bool is_floor(const GroundPlane& plane, const GroundOptions& options) {
-  return plane.points >= options.fewest_points &&
-         std::hypot(plane.slope_x, plane.slope_y) <= options.steepest &&
-         std::abs(plane.offset_m) <= options.furthest_m;
+constexpr double kFloorReachM = 6.0;  ///< points further away are left out
+constexpr double kFirstBandM = 0.12;  ///< around the wheels' plane, where the floor is looked for
+constexpr double kLastBandM = 0.04;   ///< around the fit, in the last iteration
+constexpr double kSteepest = 0.06;    ///< tilt beyond which a fit is no floor (the vehicle pitches by less)
+constexpr double kFurthestFloorM = 0.06;  ///< offset beyond which a fit is no floor
+constexpr int kFewestFloorPoints = 40;
+
+bool is_floor(const GroundPlane& plane) {
+  return plane.points >= kFewestFloorPoints && std::hypot(plane.slope_x, plane.slope_y) <= kSteepest &&
+         std::abs(plane.offset_m) <= kFurthestFloorM;
 }
 
 /// Least squares over the points within `band_m` of `plane`; nothing where they lie on one line.
-GroundPlane refit(const std::vector<CloudPoint>& points, const GroundPlane& plane, double band_m,
-                  double reach_m) {
+GroundPlane refit(const std::vector<CloudPoint>& points, const GroundPlane& plane, double band_m) {
   constexpr double kLeastSpreadM2 = 0.02;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   int count = 0;
   for (const CloudPoint& p : points) {
     const Eigen::Vector3d at = Eigen::Vector3f(p.x_m, p.y_m, p.z_m).cast<double>();
-    if (!(at.head<2>().squaredNorm() <= reach_m * reach_m) || !(std::abs(plane.height_of(p)) <= band_m))
+    if (!(at.head<2>().squaredNorm() <= kFloorReachM * kFloorReachM) ||
+        !(std::abs(plane.height_of(p)) <= band_m))
       continue;
     sum += at;
     squares.noalias() += at * at.transpose();
@@ -43,12 +49,12 @@ GroundPlane refit(const std::vector<CloudPoint>& points, const GroundPlane& plan
 
 }  // namespace
 
-GroundPlane fit_ground(const std::vector<CloudPoint>& points, const GroundOptions& options) {
+GroundPlane fit_ground(const std::vector<CloudPoint>& points) {
   GroundPlane plane;
-  const double middle_m = std::sqrt(options.first_band_m * options.last_band_m);
-  for (const double band_m : std::array{options.first_band_m, middle_m, options.last_band_m}) {
-    plane = refit(points, plane, band_m, options.reach_m);
-    if (!is_floor(plane, options)) return {};
+  const double middle_m = std::sqrt(kFirstBandM * kLastBandM);
+  for (const double band_m : std::array{kFirstBandM, middle_m, kLastBandM}) {
+    plane = refit(points, plane, band_m);
+    if (!is_floor(plane)) return {};
   }
   return plane;
 }

@@ -19,17 +19,7 @@ struct GroundPlane {
   }
 };
 
-struct GroundOptions {
-  double reach_m = 6.0;        ///< points further away are left out
-  double first_band_m = 0.12;  ///< around the wheels' plane, where the floor is looked for
-  double last_band_m = 0.04;   ///< around the fit, in the last iteration
-  double steepest = 0.06;      ///< tilt beyond which a fit is no floor (the vehicle pitches by less)
-  double furthest_m = 0.06;    ///< offset beyond which a fit is no floor
-  int fewest_points = 40;
-};
-
 /// Fits the floor by repeated least squares within a shrinking band. Non-finite points are left out.
-[[nodiscard]] GroundPlane fit_ground(const std::vector<CloudPoint>& points_base,
-                                     const GroundOptions& options = {});
+[[nodiscard]] GroundPlane fit_ground(const std::vector<CloudPoint>& points_base);
 
 }  // namespace madori::planning

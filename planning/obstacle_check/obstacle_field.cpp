@@ -210,7 +210,7 @@ void ObstacleField::update(const PointCloud<Base>& scan, const SensorView& view,
                            const Transform2<Odom, Base>& odom_from_base,
                            const std::vector<Point2<Base>>& within) {
   const bool sees_floor = view.min_elevation_rad < 0.0;
-  if (sees_floor) ground_ = fit_ground(scan.points, options_.ground);
+  if (sees_floor) ground_ = fit_ground(scan.points);
   take_scan(scan, view, odom_from_base);
   take_within(within, odom_from_base, scan.stamp);
   seen_ = low_.columns();

@@ -24,7 +24,6 @@ struct FieldOptions {
   double body_top_m = 1.9;     ///< height of a person: near the lidar only the upper part is in view
   double body_reach_m = 3.0;   ///< around the lidar, where the upper part is looked for
   double hidden_m = 0.4;  ///< so far a body goes on of which only the far side was seen: a person's breadth
-  GroundOptions ground;
   SightOptions sight;
 };
 

@@ -1,8 +1,5 @@
 #include "planning/obstacle_check/sight_history.hpp"
 
-#include <algorithm>
-#include <utility>
-
 namespace madori::planning {
 namespace {
 

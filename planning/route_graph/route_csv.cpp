@@ -217,6 +217,10 @@ std::string read_file(const std::filesystem::path& file) {
 
 }  // namespace
 
+const char* to_string(Severity severity) {
+  return severity == Severity::Error ? "error" : "warning";
+}
+
 std::string RouteFinding::text() const {
   return file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + message;
 }

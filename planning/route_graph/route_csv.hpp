@@ -11,6 +11,7 @@
 namespace madori::planning {
 
 enum class Severity { Warning, Error };
+[[nodiscard]] const char* to_string(Severity severity);  ///< "warning", "error"
 
 /// Something that is wrong, or worth knowing, about the route files.
 struct RouteFinding {

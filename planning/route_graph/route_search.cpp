@@ -5,7 +5,6 @@
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
 #include <boost/graph/strong_components.hpp>
-#include <limits>
 #include <string>
 
 namespace madori::planning {

@@ -16,9 +16,14 @@ using Place = Point2<Map>;
 constexpr double kStepM = 0.05;
 constexpr double kStepRad = 0.05;
 constexpr double kJumpM = 0.5;
+constexpr double kOffWayM = 0.15;   ///< a leg may leave the way driven by so much
+constexpr double kSameNodeM = 0.4;  ///< a place this near to a node is that node
+constexpr double kOnLegM = 0.3;   ///< ... to a leg: it gets a node there; new legs go through nodes this near
+constexpr double kStopS = 2.0;    ///< who stands for so long means the place
+constexpr double kSpotRad = 0.6;  ///< turned by so much on one spot likewise
 
 /// Which moments of a way surely get a node: its ends, stops, turns on the spot.
-std::vector<std::size_t> marked(const std::vector<DrivenPose>& way, const TeachOptions& options) {
+std::vector<std::size_t> marked(const std::vector<DrivenPose>& way) {
   std::vector<std::size_t> marks{0};
   for (std::size_t i = 0, j = 0; i + 1 < way.size(); i = std::max(i + 1, j)) {
     double turned_rad = 0.0;  // what follows at the same place
@@ -27,7 +32,7 @@ std::vector<std::size_t> marked(const std::vector<DrivenPose>& way, const TeachO
       turned_rad += std::abs(wrap_angle(way[j + 1].map_from_base.yaw_rad() - way[j].map_from_base.yaw_rad()));
     // the time until the vehicle had left belongs to the stop
     const double stood_s = to_seconds(way[std::min(j + 1, way.size() - 1)].stamp - way[i].stamp);
-    if (i > 0 && (stood_s >= options.stop_s || turned_rad >= options.spot_rad)) marks.push_back(i);
+    if (i > 0 && (stood_s >= kStopS || turned_rad >= kSpotRad)) marks.push_back(i);
   }
   marks.push_back(way.size() - 1);
   return marks;
@@ -52,13 +57,13 @@ void simplify(const std::vector<DrivenPose>& way, std::size_t first, std::size_t
   simplify(way, farthest, last, off_m, kept);
 }
 
-std::vector<Place> corners(const std::vector<DrivenPose>& way, const TeachOptions& options) {
+std::vector<Place> corners(const std::vector<DrivenPose>& way) {
   std::vector<Place> places;
-  const auto marks = marked(way, options);
+  const auto marks = marked(way);
   for (std::size_t m = 0; m < marks.size(); ++m) {
     places.push_back(way[marks[m]].map_from_base.translation());
     std::vector<std::size_t> between;
-    if (m + 1 < marks.size()) simplify(way, marks[m], marks[m + 1], options.off_way_m, between);
+    if (m + 1 < marks.size()) simplify(way, marks[m], marks[m + 1], kOffWayM, between);
     for (const std::size_t i : between) places.push_back(way[i].map_from_base.translation());
   }
   return places;
@@ -69,7 +74,7 @@ class Draft {
   using Leg = std::pair<std::size_t, std::size_t>;
 
  public:
-  Draft(const RouteGraph& routes, const TeachOptions& options) : options_(options), nodes_(routes.nodes()) {
+  explicit Draft(const RouteGraph& routes) : nodes_(routes.nodes()) {
     for (const RouteLeg& leg : routes.legs()) legs_.emplace_back(leg.from, leg.to);
     for (const RouteNode& node : nodes_) next_id_ = std::max(next_id_, node.id + 1);
   }
@@ -78,13 +83,13 @@ class Draft {
   std::size_t node_at(const Place& at) {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < nodes_.size(); ++i)
-      if (distance_m(nodes_[i].position, at) < options_.same_node_m &&
+      if (distance_m(nodes_[i].position, at) < kSameNodeM &&
           (!best || distance_m(nodes_[i].position, at) < distance_m(nodes_[*best].position, at)))
         best = i;
     if (best) return *best;
     const auto off_m = [&](const Leg& leg) { return distance_m(line(leg), at); };
     const auto nearest = std::ranges::min_element(legs_, {}, off_m);
-    if (nearest == legs_.end() || off_m(*nearest) >= options_.on_leg_m) return add(at);
+    if (nearest == legs_.end() || off_m(*nearest) >= kOnLegM) return add(at);
     return split(nearest->first, nearest->second, nearest_point(line(*nearest), at));
   }
   /// Through the nodes that lie on it.
@@ -93,7 +98,7 @@ class Draft {
     const Segment2<Map> leg{nodes_[from].position, nodes_[to].position};
     std::vector<std::pair<double, std::size_t>> through{{0.0, from}, {leg.length_m(), to}};
     for (std::size_t i = 0; i < nodes_.size(); ++i)
-      if (i != from && i != to && distance_m(leg, nodes_[i].position) < options_.on_leg_m) {
+      if (i != from && i != to && distance_m(leg, nodes_[i].position) < kOnLegM) {
         const double along = distance_m(leg.a, nearest_point(leg, nodes_[i].position));
         if (along > 0.0 && along < leg.length_m()) through.emplace_back(along, i);
       }
@@ -135,7 +140,6 @@ class Draft {
     return node;
   }
 
-  TeachOptions options_;
   std::vector<RouteNode> nodes_;
   std::vector<Leg> legs_;
   int next_id_ = 0;
@@ -162,11 +166,11 @@ double length_m(const std::vector<DrivenPose>& way) {
   return sum_m;
 }
 
-RouteGraph taught(const RouteGraph& routes, const std::vector<DrivenPose>& way, const TeachOptions& options) {
-  if (length_m(way) < options.same_node_m) return routes;
-  Draft draft(routes, options);
+RouteGraph taught(const RouteGraph& routes, const std::vector<DrivenPose>& way) {
+  if (length_m(way) < kSameNodeM) return routes;
+  Draft draft(routes);
   std::optional<std::size_t> last;
-  for (const Place& place : corners(way, options)) {
+  for (const Place& place : corners(way)) {
     const std::size_t node = draft.node_at(place);
     if (last) draft.join(*last, node);
     last = node;

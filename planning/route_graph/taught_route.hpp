@@ -20,19 +20,10 @@ void note_way(std::vector<DrivenPose>& way, Stamp stamp, const Transform2<Map, B
 /// Its length, metres.
 [[nodiscard]] double length_m(const std::vector<DrivenPose>& way);
 
-struct TeachOptions {
-  double off_way_m = 0.15;   ///< a leg may leave the way driven by so much
-  double same_node_m = 0.4;  ///< a place this near to a node is that node
-  double on_leg_m = 0.3;     ///< ... to a leg: it gets a node there; a new leg is led through nodes this near
-  double stop_s = 2.0;       ///< who stands for so long means the place
-  double spot_rad = 0.6;     ///< turned by so much on one spot likewise
-};
-
 /// The routes with the way driven as nodes and two-way legs: simplified (Douglas and Peucker 1973), a node at
 /// its ends, its turns and its stops; joined with the nodes and legs that there are, and with itself where it
 /// was driven twice. The routes as they are where the way is shorter than a node's size. Node IDs go on from
 /// the largest.
-[[nodiscard]] RouteGraph taught(const RouteGraph& routes, const std::vector<DrivenPose>& way,
-                                const TeachOptions& options = {});
+[[nodiscard]] RouteGraph taught(const RouteGraph& routes, const std::vector<DrivenPose>& way);
 
 }  // namespace madori::planning

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// ROS 1 bags without ROS types. This header and bridge.cpp are C++17, because the message headers need it:
-/// they include nothing of core. Everybody else uses reader.hpp and writer.hpp.
+/// ROS 1 bags without ROS types. This header and its .cpp files are C++17, because the message headers need
+/// it: they include nothing of core. Everybody else uses reader.hpp and writer.hpp.
 namespace madori::sensors::rosbag_bridge {
 
 struct Scan {

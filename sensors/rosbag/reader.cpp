@@ -1,7 +1,6 @@
 #include "sensors/rosbag/reader.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/result.hpp"

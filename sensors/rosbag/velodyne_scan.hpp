@@ -9,7 +9,7 @@
 #include <vector>
 
 /// velodyne_msgs/VelodyneScan and VelodynePacket, which Debian does not package: what velodyne_pointcloud,
-/// rviz and Foxglove's converters read. C++17, for bridge.cpp alone.
+/// rviz and Foxglove's converters read. C++17, for the bridge alone.
 namespace madori::sensors::rosbag_bridge {
 
 struct VelodynePacket {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/angle.hpp"
-#include "core/result.hpp"
 #include "sensors/s300/receiver.hpp"
 
 namespace madori::sensors::s300 {

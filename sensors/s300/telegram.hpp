@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/laser_scan.hpp"
-#include "core/stamp.hpp"
 
 /// The continuous telegram of a SICK S300 safety scanner (Telegram Listing S3000 Expert / S300 Expert,
 /// IM0022891).

@@ -58,9 +58,8 @@ Assembler::Assembler(FrameSink sink, AssemblerOptions options) : sink_(std::move
 }
 
 PushVerdict Assembler::push(std::span<const std::uint8_t> packet, Stamp received) {
-  last_fault_ = decode(packet, packet_);
-  if (last_fault_ == PacketFault::None && !find_gaps()) last_fault_ = PacketFault::Azimuth;
-  if (last_fault_ != PacketFault::None) return ++counters_.refused, PushVerdict::Refused;
+  if (decode(packet, packet_) != PacketFault::None || !find_gaps())
+    return ++counters_.refused, PushVerdict::Refused;
   if (!foreign_sensor_.empty() && stays_foreign()) return ++counters_.refused, PushVerdict::ForeignSensor;
   const PushVerdict verdict = check_order(received);
   if (verdict != PushVerdict::Taken) return verdict;

@@ -55,7 +55,6 @@ class Assembler {
   void flush();
 
   [[nodiscard]] const AssemblerCounters& counters() const { return counters_; }
-  [[nodiscard]] PacketFault last_fault() const { return last_fault_; }
   /// "HDL-32E", "VLP-32C" ... while the packets come faster than a VLP-16 can send; empty otherwise.
   [[nodiscard]] const std::string& foreign_sensor() const { return foreign_sensor_; }
   /// No turn was completed in the time of the slowest one, nor since.
@@ -87,7 +86,6 @@ class Assembler {
   DataPacket packet_;
   std::array<double, kBlocks> gap_cdeg_{};  ///< azimuth swept by each block's two firings
   Frame frame_;
-  PacketFault last_fault_ = PacketFault::None;
   std::string foreign_sensor_;
   std::int64_t packet_us_ = 0;  ///< unwrapped time of the last packet that was taken
   std::int64_t seen_us_ = 0;    ///< and of the last one at all

@@ -1,7 +1,6 @@
 #include "sensors/vlp16/packet.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include "sensors/little_endian.hpp"
 

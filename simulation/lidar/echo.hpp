@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "simulation/lidar/beam_spot.hpp"
 #include "simulation/lidar/range_bias.hpp"
 #include "simulation/random.hpp"

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/angle.hpp"
+#include "simulation/lidar/echo.hpp"
+#include "simulation/random.hpp"
 
 namespace madori::simulation {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sensors/vlp16/packet.hpp"
-#include "simulation/lidar/echo.hpp"
+#include "simulation/lidar/range_bias.hpp"
 #include "simulation/lidar/view.hpp"
 
 namespace madori::simulation {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/random.hpp"
 #include "simulation/world/world.hpp"
 
 namespace madori::simulation {

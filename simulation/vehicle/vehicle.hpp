@@ -5,7 +5,6 @@
 #include "control/diff_drive/kinematics.hpp"
 #include "core/wheels.hpp"
 #include "mapping/site/site.hpp"
-#include "simulation/random.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/world/mesh.hpp"
 

@@ -18,7 +18,6 @@
 
 #include "core/result.hpp"
 #include "mapping/drawing/import_drawing.hpp"
-#include "mapping/picture/load_image.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {

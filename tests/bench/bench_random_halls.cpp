@@ -22,7 +22,6 @@
 #include "localization/slam/graph_mapper.hpp"
 #include "localization/slam/rbpf_mapper.hpp"
 #include "localization/slam/slow_lidar_mapper.hpp"
-#include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"
 #include "tests/support/random_hall.hpp"
 #include "tests/support/rigid_fit.hpp"

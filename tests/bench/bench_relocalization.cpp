@@ -50,7 +50,7 @@ void hall_tables() {
   for (const double spacing : {0.2, 0.5, 0.8}) {
     PlaceIndexOptions options;
     options.spacing_m = spacing;
-    const GlobalLocalizer spaced(walls, {}, PlaceIndex(walls, field, options));
+    const GlobalLocalizer spaced(walls, PlaceIndex(walls, field, options));
     test::TrialSettings settings;
     settings.sigma_m = 0.01;
     settings.clutter = 0.15;

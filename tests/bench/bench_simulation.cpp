@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "simulation/factory.hpp"
-#include "simulation/receiver.hpp"
+#include "tests/support/receiver.hpp"
 
 namespace {
 
@@ -70,7 +70,7 @@ void lock_step(benchmark::State& state, bool decode, bool all_sensors, int keep_
   setup.scenario.vlp16.keep_every_firing = keep_every_firing;
   if (!all_sensors) setup.sensors = {{"top", "vlp16", 0.3, 0.0, 1.2, 0.0}};
   Factory factory(setup);
-  Receiver receiver({});
+  madori::test::Receiver receiver({});
   double turn = 0.3;
   for (auto _ : state) {
     for (int i = 0; i < 20; ++i) {

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "localization/registration/point_icp.hpp"
 #include "localization/slam/slow_lidar_mapper.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"

@@ -15,7 +15,7 @@
 
 #include "simulation/devices/device_hub.hpp"
 #include "simulation/factory.hpp"
-#include "simulation/receiver.hpp"
+#include "tests/support/receiver.hpp"
 #include "tests/support/small_hall.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -26,6 +26,7 @@ namespace lms1xx = sensors::lms1xx;
 namespace wire = control::wire;
 using Bytes = std::vector<std::uint8_t>;
 using std::chrono::milliseconds;
+using test::Receiver;
 
 constexpr milliseconds kStep(5);
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdlib>
-#include <cstring>
 
 #include "sensors/lms1xx/encode.hpp"
 

@@ -2,6 +2,7 @@
 // gate, routes, bodies through every handler of the API, and raw bytes to the server itself: HTTP requests,
 // and frames on a live socket. A vehicle that is told to move by nonsense, and an answer of 500, would be
 // found here.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>

@@ -1,4 +1,6 @@
 // site.yaml: what an integrator or an older version wrote, or half of it. A refusal is an Error with words.
+#include <cmath>
+
 #include "mapping/site/site_file.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 

@@ -1,7 +1,6 @@
 // What `madori map` makes of recorded drives, at full rate and with scans left out.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json.hpp>

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "app/runner/site_run.hpp"
 #include "simulation/factory.hpp"

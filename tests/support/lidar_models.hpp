@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "core/angle.hpp"
 #include "core/lidar_model.hpp"
 

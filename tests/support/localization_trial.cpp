@@ -87,7 +87,7 @@ void LocalizationTrial::step(bool drives) {
     const mapping::SensorRecord& lidar = floor_.lidar();
     const LidarModel model = spinning_lidar({lidar.x_m, lidar.y_m, lidar.z_m, to_rad(lidar.yaw_deg)});
     const auto base = test::cloud_in_base(cloud, model, track_);
-    const auto points = localization::extract_walls(base, model, walls);
+    const auto points = localization::extract_walls(base, model);
     const PoseEstimate at_scan = localizer_.on_scan(base.stamp, points, {lidar.x_m, lidar.y_m});
     if (learner != nullptr) learner->observe(points, {lidar.x_m, lidar.y_m}, at_scan);
     pose_ = localizer_.on_odometry(odometry_.reading());

@@ -73,7 +73,6 @@ class LocalizationTrial {
   [[nodiscard]] double error_m() const;
   [[nodiscard]] double error_rad() const;
 
-  localization::CloudWallOptions walls;
   localization::DrawingLearner* learner = nullptr;  ///< looks on, where there is one
 
  private:

@@ -6,7 +6,6 @@
 
 #include "app/map_comparison.hpp"
 #include "core/segment_distance.hpp"
-#include "mapping/wall_map/wall_files.hpp"
 
 namespace madori::test {
 namespace {

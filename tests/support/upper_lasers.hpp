@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "core/angle.hpp"
 #include "sensors/vlp16/packet.hpp"

@@ -5,6 +5,8 @@
 
 #include "control/diff_drive/kinematics.hpp"
 #include "core/segment_distance.hpp"
+#include "planning/route_graph/route_search.hpp"
+#include "planning/waypoints/waypoints.hpp"
 #include "sensors/vlp16/encode.hpp"
 #include "simulation/sensor_suite.hpp"
 

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "control/drive_link/wire.hpp"
 #include "control/limits/limits.hpp"
 #include "control/pure_pursuit/pure_pursuit.hpp"
 #include "core/velocity_command.hpp"
-#include "planning/route_graph/route_search.hpp"
-#include "planning/waypoints/waypoints.hpp"
+#include "planning/route_graph/route_graph.hpp"
 #include "sensors/vlp16/assembler.hpp"
 #include "simulation/drive/drive_device.hpp"
 #include "simulation/vehicle/vehicle.hpp"

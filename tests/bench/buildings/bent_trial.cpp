@@ -1,6 +1,5 @@
 #include "tests/bench/buildings/bent_trial.hpp"
 
-#include <algorithm>
 #include <ctime>
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/frames.hpp"
-#include "core/transform2.hpp"
 #include "simulation/frames.hpp"
 
 namespace madori::bench {

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "app/cycle/pose_source.hpp"
 #include "app/cycle/site_config.hpp"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "tests/bench/movers/mover_match.hpp"
+
 namespace madori::bench {
 namespace {
 

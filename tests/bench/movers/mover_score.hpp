@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/stamp.hpp"
-#include "tests/bench/movers/mover_match.hpp"
+#include "tests/bench/movers/true_mover.hpp"
 
 namespace madori::bench {
 

@@ -1,7 +1,6 @@
 #include "tests/end_to_end/soak/plan.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "planning/route_graph/route_search.hpp"
 

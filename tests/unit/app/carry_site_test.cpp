@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "app/mapping_drive/drive_site.hpp"
 #include "mapping/site/site.hpp"
 #include "mapping/site/site_transaction.hpp"
+#include "mapping/site/site_versions.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::app {
@@ -23,7 +23,7 @@ class CarrySite : public testing::Test {
     mapping::SiteTransaction change(folder);
     change.write("site.yaml", mapping::site_yaml(site));
     change.write("walls.csv", mapping::walls_csv(walls));
-    for (const char* file : {"drawing.png", "import.png", kWayFile}) change.write(file, name);
+    for (const char* file : {"drawing.png", "import.png", mapping::kWayFile}) change.write(file, name);
     change.commit();
     return folder;
   }
@@ -59,7 +59,7 @@ TEST_F(CarrySite, AMeasuredSiteKeepsItsScaleAndHowProbableItsWallsAre) {
 TEST_F(CarrySite, TheWayThatWasDrivenOnTheOldDrawingGoes) {
   const auto site = made("site", 0.02, metres_), beside = made("beside", 0.0, pixels_);
   carry_site(site, beside, {0.02, 0.0, {1.0, 0.0}}, metres_);
-  EXPECT_FALSE(std::filesystem::exists(site / kWayFile));
+  EXPECT_FALSE(std::filesystem::exists(site / mapping::kWayFile));
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "app/plot/reliability_plot.hpp"
 #include "core/result.hpp"
 #include "localization/scan_points.hpp"
-#include "localization/wall_reliability/reliability_file.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/made_up_drive.hpp"
 #include "tests/support/temporary_folder.hpp"

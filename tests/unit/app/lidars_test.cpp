@@ -54,7 +54,6 @@ TEST(Lidars, SureRangesAreThoseOfTheSource) {
   EXPECT_NEAR(lidar_model(fine).sure_range_m(0.07), 3.20, 0.01);
   EXPECT_NEAR(lidar_model(kFront).sure_range_m(0.2), 8.09, 0.01);
   EXPECT_NEAR(lidar_model(fine).sure_range_m(0.2), 9.91, 0.01);
-  EXPECT_NEAR(lidar_model(kFront).least_object_m(lidar_model(kFront).sure_range_m(0.07)), 0.07, 1e-9);
 }
 
 /// Also of the only one: it would be found out when the vehicle is to drive.

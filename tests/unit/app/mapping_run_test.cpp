@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "app/mapped_site.hpp"
 #include "mapping/site/atomic_file.hpp"

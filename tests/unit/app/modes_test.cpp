@@ -4,9 +4,7 @@
 
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
-#include <vector>
 
 #include "app/cycle/notice.hpp"
 #include "app/panel/event_words.hpp"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/bench/movers/mover_match.hpp"
 #include "tests/bench/movers/nearest_neighbour.hpp"
 #include "tests/bench/movers/plain_sight.hpp"
 #include "tests/support/lidar_models.hpp"

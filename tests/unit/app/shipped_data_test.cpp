@@ -1,8 +1,6 @@
 // Every configuration that is shipped below data/ can be loaded by the code that is shipped with it.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -172,7 +172,7 @@ TEST(DayChanges, LawsHoldForMadeUpBuildings) {
     moved += static_cast<int>(of(ChangeKind::Moved));
     for (const DayChange& c : changes) {
       EXPECT_LE(c.before, c.since);
-      EXPECT_LE(distance_m(c.from.value_or(c.centre), c.centre), MovedOptions{}.farthest_m);
+      EXPECT_LE(distance_m(c.from.value_or(c.centre), c.centre), 3.0);
     }
   }
   EXPECT_GT(clusters, 100);

@@ -2,6 +2,8 @@
 // vehicle's cycle does not feel it.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/support/panel_attacks.hpp"
 #include "tests/unit/hmi/panel_fixture.hpp"
 

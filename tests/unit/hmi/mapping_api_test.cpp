@@ -1,6 +1,8 @@
 // A map by driving and taught routes, over the real socket.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/unit/hmi/panel_fixture.hpp"
 
 namespace madori::hmi {

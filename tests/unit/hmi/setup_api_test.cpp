@@ -4,7 +4,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "mapping/georeference/overlay.hpp"
 #include "tests/unit/hmi/panel_fixture.hpp"
 
 namespace madori::hmi {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 
 #include "core/result.hpp"
 #include "hmi/server/site_backup.hpp"

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "localization/global/circular_match.hpp"
 #include "localization/global/global_localizer.hpp"
+#include "localization/global/scan_noise.hpp"
 #include "tests/support/hall_trials.hpp"
 #include "tests/support/made_up_buildings.hpp"
 #include "tests/support/temporary_folder.hpp"

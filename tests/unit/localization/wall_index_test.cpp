@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "core/angle.hpp"
-#include "tests/support/made_up_buildings.hpp"
 
 namespace madori::localization {
 namespace {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/angle.hpp"
 #include "core/result.hpp"
 #include "mapping/georeference/scale_estimate.hpp"
 
@@ -11,6 +13,16 @@ namespace madori::mapping {
 namespace {
 
 constexpr LatLon kGifu{35.464478, 136.739235};
+constexpr double kPaperRadiusM = 6378130.0;  ///< `r` of Eq. (7)
+
+/// Eq. (7): a sphere, up to 0.5 % off.
+double spherical_m(const LatLon& a, const LatLon& b) {
+  const double f1 = to_rad(a.latitude_deg);
+  const double f2 = to_rad(b.latitude_deg);
+  const double cosine = std::sin(f1) * std::sin(f2) +
+                        std::cos(f1) * std::cos(f2) * std::cos(to_rad(b.longitude_deg - a.longitude_deg));
+  return kPaperRadiusM * std::acos(std::clamp(cosine, -1.0, 1.0));
+}
 
 TEST(TileMath, HoldsThePublishedExample) {
   const TilePoint tile = tile_of(kGifu, 18);

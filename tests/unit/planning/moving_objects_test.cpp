@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "core/angle.hpp"
-#include "planning/waypoints/waypoints.hpp"
 #include "tests/support/straight_way.hpp"
 #include "tests/support/toy_lidar.hpp"
 
@@ -130,7 +129,7 @@ TEST(MovingObjects, ALidarThatTurnsSlowlyMeasuresThemToo) {
 }
 
 TEST(CheckMovers, AVehicleThatDrivesBackwardMeetsTheSame) {
-  Path back = straight_way(3);
+  Path back = test::straight_way(3);
   for (PathPoint& point : back.points) point.reverse = true;
   const std::vector<Mover<Map>> crossing{{{1.8, -1.6}, 0.0, 1.6, 0.25}};
   const auto ahead = check_movers(back, 0, 3.0, 0.3, crossing, {}, {});

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "simulation/receiver.hpp"
+#include "tests/support/receiver.hpp"
 #include "tests/support/small_hall.hpp"
 
 namespace madori::simulation {
@@ -13,6 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using test::Receiver;
 namespace wire = control::wire;
 
 /// The PC's half of the drive link.

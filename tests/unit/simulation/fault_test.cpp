@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/receiver.hpp"
+#include "tests/support/receiver.hpp"
 #include "tests/support/small_hall.hpp"
 
 namespace madori::simulation {
 namespace {
 
 using std::chrono::milliseconds;
+using test::Receiver;
 
 FaultSpec fault(FaultKind kind, Device device, double at_s = 0.0, double for_s = 100.0) {
   FaultSpec f;

@@ -8,7 +8,7 @@
 #include "core/angle.hpp"
 #include "simulation/factory.hpp"
 #include "simulation/lidar/plane_scanner.hpp"
-#include "simulation/receiver.hpp"
+#include "tests/support/receiver.hpp"
 #include "tests/support/small_hall.hpp"
 
 namespace madori::simulation {
@@ -221,7 +221,7 @@ TEST(ProtectiveField, IsNotEnteredBySingleWrongPoints) {
   FactorySetup setup = test::small_hall(40.0, 24.0, 10.0, 12.0);
   setup.scenario.s300.rain = 0.001;
   Factory factory(setup);
-  Receiver receiver({});
+  test::Receiver receiver({});
   int near = 0;
   for (int second = 0; second < 60; ++second) {
     factory.step(std::chrono::seconds(1));

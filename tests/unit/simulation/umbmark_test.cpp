@@ -2,10 +2,9 @@
 // reckoning with wheels that are not as large as believed, against the closed form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "control/diff_drive/kinematics.hpp"
-#include "simulation/receiver.hpp"
 #include "tests/support/small_hall.hpp"
 
 namespace madori::simulation {

@@ -1,8 +1,8 @@
-#include "simulation/receiver.hpp"
+#include "tests/support/receiver.hpp"
 
 #include <utility>
 
-namespace madori::simulation {
+namespace madori::test {
 namespace {
 
 namespace lms1xx = sensors::lms1xx;
@@ -30,25 +30,25 @@ Receiver::Receiver(const WheelGeometry& wheels, bool binary_lms)
       }),
       odometry_(odometry_options(wheels)) {}
 
-void Receiver::push(const DevicePacket& packet) {
+void Receiver::push(const simulation::DevicePacket& packet) {
   switch (packet.device) {
-    case Device::Vlp16:
+    case simulation::Device::Vlp16:
       vlp16_.push(packet.bytes, packet.sent);
       break;
-    case Device::Lms1xx:
+    case simulation::Device::Lms1xx:
       take_lms(packet);
       break;
-    case Device::S300:
+    case simulation::Device::S300:
       s300_received_ = packet.sent;
       s300_.push(packet.bytes);
       break;
-    case Device::Drive:
+    case simulation::Device::Drive:
       take_drive(packet);
       break;
   }
 }
 
-void Receiver::take_lms(const DevicePacket& packet) {
+void Receiver::take_lms(const simulation::DevicePacket& packet) {
   lms_.push(packet.bytes);
   while (const auto payload = lms_.next()) {
     const auto head = lms1xx::head_of(*payload);
@@ -64,7 +64,7 @@ void Receiver::take_lms(const DevicePacket& packet) {
   }
 }
 
-void Receiver::take_drive(const DevicePacket& packet) {
+void Receiver::take_drive(const simulation::DevicePacket& packet) {
   for (const std::uint8_t byte : packet.bytes) {
     if (!cutter_.push(byte)) continue;
     wire::Status status;
@@ -79,4 +79,4 @@ void Receiver::take_drive(const DevicePacket& packet) {
   }
 }
 
-}  // namespace madori::simulation
+}  // namespace madori::test

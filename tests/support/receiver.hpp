@@ -14,7 +14,7 @@
 #include "sensors/vlp16/assembler.hpp"
 #include "simulation/mailbox.hpp"
 
-namespace madori::simulation {
+namespace madori::test {
 
 /// The vehicle PC's side of the wires in one process: packets become core types by the very decoders that
 /// stand behind the sockets, so that what comes out is decode(encode(.)) by construction, noise, rounding
@@ -23,9 +23,9 @@ class Receiver {
  public:
   explicit Receiver(const WheelGeometry& wheels, bool binary_lms = true);
 
-  void push(const DevicePacket& packet);
-  void push(const std::vector<DevicePacket>& packets) {
-    for (const DevicePacket& p : packets) push(p);
+  void push(const simulation::DevicePacket& packet);
+  void push(const std::vector<simulation::DevicePacket>& packets) {
+    for (const simulation::DevicePacket& p : packets) push(p);
   }
 
   /// What has become complete, oldest first; the caller takes them away. Lidar frames, not deskewed.
@@ -43,8 +43,8 @@ class Receiver {
   [[nodiscard]] std::uint64_t damaged_status_frames() const { return damaged_status_; }
 
  private:
-  void take_lms(const DevicePacket& packet);
-  void take_drive(const DevicePacket& packet);
+  void take_lms(const simulation::DevicePacket& packet);
+  void take_drive(const simulation::DevicePacket& packet);
 
   sensors::lms1xx::Dialect dialect_;
   sensors::vlp16::Assembler vlp16_;
@@ -60,4 +60,4 @@ class Receiver {
   std::uint64_t damaged_status_ = 0;
 };
 
-}  // namespace madori::simulation
+}  // namespace madori::test
