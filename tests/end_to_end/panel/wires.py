@@ -17,7 +17,7 @@ def silence(*_):
 
 def main():
     sim_port, run_port, device = sys.argv[1:]
-    lidar, drive = LidarWire(int(sim_port), int(run_port)), DriveWire(device)
+    lidar, drive = LidarWire(int(sim_port), int(run_port)), DriveWire(pathlib.Path(device))
     print(f"wires {drive.name}", flush=True)
     for line in sys.stdin:
         which, state = line.split()
