@@ -224,7 +224,7 @@ export const de: Record<TextKey, string> = {
   "braking.latency": "Verzögerung bis zum Bremsen",
   "braking.way": "Weg",
   "braking.running": "Misst: {done} von {all} Halten",
-  "braking.verdict": "Schlechteste Messung: {deceleration} m/s², Reaktionszeit {reaction} s",
+  "braking.verdict": "Zu übernehmen: {deceleration} m/s², Reaktionszeit {reaction} s. Bessere Werte als eingetragen zählen nur mit Last.",
   "braking.too_fast": "Bei {speed} m/s braucht das Fahrzeug {needs} m bis zum Stand, und der Lidar sieht sicher {sees} m weit: Das Höchsttempo wird gesenkt.",
   "braking.take": "Übernehmen",
   "braking.take_slower": "Übernehmen, höchstens {speed} m/s",

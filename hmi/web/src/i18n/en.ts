@@ -239,7 +239,7 @@ export const en = {
   "braking.latency": "Latency",
   "braking.way": "Way",
   "braking.running": "Measuring: {done} of {all} stops",
-  "braking.verdict": "Worst measured: {deceleration} m/s², reaction time {reaction} s",
+  "braking.verdict": "To be taken over: {deceleration} m/s², reaction time {reaction} s. Better values than entered count with a load only.",
   "braking.too_fast": "At {speed} m/s the vehicle needs {needs} m to stand, and the lidar is sure to see {sees} m: the top speed is lowered.",
   "braking.take": "Take over",
   "braking.take_slower": "Take over, at most {speed} m/s",

@@ -240,7 +240,7 @@ export const ja: Record<TextKey, string> = {
   "braking.latency": "遅れ時間",
   "braking.way": "停止距離",
   "braking.running": "測定中：{all}回のうち{done}回",
-  "braking.verdict": "最も悪い測定値：{deceleration} m/s²、反応時間 {reaction} s",
+  "braking.verdict": "反映する値：{deceleration} m/s²、反応時間 {reaction} s。入力値より良い値は積載時のみ有効です。",
   "braking.too_fast": "{speed} m/sでは停止に{needs} m必要ですが、ライダーが確実に見えるのは{sees} mです。最高速度を下げます。",
   "braking.take": "採用",
   "braking.take_slower": "採用（最高 {speed} m/s）",
