@@ -1,6 +1,7 @@
 #include "app/braking/braking_desk.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace madori::app {
 
@@ -15,6 +16,10 @@ bool BrakingDesk::start(const BrakingPlan& plan, bool loaded) {
 std::vector<OperatorCommand> BrakingDesk::after_step(const CycleInput& input, const CycleState& state,
                                                      const CycleConfig& config) {
   const std::scoped_lock lock(mutex_);
+  // Encoders tell angles: of wheels that were corrected since, no stop is known.
+  if (std::exchange(wheel_radius_m_, config.odometry.wheels.left_radius_m) !=
+      config.odometry.wheels.left_radius_m)
+    stops_.clear();
   if (!test_ || test_->ended()) return {};
   auto words = test_->after_step(input, state, config);
   if (!test_->ended() || !test_->trouble().empty()) return words;

@@ -33,7 +33,8 @@ class BrakingDesk {
   mutable std::mutex mutex_;
   std::optional<BrakingTest> test_;
   bool loaded_ = false;
-  std::vector<BrakingStop> stops_;  ///< of tests that ended well
+  std::vector<BrakingStop> stops_;  ///< of tests that ended well, with these wheels:
+  double wheel_radius_m_ = 0.0;
 };
 
 }  // namespace madori::app

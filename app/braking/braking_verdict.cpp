@@ -25,8 +25,12 @@ double rounded_up(double value) {
 }  // namespace
 
 BrakingSite braking_site(const CycleConfig& config) {
-  return {config.limits.max_speed_mps, config.sure_range_m, config.check.braking.scan_period_s,
-          braking_test_way_m(config.limits.max_speed_mps, config)};
+  return {config.limits.max_speed_mps,
+          config.sure_range_m,
+          config.check.braking.scan_period_s,
+          braking_test_way_m(config.limits.max_speed_mps, config),
+          config.check.braking.deceleration_mps2,
+          config.check.braking.reaction_s};
 }
 
 std::optional<BrakingVerdict> verdict_of(const std::vector<BrakingStop>& stops, const BrakingSite& site) {
@@ -37,9 +41,12 @@ std::optional<BrakingVerdict> verdict_of(const std::vector<BrakingStop>& stops, 
     slowest = std::max(slowest, stop.latency_s);
   }
   BrakingVerdict verdict;
-  verdict.loaded = std::ranges::any_of(stops, &BrakingStop::loaded);
   verdict.deceleration_mps2 = rounded_down(weakest);
   verdict.reaction_s = rounded_up(slowest + kCyclePeriodS);
+  if (std::ranges::none_of(stops, &BrakingStop::loaded)) {  // with a load they can only be worse
+    verdict.deceleration_mps2 = std::min(verdict.deceleration_mps2, site.deceleration_mps2);
+    verdict.reaction_s = std::max(verdict.reaction_s, site.reaction_s);
+  }
   planning::BrakingModel braking;
   braking.deceleration_mps2 = verdict.deceleration_mps2;
   braking.reaction_s = verdict.reaction_s;
@@ -59,11 +66,8 @@ mapping::VehicleRecord with_measured(mapping::VehicleRecord record, const Brakin
                     two_decimals(verdict.sees_m) + " m",
                 "lower max_speed_mps to " + two_decimals(verdict.allowed_mps) +
                     ", or mount a lidar with a finer step");
-  // The record is of the loaded vehicle: brakes that were tried empty can only be worse than it says.
-  record.max_deceleration_mps2 = verdict.loaded
-                                     ? verdict.deceleration_mps2
-                                     : std::min(verdict.deceleration_mps2, record.max_deceleration_mps2);
-  record.reaction_s = verdict.loaded ? verdict.reaction_s : std::max(verdict.reaction_s, record.reaction_s);
+  record.max_deceleration_mps2 = verdict.deceleration_mps2;
+  record.reaction_s = verdict.reaction_s;
   if (outruns(verdict, record.max_speed_mps)) record.max_speed_mps = verdict.allowed_mps;
   return record;
 }

@@ -16,9 +16,9 @@ struct BrakingStop {
   control::MeasuredStop stop;
 };
 
-/// What the stops say that the site's record should hold: the worst of them, rounded to the safe side.
+/// What the stops say that the site's record should hold: the worst of them, rounded to the safe side. The
+/// record is of the loaded vehicle: where none of them was, nothing better than what it holds.
 struct BrakingVerdict {
-  bool loaded = false;  ///< some of the stops were
   double deceleration_mps2 = 0.0;
   double reaction_s = 0.0;   ///< latency, and the cycle's period that what is seen waits for its step
   double needs_m = 0.0;      ///< to stand from the site's top speed, from when something could be seen
@@ -32,6 +32,7 @@ struct BrakingSite {
   double sees_m = 0.0;  ///< how far ahead something is sure to be seen (sure_ahead_m)
   double scan_period_s = 0.0;
   double way_m = 0.0;  ///< that a test from the top speed needs (braking_test_way_m)
+  double deceleration_mps2 = 0.0, reaction_s = 0.0;  ///< of the record
 };
 [[nodiscard]] BrakingSite braking_site(const CycleConfig& config);
 
@@ -44,8 +45,8 @@ struct BrakingSite {
   return top_speed_mps > verdict.allowed_mps;
 }
 
-/// The record with the measured values; the better ones of an empty vehicle are not taken. Throws Error,
-/// which names the speed, where its top speed would outrun the lidar and may not be lowered (`lower_speed`).
+/// The record with the verdict's values. Throws Error, which names the speed, where its top speed would
+/// outrun the lidar and may not be lowered (`lower_speed`).
 [[nodiscard]] mapping::VehicleRecord with_measured(mapping::VehicleRecord record,
                                                    const BrakingVerdict& verdict, bool lower_speed);
 

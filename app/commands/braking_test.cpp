@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -27,8 +28,10 @@ void print(const std::vector<BrakingStop>& stops, const BrakingVerdict& verdict,
   for (const auto& [loaded, stop] : stops)
     std::fprintf(stream, "%-8s %.2f m/s   %.3f m/s2   %.3f s   %.3f m\n", loaded ? "loaded" : "empty",
                  stop.speed_mps, stop.deceleration_mps2, stop.latency_s, stop.way_m);
-  std::fprintf(stream, "measured: max_deceleration_mps2 %.2f, reaction_s %.2f\n", verdict.deceleration_mps2,
-               verdict.reaction_s);
+  std::fprintf(
+      stream, "to be recorded: max_deceleration_mps2 %.2f, reaction_s %.2f%s\n", verdict.deceleration_mps2,
+      verdict.reaction_s,
+      std::ranges::none_of(stops, &BrakingStop::loaded) ? " (better values only count with a load)" : "");
   std::fprintf(stream, "site.yaml: max_deceleration_mps2 %.2f, reaction_s %.2f\n",
                record.max_deceleration_mps2, record.reaction_s);
   std::fprintf(stream, "at %.2f m/s the vehicle needs %.2f m to stand; the lidar is sure to %.2f m: %s\n",

@@ -101,15 +101,17 @@ nlohmann::json json_of(const Measured& measured) {
                           {"second", measured.findings[a.second].typed.name},
                           {"apart_m", a.apart_m},
                           {"walls", a.walls}});
-  const WheelGeometry& w = measured.found.wheels;
+  nlohmann::json wheels;  // null where nothing tells them
+  if (const auto& w = measured.found.wheels)
+    wheels = {{"left_radius_m", w->geometry.left_radius_m},
+              {"right_radius_m", w->geometry.right_radius_m},
+              {"half_separation_m", w->geometry.half_separation_m},
+              {"sigma_percent", {100.0 * w->sigma[0], 100.0 * w->sigma[1], 100.0 * w->sigma[2]}}};
   return {{"lidars", lidars},
           {"agreements", agreements},
           {"turned_deg", to_deg(measured.found.turned_rad)},
           {"driven_m", measured.found.driven_m},
-          {"wheels",
-           {{"left_radius_m", w.left_radius_m},
-            {"right_radius_m", w.right_radius_m},
-            {"half_separation_m", w.half_separation_m}}}};
+          {"wheels", wheels}};
 }
 
 /// Takes over what was found; addresses and settings stay.
@@ -137,7 +139,7 @@ void calibrate_mountings(const std::string& folder, const SocketOptions& devices
   const Measured measured = arguments.log.empty() ? from_drive(folder, site, vehicle.odometry.wheels, devices)
                                                   : from_log(arguments.log, site, vehicle);
   if (arguments.json_file != "-")
-    std::fputs(mounting_text(measured.found, measured.findings, vehicle.odometry.wheels).c_str(), stdout);
+    std::fputs(mounting_text(measured.found, measured.findings).c_str(), stdout);
   write_json(arguments.json_file, json_of(measured));
   if (std::ranges::all_of(measured.findings, [](const MountingFinding& f) {
         return f.measured.known == localization::MountingKnown::Nothing && !f.measured.floor;

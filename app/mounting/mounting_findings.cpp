@@ -12,8 +12,20 @@ namespace {
 
 using localization::MountingKnown;
 
-double share_percent(double found, double believed) {
-  return 100.0 * (found / believed - 1.0);
+/// Against what is typed.
+std::string wheels_text(const std::optional<localization::FoundWheels>& found) {
+  if (!found) return "the wheels: not found\n";
+  const Eigen::Vector3d percent = 100.0 * found->too_large, sigma = 100.0 * found->sigma;
+  return fmt::format(
+      "the wheels: left {:+.2f} +- {:.2f} %, right {:+.2f} +- {:.2f} %, distance {:+.2f} +- {:.2f} % against "
+      "what is typed\n",
+      percent[0], sigma[0], percent[1], sigma[1], percent[2], sigma[2]);
+}
+
+Notice lack_of(const localization::FoundMounting& lidar, const localization::MountingCalibration& found) {
+  if (lidar.lack != localization::MountingLack::Wheels) return lack_words(lidar.lack);
+  const auto percent = [&](int i) { return fmt::format("{:+.1f}", 100.0 * found.wheels->too_large[i]); };
+  return notice(kLackWheels, {{"left", percent(0)}, {"right", percent(1)}, {"distance", percent(2)}});
 }
 
 double rounded(double value, double per_unit) {
@@ -39,7 +51,7 @@ std::vector<MountingFinding> mounting_findings(const localization::MountingCalib
   std::vector<MountingFinding> all;
   for (std::size_t i = 0; i < sensors.size() && i < found.lidars.size(); ++i) {
     const auto& lidar = found.lidars[i];
-    MountingFinding one{sensors[i], sensors[i], lidar, lack_words(lidar.lack)};
+    MountingFinding one{sensors[i], sensors[i], lidar, lack_of(lidar, found)};
     if (lidar.known != MountingKnown::Nothing)
       one.found.yaw_deg = rounded(to_deg(lidar.mounting.yaw_rad), 100.0);
     if (lidar.known == MountingKnown::All) {
@@ -57,7 +69,7 @@ std::string known_word(MountingKnown known) {
 }
 
 std::string mounting_text(const localization::MountingCalibration& found,
-                          const std::vector<MountingFinding>& findings, const WheelGeometry& believed) {
+                          const std::vector<MountingFinding>& findings) {
   std::string text;
   for (const auto& f : findings) {
     const auto& m = f.measured;
@@ -87,15 +99,9 @@ std::string mounting_text(const localization::MountingCalibration& found,
     text +=
         fmt::format("lidars {} and {} see {} pieces of the same walls, {:.1f} mm apart\n",
                     findings[a.first].typed.name, findings[a.second].typed.name, a.walls, a.apart_m * 1e3);
-  text += fmt::format(
-      "the wheels: left {:+.2f} %, right {:+.2f} %, distance {:+.2f} % against what is typed; turned {:.0f} "
-      "deg, "
-      "driven {:.1f} m\n",
-      share_percent(found.wheels.left_radius_m, believed.left_radius_m),
-      share_percent(found.wheels.right_radius_m, believed.right_radius_m),
-      share_percent(found.wheels.half_separation_m, believed.half_separation_m), to_deg(found.turned_rad),
-      found.driven_m);
-  return text;
+  return text + wheels_text(found.wheels) +
+         fmt::format("by the wheels: turned {:.0f} deg, driven {:.1f} m\n", to_deg(found.turned_rad),
+                     found.driven_m);
 }
 
 }  // namespace madori::app

@@ -14,7 +14,7 @@ struct MountingFinding {
   mapping::SensorRecord typed;
   mapping::SensorRecord found;  ///< what was not found is as typed
   localization::FoundMounting measured;
-  Notice lack;  ///< why not all was found; empty where all was
+  Notice lack;  ///< why not all was found, or with which wheels it was; empty where nothing is to be said
 
   [[nodiscard]] double apart_m() const;
   [[nodiscard]] double turned_deg() const;
@@ -29,8 +29,7 @@ struct MountingFinding {
 /// For a terminal: a paragraph a lidar, typed against found, with sigmas and residuals; how the lidars agree;
 /// the wheels.
 [[nodiscard]] std::string mounting_text(const localization::MountingCalibration& found,
-                                        const std::vector<MountingFinding>& findings,
-                                        const WheelGeometry& believed);
+                                        const std::vector<MountingFinding>& findings);
 
 /// "all", "yaw" or "nothing", for JSON and the panel.
 [[nodiscard]] std::string known_word(localization::MountingKnown known);

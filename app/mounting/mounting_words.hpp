@@ -29,6 +29,14 @@ inline constexpr CatalogueEntry kLackTurn{
     "lack-turn", "x and y stay as typed: the vehicle must turn by at least 120 degrees"};
 inline constexpr CatalogueEntry kLackStraight{
     "lack-straight", "nothing can be told: the vehicle must drive a metre straight on"};
+inline constexpr CatalogueEntry kLackContradiction{
+    "lack-contradiction",
+    "what the lidar saw and what the wheels turned do not fit together: check each wheel's size, side and "
+    "direction, and that the lidar hangs upright; measure where walls are seen in two directions"};
+inline constexpr CatalogueEntry kLackWheels{"lack-wheels",
+                                            "the wheels are not as typed: left {left} %, right {right} %, "
+                                            "distance {distance} %; correct wheel_radius_m "
+                                            "and half_wheel_separation_m"};
 
 /// What kept the rest of a mounting from being found; empty where nothing did.
 [[nodiscard]] inline Notice lack_words(localization::MountingLack lack) {
@@ -42,6 +50,10 @@ inline constexpr CatalogueEntry kLackStraight{
       return notice(kLackTurn);
     case MountingLack::Straight:
       return notice(kLackStraight);
+    case MountingLack::Contradiction:
+      return notice(kLackContradiction);
+    case MountingLack::Wheels:
+      return notice(kLackWheels);
     case MountingLack::Nothing:
       break;
   }

@@ -203,7 +203,7 @@ struct BrakingView {
     bool loaded = false;
     double speed_mps = 0.0, deceleration_mps2 = 0.0, latency_s = 0.0, way_m = 0.0;
   };
-  /// The worst of all stops.
+  /// What the record should hold: the worst of all stops, and nothing better than it holds without a load.
   struct Verdict {
     double deceleration_mps2 = 0.0, reaction_s = 0.0;
     double needs_m = 0.0;      ///< to stand from the site's top speed

@@ -131,10 +131,22 @@ void deskew_again(CalibrationState& state, const std::vector<LidarLook>& looks,
   }
 }
 
-MountingLack lack_of(const FoundMounting& found, const MountingCalibration& all) {
+constexpr double kMostOff = 3.0;  // sigmas
+
+/// What was seen makes one room, and wheels that have a size and turn forward went through it so.
+bool fits_together(const CalibrationState& state, const CalibrationQuality& quality, std::size_t lidar) {
+  const bool are_wheels =
+      std::ranges::all_of(state.wheels, [](double too_large) { return too_large > -1.0; });
+  return quality.on_walls[lidar] > 0.5 && quality.way_off < kMostOff && are_wheels;
+}
+
+MountingLack lack_of(const FoundMounting& found, const MountingCalibration& all,
+                     const CalibrationQuality& quality, bool fits) {
   constexpr double kEnoughTurnRad = to_rad(120.0), kEnoughWayM = 0.8;
   if (found.sweeps < static_cast<int>(kFewestSweeps)) return MountingLack::Sweeps;
-  if (found.known == MountingKnown::All) return MountingLack::Nothing;
+  if (!fits) return MountingLack::Contradiction;
+  if (found.known == MountingKnown::All)
+    return quality.sizes_off < kMostOff ? MountingLack::Nothing : MountingLack::Wheels;
   if (found.walls < kFewestWalls) return MountingLack::Walls;
   if (all.driven_m < kEnoughWayM) return MountingLack::Straight;
   if (all.turned_rad < kEnoughTurnRad) return MountingLack::Turn;
@@ -157,6 +169,7 @@ FoundMounting found_of(const CalibrationState& state, const CalibrationQuality& 
   found.sigma = {std::hypot(sigma[0], kModelM), std::hypot(sigma[1], kModelM),
                  std::hypot(sigma[2], kModelRad)};
   if (found.walls < kFewestWalls || !(found.sigma[2] < kYawKnownRad)) return found;
+  if (!fits_together(state, quality, lidar)) return found;
   found.known = MountingKnown::Yaw;
   found.mounting.yaw_rad = wrap_angle(state.base_from_lidar[lidar][2]);
   if (!(found.sigma[0] < kPlaceKnownM && found.sigma[1] < kPlaceKnownM)) return found;
@@ -226,12 +239,15 @@ MountingCalibration calibrate_mounting(const MountingDrive& drive, const std::ve
   std::ranges::stable_sort(state.sweeps, {}, &CalibrationSweep::end);
   const CalibrationQuality quality = refine(state, looks, lidars, drive, believed);
   MountingCalibration result;
-  result.wheels = scaled(believed, state);
   result.turned_rad = path.turned_rad();
   result.driven_m = path.driven_m();
   for (std::size_t i = 0; i < lidars.size(); ++i) {
     result.lidars.push_back(found_of(state, quality, i, lidars[i], looks[i]));
-    result.lidars[i].lack = lack_of(result.lidars[i], result);
+    const bool fits = !quality.good || fits_together(state, quality, i);
+    result.lidars[i].lack = lack_of(result.lidars[i], result, quality, fits);
+    if (result.lidars[i].known == MountingKnown::Nothing) continue;
+    const Eigen::Vector3d too_large(state.wheels[0], state.wheels[1], state.wheels[2]);
+    result.wheels = FoundWheels{scaled(believed, state), too_large, quality.wheel_sigma};
   }
   for (std::size_t i = 0; quality.good && i < lidars.size(); ++i)
     for (std::size_t j = i + 1; j < lidars.size(); ++j)

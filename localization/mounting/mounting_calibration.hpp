@@ -27,10 +27,13 @@ enum class MountingKnown {
 /// What kept the rest from being found.
 enum class MountingLack {
   Nothing,
-  Sweeps,    ///< the lidar was hardly heard
-  Walls,     ///< too few walls, or all in one direction
-  Turn,      ///< the vehicle did not turn enough: x and y need that
-  Straight,  ///< it did not drive enough straight on: everything needs that
+  Sweeps,         ///< the lidar was hardly heard
+  Walls,          ///< too few walls, or all in one direction
+  Turn,           ///< the vehicle did not turn enough: x and y need that
+  Straight,       ///< it did not drive enough straight on: everything needs that
+  Contradiction,  ///< what was seen makes no room, or not with these wheels: a wheel on the other side or
+                  ///< reversed, a lidar upside down, walls in one direction alone
+  Wheels,         ///< all was found, with wheels of quite another size than was given
 };
 
 struct FoundMounting {
@@ -51,10 +54,17 @@ struct LidarAgreement {
   int walls = 0;
 };
 
+/// The wheels as they really are.
+struct FoundWheels {
+  WheelGeometry geometry;
+  Eigen::Vector3d too_large = Eigen::Vector3d::Zero();  ///< left, right, distance: share of what was believed
+  Eigen::Vector3d sigma = Eigen::Vector3d::Zero();      ///< of these
+};
+
 struct MountingCalibration {
   std::vector<FoundMounting> lidars;
-  WheelGeometry wheels;     ///< as they really are
-  double turned_rad = 0.0;  ///< all directions added up
+  std::optional<FoundWheels> wheels;  ///< where some mounting was found
+  double turned_rad = 0.0;            ///< all directions added up
   double driven_m = 0.0;
   std::vector<LidarAgreement> agreements;
 };
@@ -66,7 +76,9 @@ struct MountingCalibration {
 /// Cauchy loss). The start comes from each lidar's own motion by its scans and the closed form of Censi et
 /// al., "Simultaneous calibration of odometry and sensor parameters for mobile robots" (2013), with the
 /// rotation of the scans; the mountings of `lidars` need not be near. Wheels do not slide sideways, the
-/// lidar's metre is the truth, and the vehicle stands at the first sweeps.
+/// lidar's metre is the truth, and the vehicle stands at the first sweeps. Nothing is found where the answer
+/// contradicts what went into it: less than half of the pieces lie on walls that several sweeps saw, the way
+/// by the wheels lies three sigmas beside the poses, or a wheel would have to turn the other way round.
 [[nodiscard]] MountingCalibration calibrate_mounting(const MountingDrive& drive,
                                                      const std::vector<LidarModel>& lidars,
                                                      const WheelGeometry& believed);

@@ -102,13 +102,14 @@ std::vector<std::vector<Sighting>> put_together(const CalibrationState& state, c
     const Transform2<Room, Lidar> pose =
         pose_of(sweep) * Transform2<Base, Lidar>(mount[0], mount[1], mount[2]);
     for (const WallPiece& piece : sweep.pieces)
-      sightings[sweep.lidar].push_back({k, walls[sweep.lidar].add(piece, pose, gates), piece});
+      sightings[sweep.lidar].push_back({k, walls[sweep.lidar].add(piece, pose, gates, k), piece});
   }
   return sightings;
 }
 
-/// Of the problem as it stands: the normal equations' inverse in the columns of the mountings.
-bool covariances(ceres::Problem& problem, const std::vector<double*>& mounts,
+/// Of the problem as it stands: the normal equations' inverse in the columns of some `wanted` blocks of
+/// three.
+bool covariances(ceres::Problem& problem, const std::vector<double*>& wanted,
                  std::vector<Eigen::Matrix3d>& out) {
   ceres::Problem::EvaluateOptions options;
   problem.GetParameterBlocks(&options.parameter_blocks);
@@ -122,15 +123,15 @@ bool covariances(ceres::Problem& problem, const std::vector<double*>& mounts,
   const Eigen::SparseMatrix<double> normal = Eigen::SparseMatrix<double>(jacobian.transpose() * jacobian);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
   if (factor.info() != Eigen::Success) return false;
-  out.assign(mounts.size(), Eigen::Matrix3d::Zero());
+  out.assign(wanted.size(), Eigen::Matrix3d::Zero());
   int column = 0;
   for (double* block : options.parameter_blocks) {
-    const auto found = std::ranges::find(mounts, block);
-    if (found != mounts.end()) {
+    const auto found = std::ranges::find(wanted, block);
+    if (found != wanted.end()) {
       Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(crs.num_cols, 3);
       unit.block<3, 3>(column, 0).setIdentity();
       const Eigen::MatrixXd solved = factor.solve(unit);
-      out[static_cast<std::size_t>(found - mounts.begin())] = solved.block<3, 3>(column, 0);
+      out[static_cast<std::size_t>(found - wanted.begin())] = solved.block<3, 3>(column, 0);
     }
     column += problem.ParameterBlockSize(block);
   }
@@ -157,9 +158,9 @@ class MountingProblem {
         way_m += std::abs(left) * cost->wheels.left_radius_m + std::abs(right) * cost->wheels.right_radius_m;
       cost->sigma_m = std::hypot(kStandsM, kSlipM * std::sqrt(0.5 * way_m));
       cost->sigma_rad = cost->sigma_m / cost->wheels.half_separation_m;
-      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<WheelCost, 3, 3, 3, 3>(cost.release()),
-                                nullptr, from.room_from_base.data(), to.room_from_base.data(),
-                                state_.wheels.data());
+      wheel_blocks_.push_back(problem_.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<WheelCost, 3, 3, 3, 3>(cost.release()), nullptr,
+          from.room_from_base.data(), to.room_from_base.data(), state_.wheels.data()));
     }
   }
 
@@ -168,6 +169,7 @@ class MountingProblem {
     for (std::size_t lidar = 0; lidar < walls_.size(); ++lidar) {
       const auto& walls = walls_[lidar].walls();
       lines_[lidar].resize(walls.size());
+      pieces_.push_back(sightings_[lidar].size());
       std::erase_if(sightings_[lidar],
                     [&](const Sighting& s) { return walls[s.wall].sightings < kFewestSightings; });
       for (const Sighting& s : sightings_[lidar]) {
@@ -201,8 +203,13 @@ class MountingProblem {
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
     CalibrationQuality quality;
-    quality.good = summary.IsSolutionUsable() && covariances(problem_, mounts_, quality.covariance);
+    auto wanted = mounts_;
+    wanted.push_back(state_.wheels.data());
+    quality.good = summary.IsSolutionUsable() && covariances(problem_, wanted, quality.covariance);
+    if (quality.good) judge_wheels(quality);
     for (std::size_t lidar = 0; lidar < walls_.size(); ++lidar) {
+      const double pieces = static_cast<double>(std::max<std::size_t>(pieces_[lidar], 1));
+      quality.on_walls.push_back(static_cast<double>(sightings_[lidar].size()) / pieces);
       quality.residual_m.push_back(residual_m(lidar));
       quality.walls.push_back(found_walls(lidar));
     }
@@ -213,6 +220,24 @@ class MountingProblem {
   void add_prior(double* block, const Parameters& at, const Parameters& sigma) {
     problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<PriorCost, 3, 3>(new PriorCost{at, sigma}),
                               nullptr, block);
+  }
+  [[nodiscard]] double way_off() const {
+    double squares = 0.0;
+    for (const auto block : wheel_blocks_) {
+      double cost = 0.0;
+      problem_.EvaluateResidualBlock(block, false, &cost, nullptr, nullptr);
+      squares += 2.0 * cost;
+    }
+    return std::sqrt(squares / static_cast<double>(3 * wheel_blocks_.size()));
+  }
+  void judge_wheels(CalibrationQuality& quality) const {
+    quality.way_off = way_off();
+    const Eigen::Map<const Eigen::Vector3d> too_large(state_.wheels.data());
+    quality.sizes_off = too_large.norm() / (std::sqrt(3.0) * kWheelPrior);
+    // Wheels that err more than they were believed to make everything less certain by as much.
+    for (auto& covariance : quality.covariance) covariance *= std::pow(std::max(1.0, quality.way_off), 2);
+    quality.wheel_sigma = quality.covariance.back().diagonal().cwiseMax(0.0).cwiseSqrt();
+    quality.covariance.pop_back();
   }
   /// Of the middles of its pieces, the median as an RMS.
   [[nodiscard]] double residual_m(std::size_t lidar) const {
@@ -244,6 +269,8 @@ class MountingProblem {
   std::vector<std::vector<Sighting>> sightings_;           ///< by lidar
   std::vector<std::vector<std::array<double, 2>>> lines_;  ///< what each wall's normal and offset change by
   std::vector<double*> mounts_;
+  std::vector<std::size_t> pieces_;                   ///< by lidar, on walls or not
+  std::vector<ceres::ResidualBlockId> wheel_blocks_;  ///< what the wheels turned
   ceres::Problem problem_;
 };
 

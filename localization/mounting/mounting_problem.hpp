@@ -28,8 +28,12 @@ struct CalibrationState {
 /// What is known of the answer.
 struct CalibrationQuality {
   bool good = false;
-  std::vector<Eigen::Matrix3d> covariance;   ///< of each mounting
-  std::vector<double> residual_m;            ///< of each lidar's pieces off their walls, a robust RMS
+  std::vector<Eigen::Matrix3d> covariance;  ///< of each mounting
+  Eigen::Vector3d wheel_sigma{0, 0, 0};     ///< of the state's `wheels`
+  double way_off = 0.0;            ///< RMS of the way that these wheels tell beside the poses, sigmas
+  double sizes_off = 0.0;          ///< RMS of the wheels' sizes beside what was believed, sigmas
+  std::vector<double> on_walls;    ///< share of each lidar's pieces on walls that several sweeps saw
+  std::vector<double> residual_m;  ///< of each lidar's pieces off their walls, a robust RMS
   std::vector<std::vector<RoomWall>> walls;  ///< as each lidar saw them, in the room
 };
 

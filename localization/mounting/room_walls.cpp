@@ -74,12 +74,14 @@ std::optional<std::size_t> RoomWalls::find(const WallPiece& piece, const Transfo
 }
 
 std::size_t RoomWalls::add(const WallPiece& piece, const Transform2<Room, Lidar>& pose,
-                           const WallGates& gates) {
+                           const WallGates& gates, std::size_t sweep) {
   if (const auto found = find(piece, pose, gates)) {
-    ++walls_[*found].sightings;
+    RoomWall& wall = walls_[*found];
+    wall.sightings += wall.last_sweep == sweep ? 0 : 1;
+    wall.last_sweep = sweep;
     return *found;
   }
-  walls_.push_back({pose * piece.centre, normal_in_room(piece, pose), 0.0, 1});
+  walls_.push_back({pose * piece.centre, normal_in_room(piece, pose), 0.0, 1, sweep});
   return walls_.size() - 1;
 }
 
@@ -113,7 +115,7 @@ std::vector<Transform2<Room, Lidar>> track_lidar(const std::vector<std::vector<W
         pose = step_pose(room, sweeps[k], pose, guess, sigma, gates, lidar);
       before = Transform2<Lidar, Room>(poses.back().inverse()) * pose;
     }
-    for (const WallPiece& piece : sweeps[k]) room.add(piece, pose, kJoin);
+    for (const WallPiece& piece : sweeps[k]) room.add(piece, pose, kJoin, k);
     poses.push_back(pose);
   }
   return poses;

@@ -16,7 +16,8 @@ struct RoomWall {
   Point2<Room> about;
   double normal_rad = 0.0;  ///< direction of the normal, towards the lidar
   double offset_m = 0.0;
-  int sightings = 0;
+  int sightings = 0;           ///< sweeps that saw it: the lasers of one sweep are one look
+  std::size_t last_sweep = 0;  ///< of these
 };
 
 /// Pieces farther off are of another wall.
@@ -31,8 +32,9 @@ class RoomWalls {
   /// The nearest wall that the piece may lie on; nothing where there is none.
   [[nodiscard]] std::optional<std::size_t> find(const WallPiece& piece, const Transform2<Room, Lidar>& pose,
                                                 const WallGates& gates) const;
-  /// The same, counted as a sighting; where there is none the piece begins one.
-  std::size_t add(const WallPiece& piece, const Transform2<Room, Lidar>& pose, const WallGates& gates);
+  /// The same, counted as seen by the `sweep`; where there is none the piece begins one.
+  std::size_t add(const WallPiece& piece, const Transform2<Room, Lidar>& pose, const WallGates& gates,
+                  std::size_t sweep);
   [[nodiscard]] const std::vector<RoomWall>& walls() const { return walls_; }
 
  private:

@@ -87,7 +87,9 @@ MountingTrialResult run_mounting_trial(const MountingTrial& trial) {
   result.stopped = drive.notice().text;
   result.contacts = factory->collisions().size();
   const auto begun = std::chrono::steady_clock::now();
-  result.found = localization::calibrate_mounting(log.drive(), lidars, config.odometry.wheels);
+  auto driven = log.drive();
+  if (trial.wired_wrongly) trial.wired_wrongly(driven);
+  result.found = localization::calibrate_mounting(driven, lidars, config.odometry.wheels);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return result;
 }

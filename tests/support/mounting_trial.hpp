@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct MountingTrial {
   double way_m = 1.0;
   double turn_rad = 6.283185307179586;
   double pressed_at_s = -1.0;  ///< the emergency stop, for 0.3 s; below 0: never
+  std::function<void(localization::MountingDrive&)>
+      wired_wrongly;  ///< what became of it before it was looked at
 };
 
 struct MountingTrialResult {

@@ -110,6 +110,19 @@ TEST(BrakingTest, ARecordThatPromisesTooMuchIsFoundOut) {
   EXPECT_NEAR(verdict->reaction_s, 0.35 + 0.02, 0.025);
 }
 
+TEST(BrakingDesk, ForgetsTheStopsOfWheelsThatWereCorrected) {
+  Hall hall({}, as_recorded());
+  ASSERT_TRUE(hall.desk.start({0.5, 1}, false));
+  ASSERT_TRUE(hall.ends());
+  ASSERT_EQ(hall.desk.view().stops.size(), 1U);
+  CycleConfig corrected = hall.site.config;
+  (void)hall.desk.after_step({}, hall.run.state(), corrected);
+  EXPECT_EQ(hall.desk.view().stops.size(), 1U);
+  corrected.odometry.wheels.left_radius_m *= 1.1;
+  (void)hall.desk.after_step({}, hall.run.state(), corrected);
+  EXPECT_TRUE(hall.desk.view().stops.empty());
+}
+
 TEST(BrakingTest, TheWayMustBeFree) {
   Hall hall({}, as_recorded(), 16.5);
   ASSERT_TRUE(hall.desk.start({1.0, BrakingDesk::kStops}, false));
@@ -182,8 +195,16 @@ TEST(BrakingTest, ASilentLidarOrAProtectiveFieldEndsIt) {
 
 TEST(BrakingVerdict, WhatAnEmptyVehicleCanTheLoadedOneNeedNotBeAbleTo) {
   const mapping::VehicleRecord record;  // 0.8 m/s2
-  const BrakingSite site{1.0, 3.0, 0.1, 0.0};
+  const BrakingSite site{1.0, 3.0, 0.1, 0.0, record.max_deceleration_mps2, record.reaction_s};
   const std::vector<BrakingStop> better{{false, {1.0, 1.2, 0.05, 0.0}}}, worse{{false, {1.0, 0.5, 0.6, 0.0}}};
+  // The panel takes the verdict over as it is.
+  EXPECT_DOUBLE_EQ(verdict_of(better, site)->deceleration_mps2, record.max_deceleration_mps2);
+  EXPECT_DOUBLE_EQ(verdict_of(better, site)->reaction_s, record.reaction_s);
+  planning::BrakingModel of_record;
+  of_record.deceleration_mps2 = record.max_deceleration_mps2;
+  of_record.reaction_s = record.reaction_s;
+  of_record.scan_period_s = site.scan_period_s;
+  EXPECT_DOUBLE_EQ(verdict_of(better, site)->needs_m, of_record.horizon_m(site.top_speed_mps));
   const auto kept = with_measured(record, *verdict_of(better, site), false);
   EXPECT_DOUBLE_EQ(kept.max_deceleration_mps2, record.max_deceleration_mps2);
   EXPECT_DOUBLE_EQ(kept.reaction_s, record.reaction_s);

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "app/mounting/mounting_findings.hpp"
 #include "app/mounting/mounting_manoeuvre.hpp"
@@ -75,6 +77,9 @@ TEST(Mounting, DrivingStraightOnTellsTheYawAloneAndSaysSo) {
   EXPECT_LT(std::abs(wrap_angle(found.mounting.yaw_rad - to_rad(trial.truth.front().yaw_deg))), to_rad(0.3));
   EXPECT_DOUBLE_EQ(found.mounting.x_m, trial.typed.front().x_m) << "what was not observable is not guessed";
   EXPECT_DOUBLE_EQ(found.mounting.y_m, trial.typed.front().y_m);
+  ASSERT_TRUE(result.found.wheels);
+  EXPECT_LT(result.found.wheels->sigma.head<2>().maxCoeff(), 0.01);
+  EXPECT_GT(result.found.wheels->sigma[2], 0.02) << "how far apart the wheels are was not driven";
   EXPECT_NE(mounting_findings(result.found, trial.typed).front().lack.text.find("must turn"),
             std::string::npos);
 }
@@ -87,6 +92,59 @@ TEST(Mounting, TurningOnTheSpotAloneTellsNothing) {
   EXPECT_EQ(found.known, MountingKnown::Nothing);
   EXPECT_EQ(found.lack, MountingLack::Straight);
   EXPECT_DOUBLE_EQ(found.mounting.x_m, trial.typed.front().x_m);
+}
+
+void exchange_wheels(localization::MountingDrive& drive) {
+  for (auto& wheel : drive.wheels) std::swap(wheel.left_rad, wheel.right_rad);
+}
+void reverse_left_wheel(localization::MountingDrive& drive) {
+  for (auto& wheel : drive.wheels) wheel.left_rad = -wheel.left_rad;
+}
+void reverse_both_wheels(localization::MountingDrive& drive) {
+  for (auto& wheel : drive.wheels) wheel.left_rad = -wheel.left_rad, wheel.right_rad = -wheel.right_rad;
+}
+void hang_upside_down(localization::MountingDrive& drive) {
+  for (auto& sweep : drive.sweeps)
+    for (auto& p : sweep.points) p.y_m = -p.y_m, p.z_m = -p.z_m;
+}
+
+using Wiring = std::pair<const char*, void (*)(localization::MountingDrive&)>;
+class WiredWrongly : public testing::TestWithParam<std::tuple<const char*, Wiring>> {};
+
+TEST_P(WiredWrongly, FindsNothingAndSaysThatItDoesNotFitTogether) {
+  auto trial = test::random_mounting(std::get<0>(GetParam()), 3002);
+  trial.wired_wrongly = std::get<1>(GetParam()).second;
+  const auto result = test::run_mounting_trial(trial);
+  ASSERT_TRUE(result.driven) << result.stopped;
+  const auto& found = result.found.lidars.front();
+  EXPECT_EQ(found.known, MountingKnown::Nothing)
+      << found.mounting.x_m - trial.truth.front().x_m << " " << found.mounting.y_m - trial.truth.front().y_m;
+  EXPECT_EQ(found.lack, MountingLack::Contradiction);
+  EXPECT_FALSE(result.found.wheels) << "nor is anything told of the wheels";
+  EXPECT_DOUBLE_EQ(found.mounting.x_m, trial.typed.front().x_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Mounting, WiredWrongly,
+    testing::Combine(testing::Values("lms1xx", "vlp16"),
+                     testing::Values(Wiring{"exchanged", exchange_wheels}, Wiring{"left", reverse_left_wheel},
+                                     Wiring{"both", reverse_both_wheels}, Wiring{"lidar", hang_upside_down})),
+    [](const auto& info) {
+      return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param).first;
+    });
+
+TEST(Mounting, IsFoundWithWheelsOfHalfTheSizeTypedAndThatIsSaid) {
+  auto trial = test::random_mounting("lms1xx", 3002);
+  trial.wired_wrongly = [](localization::MountingDrive& drive) {
+    for (auto& wheel : drive.wheels) wheel.left_rad *= 2.0, wheel.right_rad *= 2.0;
+  };
+  const auto result = test::run_mounting_trial(trial);
+  const auto& found = result.found.lidars.front();
+  EXPECT_EQ(found.known, MountingKnown::All);
+  EXPECT_EQ(found.lack, MountingLack::Wheels);
+  const auto told = mounting_findings(result.found, trial.typed).front().lack;
+  EXPECT_EQ(told.code, kLackWheels.code);
+  EXPECT_NEAR(std::stod(told.values.at("left")), -50.0, 3.0);
 }
 
 TEST(WrongMounting, AHeightWrongByThirtyCentimetresIsToldBeforeTheFirstOrderWhichDoesNotStart) {
