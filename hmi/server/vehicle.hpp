@@ -97,7 +97,6 @@ struct LiveState {
   Stamp since{};  ///< of the state
   PoseEstimate pose;
   std::optional<VelocityCommand> velocity;  ///< as the wheels turn; nothing while the drive is silent
-  std::optional<double> battery_share;      ///< 0..1
   std::optional<double> battery_v;
   std::optional<double> score;  ///< share of the walls seen that lie on drawn ones, 0..1
   double odometer_m = 0.0;      ///< driven since the site began

@@ -83,7 +83,6 @@ json to_wire(const LiveState& live, Stamp now) {
           {"pose", pose_to_wire(live.pose, now)},
           {"speed", live.velocity ? rounded(live.velocity->linear_mps) : json(nullptr)},
           {"turn_rate", live.velocity ? rounded(live.velocity->angular_radps) : json(nullptr)},
-          {"battery", or_null(live.battery_share)},
           {"battery_v", or_null(live.battery_v)},
           {"score", or_null(live.score)},
           {"odometer_m", live.odometer_m},

@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     live.pose.covariance = Eigen::Vector3d(4e-4, 1e-4, 1e-5).asDiagonal();
     live.pose.health = {LocalizationState::Localized, ""};
     live.velocity = {0.25, 0.05};
-    live.battery_share = 0.64;
+    live.battery_v = 25.3;
     live.drivable = true;
     std::vector<Point2<Base>> scan;
     for (int i = 0; i < 20000; ++i) {

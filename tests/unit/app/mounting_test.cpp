@@ -129,8 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Values("lms1xx", "vlp16"),
                      testing::Values(Wiring{"exchanged", exchange_wheels}, Wiring{"left", reverse_left_wheel},
                                      Wiring{"both", reverse_both_wheels}, Wiring{"lidar", hang_upside_down})),
-    [](const auto& info) {
-      return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param).first;
+    [](const auto& wiring) {
+      return std::string(std::get<0>(wiring.param)) + "_" + std::get<1>(wiring.param).first;
     });
 
 TEST(Mounting, IsFoundWithWheelsOfHalfTheSizeTypedAndThatIsSaid) {

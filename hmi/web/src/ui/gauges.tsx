@@ -32,19 +32,18 @@ export function Gauges({ frame }: { frame: Frame | null }) {
   const t = useText();
   const age = useAge(frame);
   if (!frame) return null;
-  const { pose, speed, battery, battery_v, score, odometer_m } = frame.live;
+  const { pose, speed, battery_v, score, odometer_m } = frame.live;
   const accuracy = accuracyOf(pose.covariance);
   const lidar = heardAgo(frame, "lidar", age);
   const drive = heardAgo(frame, "drive", age);
   const known = pose.health !== "LOST";
-  const power = battery !== null ? t("unit.percent", { value: (100 * battery).toFixed(0) }) : t("unit.volts", { value: (battery_v ?? 0).toFixed(1) });
   return (
     <dl class="gauges">
       <Gauge name={t("drive.place")} bad={pose.health !== "LOCALIZED"} age={known ? Math.max(lidar, age + pose.age_s) : age}>{t(`health.${pose.health}`)}{known && typeof pose.place === "number" && ` ${t("unit.percent", { value: certainty(pose.place) })}`}</Gauge>
       <Gauge name={t("drive.score")} bad={known && typeof score === "number" && score < 0.5} age={lidar}>{known && typeof score === "number" ? t("unit.percent", { value: (100 * score).toFixed(0) }) : "–"}</Gauge>
       <Gauge name={t("drive.accuracy")} bad={known && accuracy > 0.5} age={known ? Math.max(lidar, drive) : age}>{known && accuracy < 100 ? t("unit.plus_minus_cm", { value: (100 * accuracy).toFixed(0) }) : "–"}</Gauge>
       <Gauge name={t("drive.speed")} age={drive}>{typeof speed === "number" ? t("unit.mps", { value: Math.abs(speed).toFixed(2) }) : "–"}</Gauge>
-      <Gauge name={t("drive.battery")} bad={battery !== null && battery < 0.2} age={drive}>{battery !== null || typeof battery_v === "number" ? power : "–"}</Gauge>
+      <Gauge name={t("drive.battery")} age={drive}>{typeof battery_v === "number" ? t("unit.volts", { value: battery_v.toFixed(1) }) : "–"}</Gauge>
       {typeof odometer_m === "number" && <Gauge name={t("drive.odometer")} age={age}>{t("unit.km", { value: (odometer_m / 1000).toFixed(2) })}</Gauge>}
     </dl>
   );

@@ -86,7 +86,7 @@ function liveState(t) {
     cause: waiting ? { code: "something-in-the-way", values: {}, text: "something stands in the way" } : none,
     remedy: waiting ? { code: "once-clear", values: {}, text: "it goes on by itself once clear" } : none,
     since: Date.now() / 1000 - (t % 10), pose: { ...poseAt(t), covariance: [0.04, 0.01, 0.02, 1e-4], health: "LOCALIZED", health_reason: "", age_s: 0.05 },
-    speed: waiting ? 0 : 0.6, turn_rate: 0.1, battery: null, battery_v: 25.3, emergency_stop: false, order: 7, goal: "Press 1",
+    speed: waiting ? 0 : 0.6, turn_rate: 0.1, battery_v: 25.3, emergency_stop: false, order: 7, goal: "Press 1",
     path: Array.from({ length: 40 }, (_, i) => Object.values(poseAt(t + i)).slice(0, 2)), blocked: waiting ? [[40, 24], [39, 23]] : [],
     particles: Array.from({ length: 100 }, (_, i) => [poseAt(t).x + 0.3 * Math.sin(i), poseAt(t).y + 0.3 * Math.cos(1.7 * i), 0]),
     devices: [{ name: "top", type: "made_up", title: "Made-up", healthy: true, age_s: 0.05, detail: none, rate_hz: 10 }, { name: "drive", type: "drive", title: "", healthy: true, age_s: 0.02, detail: none, rate_hz: 50 }],
