@@ -68,11 +68,16 @@ async function placeWaits(panel, world) {
   await touch(panel, "Pause");
   await stands(panel);
   const { x, y, yaw } = (await api(panel, "GET", "/api/locate")).json.hypotheses[0];
-  await api(panel, "POST", "/api/locate/search", {});
-  await api(panel, "POST", "/api/vehicle/resume", {});
-  await until("it waits for its place", async () => (await state(panel)) === "localizing", 5000);
-  const said = await api(panel, "POST", "/api/vehicle/pose", { x, y, yaw });
-  expect(said.status === 200, `the place was refused: ${JSON.stringify(said)}`);
+  let said;
+  for (let tries = 0; tries < 5 && said?.status !== 200; ++tries) {  // a search that ended before the place was said
+    if (tries > 0) await touch(panel, "Pause").then(() => stands(panel));
+    await api(panel, "POST", "/api/locate/search", {});
+    await api(panel, "POST", "/api/vehicle/resume", {});
+    await until("it waits for its place", async () => (await state(panel)) === "localizing", 5000);
+    said = await api(panel, "POST", "/api/vehicle/pose", { x, y, yaw });
+    expect(said.status === 200 || said.json.error.code === "driving", `the place was refused: ${JSON.stringify(said)}`);
+  }
+  expect(said.status === 200, "14: each search ended before the place was said");
   await until("its place is known", async () => (await panel.page.locator(".map-canvas").first().getAttribute("data-vehicle")) === "shown", 60_000);
   await new Promise((later) => setTimeout(later, 3000));
   expect((await state(panel)) === "paused", `14: the vehicle went on by itself after its place was said: ${await state(panel)}`);
@@ -274,6 +279,7 @@ async function main(browser) {
       failed.push(`${number}: ${error.message}`);
       console.log(`${number}: FAILED ${error.message}`);
       await picture(panel, `truth-failed-${number.replace(/\W+/g, "-")}`);
+      await api(panel, "POST", "/api/vehicle/halt", {}).catch(() => undefined);  // the next check begins standing
       await panel.page.reload().catch(() => undefined);
     }
   }
