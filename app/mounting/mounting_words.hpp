@@ -32,7 +32,7 @@ inline constexpr CatalogueEntry kLackStraight{
 inline constexpr CatalogueEntry kLackContradiction{
     "lack-contradiction",
     "what the lidar saw and what the wheels turned do not fit together: check each wheel's size, side and "
-    "direction, and that the lidar hangs upright; measure where walls are seen in two directions"};
+    "direction, and that the lidar hangs upright"};
 inline constexpr CatalogueEntry kLackWheels{"lack-wheels",
                                             "the wheels are not as typed: left {left} %, right {right} %, "
                                             "distance {distance} %; correct wheel_radius_m "

@@ -131,6 +131,17 @@ void deskew_again(CalibrationState& state, const std::vector<LidarLook>& looks,
   }
 }
 
+/// Enough walls, and at least one piece's worth of them across the others: along a corridor no motion is
+/// seen, and to go back along it looks as to go forward.
+bool are_enough(const std::vector<RoomWall>& walls) {
+  double c = 0.0, s = 0.0;  // of the doubled angles: opposite walls have one direction
+  for (const RoomWall& wall : walls)
+    c += std::cos(2.0 * wall.normal_rad), s += std::sin(2.0 * wall.normal_rad);
+  const auto count = static_cast<double>(walls.size());
+  const double across = 0.5 * (count - std::hypot(c, s));
+  return count >= kFewestWalls && across >= 1.0;
+}
+
 constexpr double kMostOff = 3.0;  // sigmas
 
 /// What was seen makes one room, and wheels that have a size and turn forward went through it so.
@@ -141,13 +152,13 @@ bool fits_together(const CalibrationState& state, const CalibrationQuality& qual
 }
 
 MountingLack lack_of(const FoundMounting& found, const MountingCalibration& all,
-                     const CalibrationQuality& quality, bool fits) {
+                     const CalibrationQuality& quality, bool walls, bool fits) {
   constexpr double kEnoughTurnRad = to_rad(120.0), kEnoughWayM = 0.8;
   if (found.sweeps < static_cast<int>(kFewestSweeps)) return MountingLack::Sweeps;
+  if (!walls) return MountingLack::Walls;
   if (!fits) return MountingLack::Contradiction;
   if (found.known == MountingKnown::All)
     return quality.sizes_off < kMostOff ? MountingLack::Nothing : MountingLack::Wheels;
-  if (found.walls < kFewestWalls) return MountingLack::Walls;
   if (all.driven_m < kEnoughWayM) return MountingLack::Straight;
   if (all.turned_rad < kEnoughTurnRad) return MountingLack::Turn;
   return MountingLack::Walls;
@@ -168,7 +179,7 @@ FoundMounting found_of(const CalibrationState& state, const CalibrationQuality& 
   const auto sigma = quality.covariance[lidar].diagonal().cwiseMax(0.0).cwiseSqrt().eval();
   found.sigma = {std::hypot(sigma[0], kModelM), std::hypot(sigma[1], kModelM),
                  std::hypot(sigma[2], kModelRad)};
-  if (found.walls < kFewestWalls || !(found.sigma[2] < kYawKnownRad)) return found;
+  if (!are_enough(quality.walls[lidar]) || !(found.sigma[2] < kYawKnownRad)) return found;
   if (!fits_together(state, quality, lidar)) return found;
   found.known = MountingKnown::Yaw;
   found.mounting.yaw_rad = wrap_angle(state.base_from_lidar[lidar][2]);
@@ -243,8 +254,9 @@ MountingCalibration calibrate_mounting(const MountingDrive& drive, const std::ve
   result.driven_m = path.driven_m();
   for (std::size_t i = 0; i < lidars.size(); ++i) {
     result.lidars.push_back(found_of(state, quality, i, lidars[i], looks[i]));
-    const bool fits = !quality.good || fits_together(state, quality, i);
-    result.lidars[i].lack = lack_of(result.lidars[i], result, quality, fits);
+    const bool walls = quality.good && are_enough(quality.walls[i]);
+    const bool fits = walls && fits_together(state, quality, i);
+    result.lidars[i].lack = lack_of(result.lidars[i], result, quality, walls, fits);
     if (result.lidars[i].known == MountingKnown::Nothing) continue;
     const Eigen::Vector3d too_large(state.wheels[0], state.wheels[1], state.wheels[2]);
     result.wheels = FoundWheels{scaled(believed, state), too_large, quality.wheel_sigma};

@@ -32,7 +32,7 @@ enum class MountingLack {
   Turn,           ///< the vehicle did not turn enough: x and y need that
   Straight,       ///< it did not drive enough straight on: everything needs that
   Contradiction,  ///< what was seen makes no room, or not with these wheels: a wheel on the other side or
-                  ///< reversed, a lidar upside down, walls in one direction alone
+                  ///< reversed, a lidar upside down
   Wheels,         ///< all was found, with wheels of quite another size than was given
 };
 

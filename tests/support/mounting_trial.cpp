@@ -24,14 +24,16 @@ double between(Random& random, double low, double high) {
 simulation::FactorySetup hall(const MountingTrial& trial) {
   Random random(trial.seed);
   simulation::FactorySetup setup;
-  const double length = between(random, 12.0, 25.0), width = between(random, 9.0, 16.0);
+  double length = between(random, 12.0, 25.0), width = between(random, 9.0, 16.0);
+  if (trial.corridor) length = 60.0, width = 3.2;
   const Point2<Map> a{0.0, 0.0}, b{length, 0.0}, c{length, width}, d{0.0, width};
   setup.walls = {{1, {a, b}}, {2, {b, c}}, {3, {c, d}}, {4, {d, a}}};
   auto& s = setup.scenario;
   s.name = "mounting";
   s.start = {length / 2.0 + between(random, -1.5, 1.5), width / 2.0 + between(random, -1.0, 1.0),
              between(random, -kPi, kPi)};
-  for (int i = 0; i < 8; ++i) {
+  if (trial.corridor) s.start = {length / 2.0, width / 2.0, 0.1};
+  for (int i = 0; i < (trial.corridor ? 0 : 8); ++i) {
     simulation::SolidSpec solid;
     solid.kind = i % 2 == 0 ? simulation::SolidKind::Machine : simulation::SolidKind::Pallet;
     solid.name = "thing " + std::to_string(i);

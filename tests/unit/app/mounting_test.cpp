@@ -133,6 +133,16 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(std::get<0>(wiring.param)) + "_" + std::get<1>(wiring.param).first;
     });
 
+TEST(Mounting, IsNotFoundInACorridorWhereBackLooksLikeForward) {
+  for (const std::uint64_t seed : {5002U, 5005U}) {
+    auto trial = test::random_mounting("lms1xx", seed);
+    trial.corridor = true;
+    const auto result = test::run_mounting_trial(trial);
+    EXPECT_EQ(result.found.lidars.front().known, MountingKnown::Nothing) << seed;
+    EXPECT_EQ(result.found.lidars.front().lack, MountingLack::Walls) << seed;
+  }
+}
+
 TEST(Mounting, IsFoundWithWheelsOfHalfTheSizeTypedAndThatIsSaid) {
   auto trial = test::random_mounting("lms1xx", 3002);
   trial.wired_wrongly = [](localization::MountingDrive& drive) {

@@ -304,7 +304,7 @@ export const de: Record<TextKey, string> = {
   "mounting.no-way": "Das Fahrzeug sollte fahren und tat es nicht: Räder befreien, dann neu messen.",
   "mounting.lack-sweeps": "Kaum ein Scan kam an: Lidar und Kabel prüfen.",
   "mounting.lack-walls": "Zu wenige Wände in Sicht: dort messen, wo Wände in zwei Richtungen zu sehen sind.",
-  "mounting.lack-contradiction": "Was das Lidar sah und was die Räder drehten, passt nicht zusammen: Größe, Seite und Drehrichtung jedes Rades prüfen, und dass das Lidar aufrecht hängt; dort messen, wo Wände in zwei Richtungen zu sehen sind.",
+  "mounting.lack-contradiction": "Was das Lidar sah und was die Räder drehten, passt nicht zusammen: Größe, Seite und Drehrichtung jedes Rades prüfen, und dass das Lidar aufrecht hängt.",
   "mounting.lack-wheels": "Die Räder sind nicht wie eingetragen: links {left} %, rechts {right} %, Abstand {distance} %. Radradius und Radabstand berichtigen.",
   "mounting.lack-turn": "Vorn und links bleiben wie eingetragen: Das Fahrzeug muss sich um mindestens 120 Grad drehen.",
   "mounting.lack-straight": "Nichts lässt sich sagen: Das Fahrzeug muss einen Meter geradeaus fahren.",

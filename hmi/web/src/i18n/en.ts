@@ -319,7 +319,7 @@ export const en = {
   "mounting.no-way": "The vehicle was told to drive and did not: free its wheels, then measure again.",
   "mounting.lack-sweeps": "Hardly any sweep came: check the lidar and its cable.",
   "mounting.lack-walls": "Too few walls are in sight: measure where walls are seen in two directions.",
-  "mounting.lack-contradiction": "What the lidar saw and what the wheels turned do not fit together: check each wheel's size, side and direction, and that the lidar hangs upright; measure where walls are seen in two directions.",
+  "mounting.lack-contradiction": "What the lidar saw and what the wheels turned do not fit together: check each wheel's size, side and direction, and that the lidar hangs upright.",
   "mounting.lack-wheels": "The wheels are not as typed: left {left} %, right {right} %, distance {distance} %. Correct the wheels' radius and distance.",
   "mounting.lack-turn": "Forward and left stay as typed: the vehicle must turn by at least 120 degrees.",
   "mounting.lack-straight": "Nothing can be told: the vehicle must drive a metre straight on.",

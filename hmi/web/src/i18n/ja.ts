@@ -320,7 +320,7 @@ export const ja: Record<TextKey, string> = {
   "mounting.no-way": "走行を指示しても動きません。車輪を確認して再測定してください。",
   "mounting.lack-sweeps": "スキャンがほとんど届きません。ライダーとケーブルを確認してください。",
   "mounting.lack-walls": "見える壁が足りません。二方向に壁が見える場所で測定してください。",
-  "mounting.lack-contradiction": "ライダーの観測と車輪の回転が一致しません。各車輪の寸法・左右・回転方向と、ライダーが上下逆でないかを確認し、二方向に壁が見える場所で測定してください。",
+  "mounting.lack-contradiction": "ライダーの観測と車輪の回転が一致しません。各車輪の寸法・左右・回転方向と、ライダーが上下逆でないかを確認してください。",
   "mounting.lack-wheels": "車輪が入力値と異なります：左 {left} %、右 {right} %、間隔 {distance} %。車輪半径と間隔を修正してください。",
   "mounting.lack-turn": "前方と左方は入力値のままです。120 度以上の旋回が必要です。",
   "mounting.lack-straight": "何も測定できません。1 m の直進が必要です。",
