@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "app/commands.hpp"
@@ -10,6 +11,7 @@
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
 #include "app/revision/drawing_revision.hpp"
+#include "app/runner/site_lock.hpp"
 #include "core/angle.hpp"
 
 namespace madori::app {
@@ -64,6 +66,8 @@ void add_diff(CLI::App& app) {
     arguments->options.date = iso_time_utc();
     const mapping::Progress progress = terminal_progress();
     const bool apply = arguments->apply;
+    std::optional<SiteLock> lock;
+    if (apply) lock.emplace(arguments->options.site, SiteUse::Change);
     const RevisedDrawing revised(arguments->options, progress);
     if (apply) revised.apply();
     if (progress) progress("done", 1.0);

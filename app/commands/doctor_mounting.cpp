@@ -116,6 +116,7 @@ nlohmann::json json_of(const Measured& measured) {
 
 /// Takes over what was found; addresses and settings stay.
 void apply(const std::string& folder, const std::vector<MountingFinding>& findings) {
+  const SiteLock lock(folder, SiteUse::Change);
   mapping::SiteTransaction change(folder);
   mapping::Site site = mapping::load_site(folder);
   for (std::size_t i = 0; i < site.sensors.size() && i < findings.size(); ++i) {

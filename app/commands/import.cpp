@@ -13,6 +13,7 @@
 #include "app/import_report.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
+#include "app/runner/site_lock.hpp"
 #include "core/result.hpp"
 #include "hmi/server/site_backup.hpp"
 #include "mapping/drawing/import_drawing.hpp"
@@ -81,6 +82,7 @@ void restore(const ImportArguments& arguments) {
   const auto& [drawing, given] = std::tie(arguments.options.drawing, arguments.options.site);
   const std::filesystem::path site = given.empty() ? drawing.stem() : given;
   expect_json(arguments.json_file, site);
+  const SiteLock lock(site, SiteUse::Change);
   const std::size_t files = hmi::read_backup(drawing, site, arguments.options.force);
   if (arguments.json_file != "-")
     std::printf("%s: %zu files of a backup, as they were\n", site.c_str(), files);
@@ -129,6 +131,7 @@ void add_import(CLI::App& app) {
     auto& touches = arguments->options.detection.touches;
     for (const std::string& place : arguments->like) touches.push_back(touch_at(place, true));
     for (const std::string& place : arguments->unlike) touches.push_back(touch_at(place, false));
+    const SiteLock lock(arguments->options.site, SiteUse::Change);
     const mapping::Progress progress = terminal_progress();
     const auto report = mapping::import_drawing(arguments->options, progress);
     if (progress) progress("done", 1.0);

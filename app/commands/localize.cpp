@@ -19,6 +19,7 @@
 #include "app/log_player.hpp"
 #include "app/plot/reliability_plot.hpp"
 #include "app/pose_argument.hpp"
+#include "app/runner/site_lock.hpp"
 #include "app/trajectory_file.hpp"
 #include "app/trajectory_plot.hpp"
 #include "core/median.hpp"
@@ -89,6 +90,8 @@ void keep_warp(const std::filesystem::path& folder, const mapping::Walls& walls,
 
 void localize(const LocalizeArguments& arguments) {
   const std::filesystem::path folder(arguments.site);
+  std::optional<SiteLock> lock;
+  if (arguments.learn || arguments.memory) lock.emplace(folder, SiteUse::Change);
   const mapping::Site site = mapping::load_scaled_site(folder);
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
   std::optional<localization::InitialPose> initial;

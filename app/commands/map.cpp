@@ -9,6 +9,7 @@
 #include "app/log_player.hpp"
 #include "app/mapped_site.hpp"
 #include "app/mapping_run.hpp"
+#include "app/runner/site_lock.hpp"
 #include "app/trajectory_plot.hpp"
 #include "core/median.hpp"
 #include "core/result.hpp"
@@ -67,6 +68,7 @@ void map_log(const MapArguments& arguments) {
     throw Error(arguments.out.string(), "is a site already",
                 "choose another --out, or give --force to replace it");
   }
+  const SiteLock lock(arguments.out, SiteUse::Change);
   const std::unique_ptr<localization::Mapper> mapper = make_mapper(arguments.method, arguments.seed);
   const mapping::Site vehicle_of = replaces ? mapping::load_site(arguments.out) : mapping::Site{};
   const auto log = sensors::open_log(arguments.log, log_options(vehicle_of, arguments.wheels));

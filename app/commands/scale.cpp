@@ -8,6 +8,7 @@
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
 #include "app/learned/calibration_file.hpp"
+#include "app/runner/site_lock.hpp"
 #include "app/scale_sources.hpp"
 #include "app/scaled_routes.hpp"
 #include "core/result.hpp"
@@ -75,6 +76,7 @@ void run(const ScaleArguments& arguments) {
     throw Error(arguments.site, "this scale is refused: " + found.best.reason,
                 "mend the inputs, or add --force to use it all the same");
   }
+  const SiteLock lock(arguments.site, SiteUse::Change);
   const double factor = mapping::apply_scale(
       arguments.site, found.best, iso_time_utc(),
       [&](mapping::SiteTransaction& change, double by) { stage_scaled_routes(arguments.site, change, by); });

@@ -9,6 +9,7 @@
 #include "app/commands/within.hpp"
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
+#include "app/runner/site_lock.hpp"
 #include "hmi/server/site_compare.hpp"
 #include "mapping/site/site_versions.hpp"
 
@@ -54,7 +55,10 @@ void add_versions(CLI::App& app) {
   command->add_option("--json", arguments->json_file, "write the figures to a file; - for stdout");
   command->callback([arguments] {
     expect_json(arguments->json_file);
-    if (arguments->restore > 0) mapping::restore_version(arguments->site, arguments->restore);
+    if (arguments->restore > 0) {
+      const SiteLock lock(arguments->site, SiteUse::Change);
+      mapping::restore_version(arguments->site, arguments->restore);
+    }
     if (arguments->compare.empty())
       list(*arguments);
     else

@@ -23,10 +23,20 @@ std::string holder(int file) {
 
 }  // namespace
 
-SiteLock::SiteLock(const std::filesystem::path& site) {
+SiteLock::SiteLock(const std::filesystem::path& site, SiteUse use) {
+  const auto name = site / ".run.lock";
+  if (use == SiteUse::Change) {
+    file_ = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file_ < 0) return;  // no program ever drove it
+    if (::flock(file_, LOCK_SH | LOCK_NB) == 0) return;
+    const std::string other = holder(file_);
+    ::close(file_);
+    throw Error(site.string(),
+                "a program drives the vehicle of this site" + other + " and has read what this changes",
+                "end it first, or change the site on its panel");
+  }
   std::error_code error;
   std::filesystem::create_directories(site, error);
-  const auto name = site / ".run.lock";
   file_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file_ < 0)
     throw Error(site.string(), std::string("cannot be written: ") + std::strerror(errno),
@@ -34,7 +44,8 @@ SiteLock::SiteLock(const std::filesystem::path& site) {
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
     const std::string other = holder(file_);
     ::close(file_);
-    throw Error(site.string(), "another program drives the vehicle of this site already" + other,
+    throw Error(site.string(),
+                "another program drives the vehicle of this site already, or changes the site" + other,
                 "end it first, or use its panel");
   }
   const std::string self = std::to_string(::getpid());
@@ -43,7 +54,7 @@ SiteLock::SiteLock(const std::filesystem::path& site) {
 }
 
 SiteLock::~SiteLock() {
-  ::close(file_);
+  if (file_ >= 0) ::close(file_);
 }
 
 }  // namespace madori::app

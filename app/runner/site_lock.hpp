@@ -4,13 +4,19 @@
 
 namespace madori::app {
 
-/// Held by the one program that drives the vehicle of a site: SITE/.run.lock (flock). The kernel gives it up
-/// when the program ends, however it ends.
+/// What a program wants with a site.
+enum class SiteUse {
+  Drive,   ///< its vehicle: one program alone
+  Change,  ///< what a driving program has read and would go on believing: drawing, scale, mountings, what was
+           ///< learned. Several may: mapping::SiteTransaction lets them take turns
+};
+
+/// SITE/.run.lock (flock). The kernel gives it up when the program ends, however it ends.
 class SiteLock {
  public:
-  /// Makes the folder where it is missing. Throws Error, naming the other program, where one drives this
-  /// site.
-  explicit SiteLock(const std::filesystem::path& site);
+  /// To drive it makes the folder where it is missing. Throws Error, naming the other program, where one
+  /// drives this site; to drive also where one changes it.
+  explicit SiteLock(const std::filesystem::path& site, SiteUse use = SiteUse::Drive);
   ~SiteLock();
   SiteLock(const SiteLock&) = delete;
   SiteLock& operator=(const SiteLock&) = delete;

@@ -1,6 +1,7 @@
 """Commands that were given something hostile: each fails with one line and leaves the site as it was, or does what it was
 asked to do without a trace elsewhere. Usage: hostile_commands_test.py MADORI DATA"""
 
+import fcntl
 import hashlib
 import os
 import pathlib
@@ -56,6 +57,24 @@ class Commands(unittest.TestCase):
                 self.assertEqual(answer.returncode, 1, f"{known}: {answer.stdout}")
                 self.assertEqual(state(self.site), before, known)
         self.assertEqual(madori("route", self.site, "--check").returncode, 0)
+
+    def test_what_a_program_drives_by_is_not_changed_under_it(self):
+        drawing, backup = DATA / "sample_factory" / "factory.dxf", self.here / "site.tar"
+        self.assertEqual(madori("export", self.site, "--backup", backup).returncode, 0)
+        changes = (("scale", self.site, "--known=10,10,300,10=15", "--apply", "--force"), ("diff", self.site, drawing, "--apply"),
+                   ("versions", self.site, "--restore", 1), ("import", drawing, "--site", self.site, "--force"),
+                   ("import", backup, "--site", self.site, "--force"), ("map", "--log", drawing, "--out", self.site, "--force"),
+                   ("localize", self.site, "--log", drawing, "--initial", "0 0 0", "--out", self.here / "way.tum", "--learn"))
+        before = state(self.site)
+        with open(self.site / ".run.lock", "w") as lock:  # as a program that drives holds it
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            lock.write("4711")
+            lock.flush()
+            for change in changes:
+                self.refused(madori(*change), "a program drives the vehicle of this site (process 4711)", "panel")
+                self.assertEqual(state(self.site), before, change)
+            self.assertEqual(madori("scale", self.site, "--known=10,10,300,10=15").returncode, 0)  # a look changes nothing
+        self.assertEqual(madori("versions", self.site, "--restore", 1).returncode, 0)  # and it goes when the program has ended
 
     def test_devices_pipes_and_links_are_written_into(self):
         subject = ("route", self.site, "--from", 13, "--to", 15)
