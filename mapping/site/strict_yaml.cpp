@@ -1,11 +1,61 @@
 #include "mapping/site/strict_yaml.hpp"
 
+#include <yaml-cpp/eventhandler.h>
+
+#include <fstream>
+#include <iterator>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 #include "core/input_file.hpp"
 
 namespace madori::mapping {
+
+namespace {
+
+/// Hears whether anything stands in a document, and where it begins.
+class Content : public YAML::EventHandler {
+ public:
+  std::optional<YAML::Mark> begun;
+
+  void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override { hear(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                const std::string& /*value*/) override {
+    hear(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                       YAML::EmitterStyle::value /*style*/) override {
+    hear(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                  YAML::EmitterStyle::value /*style*/) override {
+    hear(mark);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void hear(const YAML::Mark& mark) {
+    if (!begun) begun = mark;
+  }
+};
+
+/// The line, from 1, on which a second document begins; nothing where there is none. YAML::LoadAll would
+/// never end on a stray comma, which the parser takes for a document without end.
+std::optional<int> second_document(const std::string& text) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  Content first, second;
+  if (!parser.HandleNextDocument(first) || !parser.HandleNextDocument(second) || !second.begun)
+    return std::nullopt;
+  return second.begun->line + 1;
+}
+
+}  // namespace
 
 StrictYaml::StrictYaml(std::string file, std::string name, const YAML::Node& node)
     : file_(std::move(file)), name_(std::move(name)), node_(node) {
@@ -27,17 +77,13 @@ StrictYaml StrictYaml::load(const std::filesystem::path& file) {
       1'000'000;  // what YAML of this size takes in memory is a hundred times more
   require_readable(file, kMostBytes);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file.string());
-    for (std::size_t i = 1; i < documents.size(); ++i)
-      if (!documents[i].IsNull())
-        throw Error(file.string() + ":" + std::to_string(documents[i].Mark().line + 1),
-                    "begins a second document, which nobody would read", "remove it, or the --- before it");
-    return {file.string(), "", documents.empty() ? YAML::Node() : documents.front()};
-  } catch (const YAML::BadFile&) {
-    throw Error(file.string(), "cannot be opened", "check the path and its permissions");
-  } catch (const YAML::ParserException& e) {
-    throw Error(file.string() + ":" + std::to_string(e.mark.line + 1), "is no valid YAML: " + e.msg,
-                "mend that line");
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw Error(file.string(), "cannot be opened", "check the path and its permissions");
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    if (const auto line = second_document(text))
+      throw Error(file.string() + ":" + std::to_string(*line),
+                  "begins a second document, which nobody would read", "remove it, or the --- before it");
+    return {file.string(), "", YAML::Load(text)};
   } catch (const YAML::Exception& e) {
     throw Error(file.string() + ":" + std::to_string(e.mark.line + 1), "is no valid YAML: " + e.msg,
                 "mend that line");

@@ -11,12 +11,14 @@ if [ ${#targets[@]} -eq 0 ]; then
   mapfile -t targets < <(sed -n 's/^madori_fuzzer(\([a-z0-9_]*\).*/\1/p' tests/fuzz/CMakeLists.txt)
 fi
 cmake --preset fuzz > /dev/null
-cmake --build build/fuzz --target "${targets[@]/#/fuzz_}"
+cmake --build build/fuzz --target fuzz_seeds "${targets[@]/#/fuzz_}"
+build/fuzz/tests/fuzz/fuzz_seeds build/fuzz/seeds
 mkdir -p build/fuzz/findings
 one() {
   name=$1
   mkdir -p "build/fuzz/corpora/$name"
-  seeds=(); [ -d "tests/fuzz/corpus/$name" ] && seeds=("tests/fuzz/corpus/$name")
+  seeds=()
+  for folder in "build/fuzz/seeds/$name" "tests/fuzz/corpus/$name"; do [ ! -d "$folder" ] || seeds+=("$folder"); done
   log="build/fuzz/findings/$name.log"
   if "build/fuzz/tests/fuzz/fuzz_$name" -max_total_time="$2" -max_len=65536 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
       -artifact_prefix="build/fuzz/findings/$name-" "build/fuzz/corpora/$name" "${seeds[@]}" > "$log" 2>&1; then verdict=clean; else verdict=FINDING; fi

@@ -40,12 +40,14 @@ std::string file_around(int width, std::string_view rest) {
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view rest(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const auto day = madori::mapping::parse_day(data[0] == 0 ? std::string(rest) : file_around(data[0], rest));
-  if (!day) return 0;
-  madori::fuzz::require(day->packed.size() ==
-                        static_cast<std::size_t>(day->width) * static_cast<std::size_t>(day->height));
-  const auto again = madori::mapping::parse_day(madori::mapping::day_png(*day));
-  madori::fuzz::require(again && again->packed == day->packed && again->day == day->day &&
-                        again->column == day->column && again->row == day->row);
+  const auto parsed =
+      madori::mapping::parse_day(data[0] == 0 ? std::string(rest) : file_around(data[0], rest));
+  if (!parsed) return 0;
+  const madori::mapping::DayMap& day = parsed.value();
+  madori::fuzz::require(day.packed.size() ==
+                        static_cast<std::size_t>(day.width) * static_cast<std::size_t>(day.height));
+  const auto again = madori::mapping::parse_day(madori::mapping::day_png(day));
+  madori::fuzz::require(again && again.value().packed == day.packed && again.value().day == day.day &&
+                        again.value().column == day.column && again.value().row == day.row);
   return 0;
 }

@@ -33,7 +33,7 @@ class ModelBytes {
   std::vector<T> take(std::size_t count) {
     demand(count <= bytes_.size() / sizeof(T));
     std::vector<T> values(count);
-    std::memcpy(values.data(), bytes_.data(), count * sizeof(T));
+    if (count > 0) std::memcpy(values.data(), bytes_.data(), count * sizeof(T));
     bytes_.remove_prefix(count * sizeof(T));
     return values;
   }

@@ -104,6 +104,12 @@ TEST(Site, RefusesASecondDocumentThatNobodyWouldRead) {
   EXPECT_EQ(error_of(std::string("---\n") + kMinimal + "...\n"), "");
 }
 
+TEST(Site, EndsAtAStrayComma) {  // on which YAML::LoadAll never ends
+  for (const std::string before : {"", kMinimal, "---\n", "...\n"})
+    for (const std::string stray : {",", ", ", "\n,\n", ",,", ", a: 1"})
+      EXPECT_THAT(error_of(before + stray), HasSubstr("site.yaml:")) << before + stray;
+}
+
 TEST(Site, RefusesASizeThatNoBuildingHas) {
   for (const char* scale : {"1e-300", "5.6e-10", "0.0001", "100000"})
     EXPECT_THAT(error_of("madori_site: 1\nname: hall\ndrawing: {file: a.png, width_px: 1000, height_px: 5}\n"
