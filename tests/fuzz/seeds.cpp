@@ -54,7 +54,7 @@ Bytes vlp16_packets(sensors::vlp16::ReturnMode mode, int count) {
 
 void vlp16_seeds(const std::filesystem::path& folder) {
   namespace vlp16 = sensors::vlp16;
-  for (const std::uint8_t choice : {0, 1, 2}) {
+  for (std::uint8_t choice = 0; choice < 3; ++choice) {
     Bytes bytes{choice};
     append(bytes, vlp16_packets(vlp16::ReturnMode::Dual, 4));
     save(folder / ("dual-" + std::to_string(choice)), bytes);
