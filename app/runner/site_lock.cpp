@@ -24,30 +24,28 @@ std::string holder(int file) {
 }  // namespace
 
 SiteLock::SiteLock(const std::filesystem::path& site, SiteUse use) {
+  const bool drives = use == SiteUse::Drive;
+  std::error_code error;
+  if (drives) std::filesystem::create_directories(site, error);
   const auto name = site / ".run.lock";
-  if (use == SiteUse::Change) {
-    file_ = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file_ < 0) return;  // no program ever drove it
-    if (::flock(file_, LOCK_SH | LOCK_NB) == 0) return;
+  file_ = ::open(name.c_str(), drives ? O_RDWR | O_CREAT | O_CLOEXEC : O_RDONLY | O_CLOEXEC, 0644);
+  if (file_ < 0 && !drives && errno == ENOENT) return;  // no program ever drove it
+  if (file_ < 0)
+    throw Error(site.string(),
+                std::string(drives ? "cannot be written: " : "cannot be read: ") + std::strerror(errno),
+                "check the folder and its permissions");
+  if (::flock(file_, (drives ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
     const std::string other = holder(file_);
     ::close(file_);
+    if (drives)
+      throw Error(site.string(),
+                  "another program drives the vehicle of this site already, or changes the site" + other,
+                  "end it first, or use its panel");
     throw Error(site.string(),
                 "a program drives the vehicle of this site" + other + " and has read what this changes",
                 "end it first, or change the site on its panel");
   }
-  std::error_code error;
-  std::filesystem::create_directories(site, error);
-  file_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file_ < 0)
-    throw Error(site.string(), std::string("cannot be written: ") + std::strerror(errno),
-                "check the folder and its permissions");
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
-    const std::string other = holder(file_);
-    ::close(file_);
-    throw Error(site.string(),
-                "another program drives the vehicle of this site already, or changes the site" + other,
-                "end it first, or use its panel");
-  }
+  if (!drives) return;
   const std::string self = std::to_string(::getpid());
   // Who holds it is a help for people alone: a full disk does not matter here.
   if (::ftruncate(file_, 0) == 0) (void)!::pwrite(file_, self.data(), self.size(), 0);

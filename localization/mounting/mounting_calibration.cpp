@@ -151,12 +151,22 @@ bool fits_together(const CalibrationState& state, const CalibrationQuality& qual
   return quality.on_walls[lidar] > 0.5 && quality.way_off < kMostOff && are_wheels;
 }
 
+/// Whether what one lidar saw tells anything: enough walls, and a room that fits them.
+struct Evidence {
+  bool walls = false, fits = false;
+};
+
+Evidence evidence_of(const CalibrationState& state, const CalibrationQuality& quality, std::size_t lidar) {
+  if (!quality.good || !are_enough(quality.walls[lidar])) return {};
+  return {true, fits_together(state, quality, lidar)};
+}
+
 MountingLack lack_of(const FoundMounting& found, const MountingCalibration& all,
-                     const CalibrationQuality& quality, bool walls, bool fits) {
+                     const CalibrationQuality& quality, const Evidence& evidence) {
   constexpr double kEnoughTurnRad = to_rad(120.0), kEnoughWayM = 0.8;
   if (found.sweeps < static_cast<int>(kFewestSweeps)) return MountingLack::Sweeps;
-  if (!walls) return MountingLack::Walls;
-  if (!fits) return MountingLack::Contradiction;
+  if (!evidence.walls) return MountingLack::Walls;
+  if (!evidence.fits) return MountingLack::Contradiction;
   if (found.known == MountingKnown::All)
     return quality.sizes_off < kMostOff ? MountingLack::Nothing : MountingLack::Wheels;
   if (all.driven_m < kEnoughWayM) return MountingLack::Straight;
@@ -165,7 +175,7 @@ MountingLack lack_of(const FoundMounting& found, const MountingCalibration& all,
 }
 
 FoundMounting found_of(const CalibrationState& state, const CalibrationQuality& quality, std::size_t lidar,
-                       const LidarModel& model, const LidarLook& look) {
+                       const Evidence& evidence, const LidarModel& model, const LidarLook& look) {
   // What the model leaves out: beams that are not quite level, wheels that scrub.
   constexpr double kModelM = 0.002, kModelRad = to_rad(0.03);
   FoundMounting found;
@@ -179,8 +189,7 @@ FoundMounting found_of(const CalibrationState& state, const CalibrationQuality& 
   const auto sigma = quality.covariance[lidar].diagonal().cwiseMax(0.0).cwiseSqrt().eval();
   found.sigma = {std::hypot(sigma[0], kModelM), std::hypot(sigma[1], kModelM),
                  std::hypot(sigma[2], kModelRad)};
-  if (!are_enough(quality.walls[lidar]) || !(found.sigma[2] < kYawKnownRad)) return found;
-  if (!fits_together(state, quality, lidar)) return found;
+  if (!evidence.fits || !(found.sigma[2] < kYawKnownRad)) return found;
   found.known = MountingKnown::Yaw;
   found.mounting.yaw_rad = wrap_angle(state.base_from_lidar[lidar][2]);
   if (!(found.sigma[0] < kPlaceKnownM && found.sigma[1] < kPlaceKnownM)) return found;
@@ -253,10 +262,9 @@ MountingCalibration calibrate_mounting(const MountingDrive& drive, const std::ve
   result.turned_rad = path.turned_rad();
   result.driven_m = path.driven_m();
   for (std::size_t i = 0; i < lidars.size(); ++i) {
-    result.lidars.push_back(found_of(state, quality, i, lidars[i], looks[i]));
-    const bool walls = quality.good && are_enough(quality.walls[i]);
-    const bool fits = walls && fits_together(state, quality, i);
-    result.lidars[i].lack = lack_of(result.lidars[i], result, quality, walls, fits);
+    const Evidence evidence = evidence_of(state, quality, i);
+    result.lidars.push_back(found_of(state, quality, i, evidence, lidars[i], looks[i]));
+    result.lidars[i].lack = lack_of(result.lidars[i], result, quality, evidence);
     if (result.lidars[i].known == MountingKnown::Nothing) continue;
     const Eigen::Vector3d too_large(state.wheels[0], state.wheels[1], state.wheels[2]);
     result.wheels = FoundWheels{scaled(believed, state), too_large, quality.wheel_sigma};

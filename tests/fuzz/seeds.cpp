@@ -11,6 +11,7 @@
 #include "app/mapping_drive/drive_journal.hpp"
 #include "control/drive_link/wire.hpp"
 #include "mapping/days/day_file.hpp"
+#include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
 #include "sensors/lms1xx/encode.hpp"
 #include "sensors/s300/encode.hpp"
@@ -33,11 +34,12 @@ void save(const std::filesystem::path& file, const auto& bytes) {
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
 }
 
-/// A quarter of a turn on either side of azimuth 0.
+/// As many packets before azimuth 0 as behind it.
 Bytes vlp16_packets(sensors::vlp16::ReturnMode mode, int count) {
   namespace vlp16 = sensors::vlp16;
   Bytes bytes;
-  int azimuth_cdeg = 36'000 - 240 * count;
+  const int packet_cdeg = mode == vlp16::ReturnMode::Dual ? 240 : 480;
+  int azimuth_cdeg = 36'000 - packet_cdeg * count / 2;
   for (int i = 0; i < count; ++i) {
     vlp16::DataPacket packet;
     packet.mode = mode;
@@ -190,8 +192,7 @@ void kept_seeds(const std::filesystem::path& day, const std::filesystem::path& j
     drive.add(OdometryReading{});
     drive.add(app::DriveScan{{}, {0.2, 0.0}, {{1.0, 2.0}, {3.0, 1.0}}});
   }
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  const std::string bytes = mapping::file_content(file);
   std::filesystem::remove(file);
   save(journal / "drive", std::string(1, '\0') + bytes);
   save(site / "plain.yaml", mapping::site_yaml(mapping::Site{}));

@@ -33,7 +33,7 @@ simulation::FactorySetup hall(const MountingTrial& trial) {
   s.start = {length / 2.0 + between(random, -1.5, 1.5), width / 2.0 + between(random, -1.0, 1.0),
              between(random, -kPi, kPi)};
   if (trial.corridor) s.start = {length / 2.0, width / 2.0, 0.1};
-  for (int i = 0; i < (trial.corridor ? 0 : 8); ++i) {
+  for (int i = 0; i < 8 && !trial.corridor; ++i) {
     simulation::SolidSpec solid;
     solid.kind = i % 2 == 0 ? simulation::SolidKind::Machine : simulation::SolidKind::Pallet;
     solid.name = "thing " + std::to_string(i);

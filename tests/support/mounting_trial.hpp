@@ -15,7 +15,7 @@ struct MountingTrial {
   std::vector<mapping::SensorRecord> truth;  ///< how they really hang
   std::vector<mapping::SensorRecord> typed;
   std::uint64_t seed = 1;
-  bool corridor = false;  ///< 60 m by 3.2 m with nothing in it, instead of the hall
+  bool corridor = false;  ///< 60 m by 3.2 m with nothing along its walls, instead of the hall
   double way_m = 1.0;
   double turn_rad = 6.283185307179586;
   double pressed_at_s = -1.0;  ///< the emergency stop, for 0.3 s; below 0: never
