@@ -121,7 +121,7 @@ StepResult step(CycleState state, const CycleInput& input, const CycleConfig& co
   watch_mounting(state, input, config, output);     // height, tilt, yaw: as typed?
   say_missed_lidars(state, input, config, output);  // one of several is silent
   remember_trail(state, input.now);
-  watch_wheels(state, config);                 // told, but not done: a wheel disobeys
+  watch_wheels(state, input, config);          // told, but not done: a wheel disobeys
   watch_effort(state, input, config, output);  // driven, but not moved: something holds the vehicle
   navigate(state, input, config, output);      // order -> errand -> route -> way
   check_way(state, input, config, output);     // way against bodies and drawing -> ahead, block

@@ -124,6 +124,7 @@ struct OperatorCommand {
 struct CycleInput {
   Stamp now{};
   std::vector<control::wire::Status> drive;
+  Duration drive_behind{};                  ///< what it was told, by the newest of them
   std::vector<PointCloud<Lidar>> clouds;    ///< whole revolutions
   std::vector<LaserScan> scans;             ///< of planar lidars
   std::vector<std::int64_t> firings_us;     ///< the lidar's own time of each cloud's begin, for recordings
@@ -220,6 +221,7 @@ struct CycleState {
   bool drive_stopped = false;         ///< by a status of this step: by hand, bumper or loss of power
   bool drive_faulty = false;          ///< by a status of this step
   std::optional<Stamp> drive_deaf;    ///< since when it tells that it hears no commands
+  std::optional<Stamp> drive_late;    ///< when it last obeyed a command that was too old
   std::vector<Hearing> lidars_heard;  ///< each
   std::optional<Stamp> lidar_heard;   ///< since when something that driving needs is missing
   std::optional<Stamp> previous;

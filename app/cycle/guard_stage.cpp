@@ -84,11 +84,12 @@ double outline_mps(const planning::VehicleOutline& vehicle, const VelocityComman
   return std::hypot(std::abs(command.linear_mps) + turn * vehicle.half_width_m, sideways);
 }
 
-void watch_wheels(CycleState& state, const CycleConfig& config) {
+void watch_wheels(CycleState& state, const CycleInput& input, const CycleConfig& config) {
   const Stamp now = state.odometry.reading().stamp;
   const double step_s = to_seconds(now - std::exchange(state.wheels_at, now));
   if (!(step_s > 0.0)) return;  // no new reading
-  const bool obeys = state.drive.state == control::wire::DriveState::Running && step_s < config.gap_s;
+  const bool obeys = state.drive.state == control::wire::DriveState::Running && step_s < config.gap_s &&
+                     !is_drive_late(state, input.now, config);
   const auto found = state.wheels.update(obeys ? std::optional(state.limits.previous) : std::nullopt,
                                          {state.odometry.linear_mps(), state.odometry.angular_radps()},
                                          step_s, config.wheel_watch);

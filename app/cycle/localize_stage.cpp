@@ -150,6 +150,7 @@ void take_sweep(CycleState& state, const PointCloud<Lidar>& cloud, const CycleIn
 void localize(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output) {
   state.localization->set_thinking(input.thinking);
   state.drive_stopped = state.drive_faulty = false;
+  constexpr std::chrono::microseconds kStale(control::wire::kWatchdogMicroseconds);
   if (state.drive_heard) note_stop(state, state.drive, false);
   for (const auto& status : input.drive) {
     const bool off = state.drive_heard && was_switched_off(state, status, input.now);
@@ -160,6 +161,7 @@ void localize(CycleState& state, const CycleInput& input, const CycleConfig& con
     state.drive = status;
     const bool is_deaf = status.state == control::wire::DriveState::WatchdogStop;
     state.drive_deaf = is_deaf ? state.drive_deaf.value_or(input.now) : std::optional<Stamp>();
+    if (!is_deaf && input.drive_behind > kStale) state.drive_late = input.now;
     state.odometry.update(status, stamp);
     const OdometryReading& reading = state.odometry.reading();
     if (!state.track.empty() && reading.stamp <= state.track.back().stamp) continue;

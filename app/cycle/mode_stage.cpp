@@ -103,6 +103,10 @@ bool is_drive_deaf(const CycleState& state, Stamp now, const CycleConfig& config
   return state.drive_deaf && to_seconds(now - *state.drive_deaf) > config.drive_silent_s;
 }
 
+bool is_drive_late(const CycleState& state, Stamp now, const CycleConfig& config) {
+  return !is_silent(state.drive_late, now, config.drive_silent_s);
+}
+
 bool are_wheels_untold(const CycleState& state, Stamp now, const CycleConfig& config) {
   return !state.gap && is_silent(state.odometry.reading().stamp, now, config.drive_silent_s);
 }

@@ -8,7 +8,7 @@
 namespace madori::app {
 namespace {
 
-static_assert(kCauses.size() == static_cast<std::size_t>(Cause::DriveIdle) + 1);
+static_assert(kCauses.size() == static_cast<std::size_t>(Cause::DriveLate) + 1);
 static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::ClearOrGoOn) + 1);
 
 }  // namespace

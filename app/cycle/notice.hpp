@@ -69,6 +69,7 @@ enum class Cause : std::uint8_t {
   DriveDeaf,
   WheelsUntold,
   DriveIdle,
+  DriveLate,
 };
 
 /// What a person can do about it.
@@ -159,6 +160,7 @@ inline constexpr std::array kCauses{
     CatalogueEntry{"wheels-untold",
                    "the drive answers, but what it tells of its wheels is late or makes no sense"},
     CatalogueEntry{"drive-idle", "the drive answers, but does not start although it is told to"},
+    CatalogueEntry{"drive-late", "commands reach the drive late, or its answers come late"},
 };
 
 inline constexpr std::array kRemedies{

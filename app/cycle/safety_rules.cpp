@@ -20,6 +20,10 @@ bool drive_is_deaf(const CycleState& state, const CycleInput& input, const Cycle
   return is_drive_deaf(state, input.now, config);
 }
 
+bool drive_is_late(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
+  return is_drive_late(state, input.now, config);
+}
+
 bool wheels_are_untold(const CycleState& state, const CycleInput& input, const CycleConfig& config) {
   return are_wheels_untold(state, input.now, config);
 }
@@ -53,6 +57,7 @@ std::vector<SafetyRule> standard_safety_rules() {
       {entry(Cause::ProtectiveField), entry(Remedy::ClearField), false, field_is_entered},
       {entry(Cause::DriveSilent), entry(Remedy::CheckDrive), true, drive_is_silent},
       {entry(Cause::DriveDeaf), entry(Remedy::CheckDrive), true, drive_is_deaf},
+      {entry(Cause::DriveLate), entry(Remedy::CheckDrive), true, drive_is_late},
       {entry(Cause::WheelsUntold), entry(Remedy::CheckDrive), true, wheels_are_untold},
       {entry(Cause::LidarSilent), entry(Remedy::CheckLidar), false, lidar_is_silent, who_is_silent},
       {entry(Cause::LidarHeight), entry(Remedy::CorrectMounting), false, mounting_is_wrong, what_is_wrong},

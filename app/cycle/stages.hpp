@@ -43,7 +43,7 @@ void say_floor_unseen(CycleState& state, const CycleInput& input, const CycleCon
 /// The fastest point of the vehicle's outline at a command.
 [[nodiscard]] double outline_mps(const planning::VehicleOutline& vehicle, const VelocityCommand& command);
 /// Notices a wheel that does not do what it was told.
-void watch_wheels(CycleState& state, const CycleConfig& config);
+void watch_wheels(CycleState& state, const CycleInput& input, const CycleConfig& config);
 /// Notices that the vehicle does not get on although it drives; what holds it is remembered as a body.
 void watch_effort(CycleState& state, const CycleInput& input, const CycleConfig& config, CycleOutput& output);
 /// Keeps where the vehicle has just driven.
@@ -122,6 +122,8 @@ void note_heard(Hearing& hearing, const PointCloud<Base>& sweep, const LidarMode
 inline constexpr int kStepsToRun = 10;
 /// Whether the drive has told for too long that it hears no commands.
 [[nodiscard]] bool is_drive_deaf(const CycleState& state, Stamp now, const CycleConfig& config);
+/// It obeys commands that are older than the controller waits for them before it stops the wheels itself.
+[[nodiscard]] bool is_drive_late(const CycleState& state, Stamp now, const CycleConfig& config);
 [[nodiscard]] bool may_drive(LocalizationState state);
 /// Whether the vehicle knows where it is, and hears what that needs.
 [[nodiscard]] bool is_placed(const CycleState& state);

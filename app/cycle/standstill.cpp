@@ -48,6 +48,7 @@ Standstill why_deaf(const CycleState& state, Stamp now, const CycleConfig& confi
   if (silent(state.drive_heard, config.drive_silent_s))
     return because(Cause::DriveSilent, Remedy::CheckDrive, now);
   if (is_drive_deaf(state, now, config)) return because(Cause::DriveDeaf, Remedy::CheckDrive, now);
+  if (is_drive_late(state, now, config)) return because(Cause::DriveLate, Remedy::CheckDrive, now);
   if (are_wheels_untold(state, now, config)) return because(Cause::WheelsUntold, Remedy::CheckDrive, now);
   const bool asks_person = is_to_be_confirmed(state.mode);
   if (!asks_person && silent(state.lidar_heard, config.lidar_silent_s)) {

@@ -167,6 +167,7 @@ std::string input_text(const CycleInput& input, const PoseEstimate& pose) {
   for (const auto& status : input.drive) value["drive"].push_back(status_json(status));
   if (input.thinking) value["thinking"] = true;
   if (input.protective_stop) value["protective_stop"] = true;
+  if (input.drive_behind > Duration{}) value["drive_behind"] = input.drive_behind.count();
   for (const auto& command : input.commands) value["words"].push_back(word_json(command));
   if (input.order) value["order"] = order_json(*input.order);
   if (input.detour) value["detour"] = detour_json(*input.detour);
@@ -181,6 +182,7 @@ CycleInput input_from_text(const std::string& text) {
     for (const json& status : value.value("drive", json::array())) input.drive.push_back(status_from(status));
     input.thinking = value.value("thinking", false);
     input.protective_stop = value.value("protective_stop", false);
+    input.drive_behind = Duration(value.value("drive_behind", Duration::rep{}));
     for (const json& word : value.value("words", json::array())) input.commands.push_back(word_from(word));
     if (value.contains("order")) input.order = order_from(value.at("order"));
     if (value.contains("detour")) input.detour = detour_from(value.at("detour"));

@@ -9,7 +9,7 @@
 namespace madori::app {
 namespace {
 
-constexpr std::uint32_t kFormat = 22;
+constexpr std::uint32_t kFormat = 23;
 
 template <class T>
 inline constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -134,9 +134,9 @@ template <class Bytes, class State>
 void each_of(Bytes& bytes, State& s) {
   auto& [mode, standstill, odometry, track, localization, site, pose, moved, sent, command_pose, obstacles,
          anchors, movers, drive, drive_heard, drive_clock, drive_us, drive_stopped, drive_faulty, drive_deaf,
-         lidars_heard, lidar_heard, previous, gap, begun, stopped, stopped_order, jog, jog_heard, jog_held,
-         errand, way, progress, ahead, block, detour, trail, trail_at, effort, limits, wheels, wheels_at,
-         disobedient, unarmed_steps, mounting, lidars_missed, floor_unseen, bench] = s;
+         drive_late, lidars_heard, lidar_heard, previous, gap, begun, stopped, stopped_order, jog, jog_heard,
+         jog_held, errand, way, progress, ahead, block, detour, trail, trail_at, effort, limits, wheels,
+         wheels_at, disobedient, unarmed_steps, mounting, lidars_missed, floor_unseen, bench] = s;
   static_cast<void>(bench);                                    // nothing in it lasts
   static_cast<void>(command_pose);                             // each step anew
   static_cast<void>(standstill), static_cast<void>(jog_held);  // for people, each step anew
@@ -145,9 +145,9 @@ void each_of(Bytes& bytes, State& s) {
   static_cast<void>(obstacles), static_cast<void>(movers);  // below: they guard their fields
   bytes(sent.sent());
   each(bytes, mode, odometry, track, moved, anchors, drive, drive_heard, drive_clock, drive_us, drive_stopped,
-       drive_faulty, drive_deaf, lidars_heard, lidar_heard, previous, gap, begun, stopped, stopped_order, jog,
-       jog_heard, progress, ahead, trail, trail_at, effort, limits, wheels, wheels_at, disobedient,
-       unarmed_steps, mounting, lidars_missed, floor_unseen);
+       drive_faulty, drive_deaf, drive_late, lidars_heard, lidar_heard, previous, gap, begun, stopped,
+       stopped_order, jog, jog_heard, progress, ahead, trail, trail_at, effort, limits, wheels, wheels_at,
+       disobedient, unarmed_steps, mounting, lidars_missed, floor_unseen);
   each_of_errand(bytes, errand);
   each_of_way(bytes, way);
   each_of_block(bytes, block);

@@ -86,7 +86,8 @@ void take_answers(const std::vector<std::unique_ptr<Candidate>>& candidates,
 
 bool answers_as_drive(const std::string& port) {
   std::atomic<int> statuses = 0;
-  const control::DriveLink link({.device = port}, [&](const control::wire::Status&, Stamp) { ++statuses; });
+  const control::DriveLink link({.device = port},
+                                [&](const control::wire::Status&, Duration) { ++statuses; });
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   return statuses > 0;
 }

@@ -84,13 +84,13 @@ struct SocketLink::OpenLidar {
 SocketLink::SocketLink(const SocketOptions& options, const WheelGeometry& wheels,
                        const std::vector<mapping::SensorRecord>& sensors)
     : options_(options), wheels_(wheels) {
-  drive_ =
-      std::make_unique<control::DriveLink>(control::DriveLinkOptions{.device = options.drive_device},
-                                           [this](const control::wire::Status& status, Stamp /*received*/) {
-                                             const std::scoped_lock lock(mutex_);
-                                             keep_newest(statuses_, kMostStatuses);
-                                             statuses_.push_back(status);
-                                           });
+  drive_ = std::make_unique<control::DriveLink>(control::DriveLinkOptions{.device = options.drive_device},
+                                                [this](const control::wire::Status& status, Duration behind) {
+                                                  const std::scoped_lock lock(mutex_);
+                                                  keep_newest(statuses_, kMostStatuses);
+                                                  statuses_.push_back(status);
+                                                  drive_behind_ = behind;
+                                                });
   set_sensors(sensors);
 }
 
@@ -148,6 +148,7 @@ void SocketLink::collect(CycleInput& input) {
   {
     const std::scoped_lock lock(mutex_);
     input.drive = std::exchange(statuses_, {});
+    input.drive_behind = drive_behind_;
     input.clouds = std::exchange(clouds_, {});
     input.scans = std::exchange(scans_, {});
     input.firings_us = std::exchange(firings_us_, {});

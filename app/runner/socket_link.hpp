@@ -59,6 +59,7 @@ class SocketLink final : public VehicleLink {
   WheelGeometry wheels_;
   std::mutex mutex_;
   std::vector<control::wire::Status> statuses_;
+  Duration drive_behind_{};  ///< by the newest of them
   std::vector<PointCloud<Lidar>> clouds_;
   std::vector<LaserScan> scans_;
   std::vector<std::int64_t> firings_us_;

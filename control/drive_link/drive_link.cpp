@@ -1,6 +1,7 @@
 #include "control/drive_link/drive_link.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "core/clock.hpp"
 
@@ -25,7 +26,7 @@ DriveLink::DriveLink(const DriveLinkOptions& options, StatusSink sink)
     ++counters_.openings;
     cutter_ = {};
   };
-  events.bytes = [this](std::span<const std::uint8_t> bytes, Stamp received) { receive(bytes, received); };
+  events.bytes = [this](std::span<const std::uint8_t> bytes, Stamp /*received*/) { receive(bytes); };
   events.closed = [this](const std::string& reason) {
     const std::lock_guard lock(mutex_);
     problem_ = options_.device + ": " + reason;
@@ -35,24 +36,25 @@ DriveLink::DriveLink(const DriveLinkOptions& options, StatusSink sink)
   link_->start();
 }
 
-void DriveLink::receive(std::span<const std::uint8_t> bytes, Stamp received) {
+void DriveLink::receive(std::span<const std::uint8_t> bytes) {
   for (const std::uint8_t byte : bytes) {
     if (!cutter_.push(byte)) continue;
     wire::Status status;
     const bool good = wire::decode(cutter_.frame(), cutter_.size(), status) == wire::Verdict::Good;
+    Duration behind{};
     {
       const std::lock_guard lock(mutex_);
       if (!good) {
         ++counters_.damaged;
         continue;
       }
-      const auto step = static_cast<std::int16_t>(status.sequence - latest_.status.sequence);
+      const auto step = static_cast<std::int16_t>(status.sequence - last_status_);
       if (counters_.status_frames > 0 && step > 1) counters_.lost += static_cast<std::uint64_t>(step) - 1U;
       ++counters_.status_frames;
-      latest_ = {status, received, false};
-      heard_ = clock_now();
+      last_status_ = status.sequence;
+      behind = lag_.behind(status.command_sequence, clock_now());
     }
-    if (sink_) sink_(status, received);
+    if (sink_) sink_(status, behind);
   }
 }
 
@@ -63,18 +65,11 @@ bool DriveLink::send(const WheelSpeeds& speeds, bool enable) {
   bool sent = false;
   if (left && right) {
     const std::size_t size = wire::encode(wire::Command{++sequence_, enable, *left, *right}, frame);
+    lag_.told(sequence_, clock_now());
     sent = link_->write({frame, size});
   }
   ++(sent ? counters_.commands : counters_.refused_commands);
   return sent;
-}
-
-DriveLink::Latest DriveLink::latest() const {
-  const std::lock_guard lock(mutex_);
-  Latest answer = latest_;
-  const bool fresh = clock_now() - heard_ <= options_.stale_after;
-  answer.stale = counters_.status_frames == 0 || !fresh;
-  return answer;
 }
 
 DriveLinkCounters DriveLink::counters() const {

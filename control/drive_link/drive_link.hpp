@@ -3,10 +3,10 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 
 #include "control/diff_drive/kinematics.hpp"
+#include "control/drive_link/command_lag.hpp"
 #include "control/drive_link/wire.hpp"
 #include "core/stamp.hpp"
 #include "io/stream_link.hpp"
@@ -16,7 +16,6 @@ namespace madori::control {
 struct DriveLinkOptions {
   std::string device;  ///< /dev/ttyUSB0, or a pseudo-terminal
   unsigned baud = 115'200;
-  Duration stale_after = std::chrono::milliseconds(100);  ///< ten missed status frames
 };
 
 struct DriveLinkCounters {
@@ -27,8 +26,9 @@ struct DriveLinkCounters {
 /// loop: a hung loop must fall silent, so that the controller's watchdog stops the wheels.
 class DriveLink {
  public:
-  using StatusSink = std::function<void(const wire::Status&, Stamp received)>;
-  /// `sink` is called from the link's thread for every good status frame.
+  using StatusSink = std::function<void(const wire::Status&, Duration behind)>;
+  /// `sink` is called from the link's thread for every good status frame, with how far the drive is behind
+  /// what it was told (CommandLag).
   explicit DriveLink(const DriveLinkOptions& options, StatusSink sink = {});
 
   /// Wheel speeds for this cycle. False when the command did not go out: link closed, numbers that are not
@@ -36,27 +36,20 @@ class DriveLink {
   /// work).
   bool send(const WheelSpeeds& speeds, bool enable);
 
-  struct Latest {
-    wire::Status status;
-    Stamp received{};
-    bool stale = true;  ///< older than stale_after, or none yet
-  };
-  /// The last status frame.
-  [[nodiscard]] Latest latest() const;
   [[nodiscard]] DriveLinkCounters counters() const;
   [[nodiscard]] bool is_open() const { return link_->is_open(); }
   /// Why the link is closed, in words; empty while it is open.
   [[nodiscard]] std::string problem() const;
 
  private:
-  void receive(std::span<const std::uint8_t> bytes, Stamp received);
+  void receive(std::span<const std::uint8_t> bytes);
 
   DriveLinkOptions options_;
   StatusSink sink_;
   wire::FrameCutter cutter_;
   mutable std::mutex mutex_;
-  Latest latest_;
-  Stamp heard_{};
+  CommandLag lag_;
+  std::uint16_t last_status_ = 0;
   DriveLinkCounters counters_;
   std::string problem_ = "not opened yet";
   std::uint16_t sequence_ = 0;

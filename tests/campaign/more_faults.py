@@ -16,6 +16,7 @@ from faults import DRIVE, RESUME, SILENT, Fault, Frames, both, edited, number, p
 TURN = 76  # packets of a revolution
 FIRING_US = 55.296
 COUNTS = 1 << 30  # of an encoder: 14 bits of angle, 16 of turns
+LATE = ["commands reach the drive late"]
 
 
 def echo(behind):
@@ -439,12 +440,11 @@ MORE_FAULTS = [
     Fault("oil: one wheel loses 10 % of its way", lambda s: s.drive_does(both_ways(
         Wheels(lambda a, b: (a, b / 0.9)), lambda raw: put(raw, 10, int(number(raw, 10, 4, True) * 0.9), 4)), 4.0)),
     Fault("left encoder jumps once by 5000 counts and stays", lambda s: s.statuses(Wheels(lambda a, b: (a + 5000, b)), 3.0)),
-    Fault("drive later and later, to 1 s, both ways", lambda s: latency(s, 1.0, 8.0, 10.0), "stands", 10.0, ["wheel"], RESUME),
+    Fault("drive later and later, to 1 s, both ways", lambda s: latency(s, 1.0, 8.0, 10.0), "stands", 10.0, LATE, RESUME),
     Fault("commands later and later, to 0.6 s",
-          lambda s: latency(s, 0.6, 6.0, 8.0, to_pc=False), "stands", 8.0, ["wheel"], RESUME),
-    Fault("statuses later and later, to 0.6 s", lambda s: latency(s, 0.6, 6.0, 8.0, to_drive=False), "stands", 8.0,
-          ["what it tells of its wheels", "wheel ran at"], RESUME),
-    Fault("commands 0.3 s late at once", lambda s: latency(s, 0.3, 0.01, 5.0, to_pc=False), then=RESUME),
+          lambda s: latency(s, 0.6, 6.0, 8.0, to_pc=False), "stands", 8.0, LATE, RESUME),
+    Fault("statuses later and later, to 0.6 s", lambda s: latency(s, 0.6, 6.0, 8.0, to_drive=False), "stands", 8.0, LATE, RESUME),
+    Fault("commands 0.3 s late at once", lambda s: latency(s, 0.3, 0.01, 5.0, to_pc=False), "stands", 1.5, LATE, RESUME),
     Fault("zeros and noise between the drive's frames", lambda s: s.drive_does(
         lambda d, to: b"\0\0" + d + s.chance.randbytes(s.chance.randrange(40)) + b"\0", 3.0)),
     Fault("the drive's plug pulled for 3 s", lambda s: unplugged(s, 3.0), "stands", 1.0, DRIVE, RESUME),

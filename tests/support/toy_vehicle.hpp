@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <random>
@@ -9,6 +10,7 @@
 
 #include "app/cycle/cycle.hpp"
 #include "control/diff_drive/kinematics.hpp"
+#include "control/drive_link/command_lag.hpp"
 #include "control/drive_link/controller.hpp"
 #include "core/segment_distance.hpp"
 #include "tests/support/lidar_models.hpp"
@@ -65,6 +67,9 @@ class ToyVehicle {
     app::CycleInput input;
     input.now = stamp_from_seconds(1'000.0 + time_s_ + clock_s);
     input.drive = std::exchange(waiting_, {});
+    if (!input.drive.empty()) behind_ = lag_.behind(input.drive.back().command_sequence, input.now);
+    input.drive_behind = behind_;
+    now_ = input.now;
     if (++ticks_ % 5 == 0 && !lidar_silent)
       input.clouds.push_back(cloud(input.now - duration_from_seconds(cloud_age_s)));
     input.commands = std::exchange(commands, {});
@@ -97,6 +102,7 @@ class ToyVehicle {
   void count_frames() { (void)controller_.next_status(), (void)controller_.next_status(); }
   void restart_drive() { controller_ = {}; }
   [[nodiscard]] control::wire::DriveState drive_state() const { return controller_.state(); }
+  [[nodiscard]] std::uint16_t newest_command() const { return sequence_; }
   void set_source(std::unique_ptr<app::PoseSource> source) {
     pose = nullptr;
     state_.localization = std::move(source);
@@ -129,8 +135,9 @@ class ToyVehicle {
   ToyLidar lidar;
   bool protective_stop = false;
   bool emergency_stop = false, bumper = false, drive_silent = false, lidar_silent = false;
-  bool drive_deaf = false;  ///< commands do not reach it
-  bool hung = false;        ///< the cycle takes no step
+  bool drive_deaf = false;        ///< commands do not reach it
+  std::size_t commands_wait = 0;  ///< steps that each command needs to reach it
+  bool hung = false;              ///< the cycle takes no step
   std::uint16_t drive_faults = 0;
   std::uint16_t battery_mv = 25'000;
   double right_wheel_share = 1.0;  ///< of what it is told: a weak motor, a dead one
@@ -177,13 +184,15 @@ class ToyVehicle {
   }
   void answer(std::uint32_t micros) {
     const auto wheels = control::wheel_speeds(config.odometry.wheels, output.command);
-    std::array<std::uint8_t, control::wire::kMaxFrame> frame{};
-    const std::size_t size = encode(
+    auto& frame = on_the_way_.emplace_back(control::wire::kMaxFrame);
+    frame.resize(encode(
         control::wire::Command{++sequence_, output.enable, static_cast<std::int32_t>(wheels.left_radps * 1e6),
                                static_cast<std::int32_t>(wheels.right_radps * 1e6)},
-        frame.data());
-    if (!drive_silent && !drive_deaf)
-      for (std::size_t i = 0; i < size; ++i) controller_.receive(frame[i], micros);
+        frame.data()));
+    lag_.told(sequence_, now_);
+    for (; on_the_way_.size() > commands_wait; on_the_way_.pop_front())
+      if (!drive_silent && !drive_deaf)
+        for (const std::uint8_t byte : on_the_way_.front()) controller_.receive(byte, micros);
     driven.push_back(output.command);
     events.insert(events.end(), output.events.begin(), output.events.end());
     if (output.detour_wanted) {
@@ -203,6 +212,10 @@ class ToyVehicle {
   int ticks_ = 0;
   std::int64_t orders_ = 0;
   std::uint16_t sequence_ = 0;
+  std::deque<std::vector<std::uint8_t>> on_the_way_;  ///< commands
+  control::CommandLag lag_;
+  Duration behind_{};
+  Stamp now_{};
   std::optional<planning::DetourAnswer> detour_;
   std::vector<control::wire::Status> waiting_;
   app::CycleState state_;

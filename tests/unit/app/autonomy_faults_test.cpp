@@ -125,6 +125,24 @@ TEST(AutonomyCycle, ADriveThatHearsNothingIsNamedAndStartsAnewFromStandstill) {
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
 }
 
+/// An adapter that keeps more and more bytes to itself: the wheels do what they were told long ago, and no
+/// wheel is to blame.
+TEST(AutonomyCycle, CommandsThatComeLateAreNamedAndTheVehicleStandsUntilTheyComeInTime) {
+  for (const int steps_for_one_more : {1, 5, 10}) {
+    auto v = vehicle_at_speed();
+    int steps = 0;
+    v->each_step = [&] { v->commands_wait = std::min(15, ++steps / steps_for_one_more); };
+    EXPECT_TRUE(v->run_until([&] { return v->output.command == VelocityCommand{}; }, 4.0));
+    EXPECT_LT(v->commands_wait, 15U);
+    v->run_until([&] { return false; }, 5.0);
+    EXPECT_EQ(v->state().mode, Mode::Waiting) << steps_for_one_more;
+    EXPECT_EQ(v->state().standstill.cause, notice(Cause::DriveLate)) << v->state().standstill.cause.code;
+    v->each_step = {};
+    v->commands_wait = 0;
+    EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << steps_for_one_more;
+  }
+}
+
 /// Statuses come, but the angle of a wheel is noise.
 TEST(AutonomyCycle, AStatusThatTellsNothingOfTheWheelsIsNoSignOfLife) {
   auto v = vehicle_at_speed();
@@ -143,7 +161,8 @@ TEST(AutonomyCycle, AStatusThatTellsNothingOfTheWheelsIsNoSignOfLife) {
 TEST(AutonomyCycle, ADriveThatStaysIdleIsNamedAndGoesOn) {
   auto v = vehicle_at_speed();
   v->drive_deaf = true;
-  v->each_status = [](control::wire::Status& status) {
+  v->each_status = [&](control::wire::Status& status) {
+    status.command_sequence = v->newest_command();
     status.state = control::wire::DriveState::Idle;
     status.watchdog_expired = false;
   };

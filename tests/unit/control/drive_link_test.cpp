@@ -1,12 +1,21 @@
 #include "control/drive_link/drive_link.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 #include <sys/ioctl.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include "control/drive_link/controller.hpp"
+#include "core/clock.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/pseudo_terminal.hpp"
 
@@ -33,29 +42,88 @@ class Device {
   std::uint32_t now_us_ = 0;
 };
 
+/// What the link's thread tells.
+struct Told {
+  void operator()(const wire::Status& status, Duration drive_behind) {
+    const std::scoped_lock lock(mutex);
+    newest = status;
+    behind = drive_behind;
+  }
+  [[nodiscard]] wire::DriveState state() {
+    const std::scoped_lock lock(mutex);
+    return newest ? newest->state : wire::DriveState::Fault;
+  }
+
+  std::mutex mutex;
+  std::optional<wire::Status> newest;
+  Duration behind{};
+};
+
 TEST(DriveLink, DrivesAControllerOverASerialLine) {
   Device device;
-  DriveLink link({.device = device.cable.name(), .stale_after = std::chrono::seconds(60)});
-  EXPECT_TRUE(link.latest().stale);
+  Told told;
+  DriveLink link({.device = device.cable.name()}, std::ref(told));
   ASSERT_TRUE(eventually([&] { return link.is_open(); }));
   ASSERT_TRUE(eventually([&] {
     device.step();
     link.send({}, false);
-    return !link.latest().stale && link.latest().status.state == wire::DriveState::Idle;
+    return told.state() == wire::DriveState::Idle;
   }));
   ASSERT_TRUE(eventually([&] {
     device.step();
     link.send({1.5, -0.25}, true);
-    return link.latest().status.state == wire::DriveState::Running;
+    return told.state() == wire::DriveState::Running;
   }));
   EXPECT_EQ(device.controller.left_uradps(), 1'500'000);
   EXPECT_EQ(device.controller.right_uradps(), -250'000);
-  EXPECT_EQ(link.latest().status.battery_mv, 24'000);
   ASSERT_TRUE(eventually([&] {  // the control loop hangs: nobody sends
     device.step();
-    return link.latest().status.state == wire::DriveState::WatchdogStop;
+    return told.state() == wire::DriveState::WatchdogStop;
   }));
+  EXPECT_EQ(told.newest->battery_mv, 24'000);
+  EXPECT_EQ(told.behind, Duration{});  // it has taken all that was sent
   EXPECT_EQ(link.counters().damaged, 0U);
+}
+
+TEST(DriveLink, TellsHowFarTheDriveIsBehind) {
+  Device device;
+  Told told;
+  DriveLink link({.device = device.cable.name()}, std::ref(told));
+  ASSERT_TRUE(eventually([&] { return link.is_open(); }));
+  ASSERT_TRUE(eventually([&] {
+    link.send({}, false);
+    device.step();
+    return told.state() == wire::DriveState::Idle;
+  }));
+  const Stamp before = clock_now();
+  link.send({}, false);  // stays on the way: the device does not read
+  const auto taken = device.controller.next_status();
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  std::array<std::uint8_t, wire::kMaxFrame> frame{};
+  device.cable.write({frame.data(), wire::encode(taken, frame.data())});
+  ASSERT_TRUE(eventually([&] {
+    const std::scoped_lock lock(told.mutex);
+    return told.behind >= std::chrono::milliseconds(30);
+  }));
+  EXPECT_LE(told.behind, clock_now() - before);
+}
+
+/// Beside a list of all that was told.
+RC_GTEST_PROP(CommandLag, IsTheAgeOfTheOldestCommandThatWasNotTaken, ()) {
+  CommandLag lag;
+  auto sequence = *rc::gen::arbitrary<std::uint16_t>();  // it wraps
+  const auto taken = static_cast<std::uint16_t>(sequence + *rc::gen::inRange(-3, 300));
+  std::vector<std::pair<std::uint16_t, Stamp>> all;
+  Stamp now{};
+  for (const int gap_ms : *rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 100))) {
+    now += std::chrono::milliseconds(gap_ms);
+    all.emplace_back(++sequence, now);
+    lag.told(sequence, now);
+  }
+  const auto next =
+      std::ranges::find(all, static_cast<std::uint16_t>(taken + 1U), &std::pair<std::uint16_t, Stamp>::first);
+  const bool known = next != all.end() && all.end() - next <= 256;
+  RC_ASSERT(lag.behind(taken, now) == (known ? now - next->second : Duration{}));
 }
 
 TEST(DriveLink, ASecondProgramIsKeptOutAndComesInOnceTheFirstHasEnded) {
@@ -81,7 +149,7 @@ TEST(DriveLink, WhatCameBeforeThePortWasOpenedIsNotTaken) {
     return ::ioctl(kept_open, FIONREAD, &waiting) == 0 && waiting > 0;
   }));
   std::atomic<int> first = -1;
-  DriveLink link({.device = device.cable.name()}, [&](const wire::Status& status, Stamp /*received*/) {
+  DriveLink link({.device = device.cable.name()}, [&](const wire::Status& status, Duration /*behind*/) {
     int none = -1;
     first.compare_exchange_strong(none, status.sequence);
   });
@@ -102,16 +170,6 @@ TEST(DriveLink, SendsNothingThatIsNoNumber) {
   EXPECT_FALSE(link.send({0.0, 101.0}, true));
   EXPECT_EQ(link.counters().refused_commands, 2U);
   EXPECT_EQ(link.counters().commands, 0U);
-}
-
-TEST(DriveLink, SilenceIsStale) {
-  Device device;
-  DriveLink link({.device = device.cable.name(), .stale_after = std::chrono::milliseconds(20)});
-  ASSERT_TRUE(eventually([&] {
-    device.step();
-    return link.counters().status_frames > 0;
-  }));
-  EXPECT_TRUE(eventually([&] { return link.latest().stale; }));
 }
 
 TEST(DriveLink, OpensAgainWhenTheCableComesBack) {

@@ -433,6 +433,7 @@ export const de: Record<TextKey, string> = {
   "cause.drive-deaf": "Der Antrieb antwortet, hört aber keine Befehle",
   "cause.wheels-untold": "Der Antrieb antwortet, aber was er von den Rädern meldet, ist zu alt oder unsinnig",
   "cause.drive-idle": "Der Antrieb antwortet, läuft aber trotz Befehl nicht an",
+  "cause.drive-late": "Befehle an den Antrieb oder seine Antworten kommen verspätet an",
   "cause.drive-fault": "Der Antrieb meldet: {faults}",
   "cause.fault-over": "Der Antrieb hatte eine Störung, die vorbei ist",
   "cause.no-scan": "Noch kein Scan",

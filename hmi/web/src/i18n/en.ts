@@ -453,6 +453,7 @@ export const en = {
   "cause.drive-deaf": "The drive answers, but hears no commands",
   "cause.wheels-untold": "The drive answers, but what it tells of its wheels is late or makes no sense",
   "cause.drive-idle": "The drive answers, but does not start although it is told to",
+  "cause.drive-late": "Commands reach the drive late, or its answers come late",
   "cause.drive-fault": "The drive reports: {faults}",
   "cause.fault-over": "The drive had a fault, which is gone",
   "cause.no-scan": "No scan has come yet",

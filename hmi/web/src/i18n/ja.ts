@@ -454,6 +454,7 @@ export const ja: Record<TextKey, string> = {
   "cause.drive-deaf": "駆動部は応答しますが、指令が届いていません",
   "cause.wheels-untold": "駆動部は応答しますが、車輪の値が古いか、異常です",
   "cause.drive-idle": "駆動部は応答しますが、指令しても動き出しません",
+  "cause.drive-late": "駆動部への指令、または駆動部からの応答が遅れています",
   "cause.drive-fault": "駆動部の異常: {faults}",
   "cause.fault-over": "駆動部の異常は解消しました",
   "cause.no-scan": "スキャンがまだ届きません",
