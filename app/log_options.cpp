@@ -1,6 +1,7 @@
 #include "app/log_options.hpp"
 
 #include "app/lidars.hpp"
+#include "core/result.hpp"
 #include "sensors/lidar/registry.hpp"
 
 namespace madori::app {
@@ -22,6 +23,10 @@ sensors::LogOptions log_options(const mapping::Site& site, const std::filesystem
   options.base_from_lidar = lidar.mounting.base_from_lidar();
   options.lidar_height_m = lidar.mounting.z_m;
   return options;
+}
+
+void require_scans(std::size_t scans, const std::string& log) {
+  if (scans == 0) throw Error(log, "holds no scan and no cloud", "give a log in which a lidar was recorded");
 }
 
 }  // namespace madori::app

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
 
 #include "core/lidar_model.hpp"
 #include "mapping/site/site.hpp"
@@ -15,5 +17,8 @@ namespace madori::app {
 /// empty.
 [[nodiscard]] sensors::LogOptions log_options(const mapping::Site& site,
                                               const std::filesystem::path& wheels = {});
+
+/// Throws Error where a log that was read to its end held neither a scan nor a cloud.
+void require_scans(std::size_t scans, const std::string& log);
 
 }  // namespace madori::app

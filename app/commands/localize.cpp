@@ -128,6 +128,7 @@ void localize(const LocalizeArguments& arguments) {
         learner.observe(points, sensor, e);
       },
       arguments.learn ? &map_learner : nullptr);
+  require_scans(static_cast<std::size_t>(played.scans), arguments.log);
   std::optional<localization::SelfCalibration> calibration;  // takes a fifth of the time: where asked
   if (arguments.learn || !arguments.json_file.empty()) calibration = calibrate(learner, localizer, walls);
   if (arguments.learn) {

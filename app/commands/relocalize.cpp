@@ -107,6 +107,7 @@ void relocalize(const RelocalizeArguments& arguments) {
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count());
     add_scan(tally, stamp_of(*record), answer, arguments.best_guess);
   }
+  require_scans(tally.ms.size(), arguments.log);
   mapping::write_file_atomically(arguments.out, tally.trajectory);
   const double median = tally.ms.empty() ? 0.0 : median_of(tally.ms);
   const auto [found, ambiguous, nowhere] = tally.count;

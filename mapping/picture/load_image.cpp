@@ -9,11 +9,11 @@
 #include <string>
 #include <utility>
 
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 #include "mapping/picture/grey_png.hpp"
 #include "mapping/picture/image_header.hpp"
 #include "mapping/picture/quiet_stderr.hpp"
-#include "mapping/site/atomic_file.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -25,7 +25,7 @@ constexpr auto kFormats = "give a PNG, JPEG, TIFF or BMP picture";
 std::vector<std::uint8_t> read_bytes(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error)) throw Error(file.string(), "is a folder", "name the drawing inside it");
-  expect_readable(file, kMostFileBytes);
+  require_readable(file, kMostFileBytes);
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
   const auto size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
   if (size < 0) throw Error(file.string(), "cannot be read", "check its permissions");

@@ -87,20 +87,6 @@ void expect_writable(const std::filesystem::path& named) {
   ::unlink(temporary.c_str());
 }
 
-void expect_readable(const std::filesystem::path& file, std::uint64_t most_bytes) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw Error(file.string(), "there is no such file", "check the path");
-  if (!std::filesystem::is_regular_file(status))
-    throw Error(file.string(), "is no regular file", "save its content to a file first");
-  const auto size = std::filesystem::file_size(file, error);
-  if (!error && size > most_bytes)
-    throw Error(file.string(),
-                "has " + std::to_string((size + 999'999) / 1'000'000) + " MB, more than " +
-                    std::to_string(most_bytes / 1'000'000),
-                "check that it is the right file");
-}
-
 void write_new_file(const std::filesystem::path& file, std::string_view content) {
   write_whole(file.string(), file, content, false);
 }

@@ -22,10 +22,6 @@ void expect_writable(const std::filesystem::path& file);
 /// Writes a file that nobody reads yet; neither atomic nor synced. Throws Error as above, with nothing left.
 void write_new_file(const std::filesystem::path& file, std::string_view content);
 
-/// Throws Error where there is no such file, where it is no regular one (a pipe, a device: reading it may
-/// never end) or where it has more than `most_bytes`: before one byte of it is read.
-void expect_readable(const std::filesystem::path& file, std::uint64_t most_bytes = 64'000'000);
-
 /// All bytes of a file; empty where it cannot be opened.
 [[nodiscard]] std::string file_content(const std::filesystem::path& file);
 

@@ -106,6 +106,13 @@ class Commands(unittest.TestCase):
         self.assertIn("is queued, but standard output", answer.stderr)
         (self.site / "madori.db").unlink()
 
+    def test_a_log_without_a_scan_is_refused_and_nothing_is_written(self):
+        log, out = self.here / "wheels.log", self.here / "poses.txt"
+        log.write_text("ODOM 0 0 0 0 0 0 1 host 1\nODOM 0.1 0 0 0 0 0 2 host 2\n")
+        for command in (("relocalize", self.site), ("localize", self.site, "--global")):
+            self.refused(madori(*command, "--log", log, "--out", out), "holds no scan")
+            self.assertFalse(out.exists())
+
     def spoiled(self, name, content):
         """A copy of the site with one file replaced; `content` None: a folder in its place."""
         copy = pathlib.Path(tempfile.mkdtemp(dir=self.here)) / "site"

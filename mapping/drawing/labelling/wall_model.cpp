@@ -6,9 +6,9 @@
 #include <iterator>
 #include <string>
 
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 #include "mapping/drawing/labelling/log_odds.hpp"
-#include "mapping/site/atomic_file.hpp"
 
 // The model file becomes read-only data of the library.
 asm(".pushsection .rodata\n"
@@ -39,7 +39,7 @@ WallModel from_bytes(const std::string& name, std::string_view content) {
 }  // namespace
 
 WallModel WallModel::load(const std::filesystem::path& file) {
-  expect_readable(file);
+  require_readable(file, 64'000'000);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw Error(file.string(), "cannot be opened", "name a model that train_walls wrote");
   return from_bytes(file.string(), std::string{std::istreambuf_iterator<char>(stream), {}});

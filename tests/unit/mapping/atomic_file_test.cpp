@@ -8,6 +8,7 @@
 #include <array>
 #include <thread>
 
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -69,10 +70,10 @@ TEST_F(AtomicFile, WhetherAFileCanBeWrittenIsSaidWithoutWriting) {
 TEST_F(AtomicFile, WhatMayNeverEndOrIsTooLargeIsNotRead) {
   const fs::path pipe = at("pipe"), file = folder_.write("file", "12345");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_NO_THROW(expect_readable(file, 5));
-  EXPECT_THROW(expect_readable(file, 4), Error);
+  EXPECT_NO_THROW(require_readable(file, 5));
+  EXPECT_THROW(require_readable(file, 4), Error);
   for (const fs::path& other : {pipe, fs::path("/dev/zero"), folder_.path(), at("absent")})
-    EXPECT_THROW(expect_readable(other, 5), Error) << other;
+    EXPECT_THROW(require_readable(other, 5), Error) << other;
 }
 
 TEST_F(AtomicFile, ALinkStaysAndWhatItLeadsToIsReplaced) {

@@ -109,7 +109,7 @@ TEST_F(LoadImage, AFaxIsNoLongerSquashed) {
 }
 
 TEST_F(LoadImage, BadInputIsNamedWithItsMend) {
-  EXPECT_THAT(reason(folder_.path() / "absent.png"), HasSubstr("no such file"));
+  EXPECT_THAT(reason(folder_.path() / "absent.png"), HasSubstr("cannot be opened"));
   EXPECT_THAT(reason(folder_.path()), HasSubstr("is a folder"));
   EXPECT_THAT(reason(write_text("empty.png", "")), HasSubstr("is empty"));
   EXPECT_THAT(reason(write_text("text.png", "this is no picture at all")), HasSubstr("not an image"));
