@@ -55,9 +55,7 @@ std::string safe_name(const TarBlock& block) {
   const std::string whole = (prefix.empty() ? "" : prefix + "/") + text_of(block, 0, 100);
   if (!whole.starts_with(kBackupFolder)) return "";
   const std::string name = whole.substr(std::strlen(kBackupFolder));
-  const fs::path path(name);
-  const bool inside = std::ranges::none_of(path, [](const fs::path& part) { return part == ".."; });
-  return inside && path.is_relative() && is_in_backup(name) ? name : "";
+  return is_in_backup(name) ? name : "";
 }
 
 std::string read_content(std::ifstream& stream, std::uint64_t size, const fs::path& file) {

@@ -6,6 +6,7 @@
 
 #include "core/result.hpp"
 #include "hmi/server/site_files.hpp"
+#include "mapping/site/site_name.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/site/site_versions.hpp"
 
@@ -33,10 +34,12 @@ bool are_still(const std::vector<TarStream::Entry>& entries, const fs::path& sit
 }  // namespace
 
 bool is_in_backup(const std::string& name) {
+  if (!mapping::is_site_name(name)) return false;
+  if (name.starts_with("versions/")) return mapping::is_of_versions(name);
+  if (name.find('/') != std::string::npos)
+    return name.starts_with("routes/") || name.starts_with("tiles/") || name.starts_with("learned/");
   return mapping::is_kept(name) || name == "reliability.csv" || name == "memory.bin" ||
-         name == "self_calibration.yaml" || name.starts_with("walls.") || name.starts_with("map.") ||
-         name.starts_with("routes/") || name.starts_with("tiles/") || name.starts_with("learned/") ||
-         name.starts_with("versions/");
+         name == "self_calibration.yaml" || name.starts_with("walls.") || name.starts_with("map.");
 }
 
 /// Only where a backup has files: a change that is being staged and recordings come and go below the others.

@@ -15,6 +15,7 @@
 #include "mapping/site/at_once.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site_file.hpp"
+#include "mapping/site/site_name.hpp"
 #include "mapping/site/site_versions.hpp"
 #include "mapping/wall_map/wall.hpp"
 
@@ -52,6 +53,22 @@ int take_lock(const fs::path& site, bool wait) {
     throw Error(site.string(), "another command is changing this site", "wait until it has ended");
   }
   return lock;
+}
+
+void require_site_name(const fs::path& site, const std::string& name) {
+  if (!is_site_name(name))
+    throw Error(site.string(), "has no file of the name " + name, "choose another name");
+}
+
+/// What was committed must come to pass: a folder where a file is to be, or a file where its folder is to
+/// be, would stop it half way, and every command after it.
+void require_room_for(const fs::path& site, const std::string& name) {
+  bool free = !fs::is_directory(site / name);
+  for (fs::path part = fs::path(name).parent_path(); free && !part.empty(); part = part.parent_path())
+    free = !fs::exists(site / part) || fs::is_directory(site / part);
+  if (!free)
+    throw Error((site / name).string(), "cannot be written: a file or folder of the site is in its way",
+                "move that away");
 }
 
 /// Every step can be repeated: a rename that was done before the power failed is simply no longer there.
@@ -104,6 +121,7 @@ SiteTransaction::~SiteTransaction() {
 }
 
 fs::path SiteTransaction::staged(const std::string& name) {
+  require_site_name(site_, name);
   if (std::find(puts_.begin(), puts_.end(), name) == puts_.end()) puts_.push_back(name);
   syncs_.erase(name), objects_.erase(name);  // of what is there now
   fs::path file = site_ / kStaging / name;
@@ -139,6 +157,7 @@ void SiteTransaction::sync_staged() {
 }
 
 void SiteTransaction::remove(const std::string& name) {
+  require_site_name(site_, name);
   removals_.push_back(name);
 }
 
@@ -153,6 +172,7 @@ void SiteTransaction::read_back() const {
 
 void SiteTransaction::commit() {
   read_back();
+  for (const auto& name : puts_) require_room_for(site_, name);
   std::map<std::string, std::string> objects;
   for (auto& [name, object] : objects_) objects[name] = object.get();
   objects_.clear();

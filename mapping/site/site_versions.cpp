@@ -16,6 +16,7 @@
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
 #include "mapping/site/site_file.hpp"
+#include "mapping/site/site_name.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "mapping/wall_map/wall_files.hpp"
 
@@ -55,10 +56,25 @@ std::vector<std::string> keep_objects(const fs::path& site, const std::vector<Ke
   return kept;
 }
 
+constexpr std::int64_t kMostNumber = 1'000'000'000;  // leaves numbers for the saves after it
+
+bool is_object(const std::string& name) {
+  return !name.empty() && name.find_first_not_of("0123456789abcdef-") == std::string::npos;
+}
+
+/// Of a version that this program may have written: a backup brings what anybody wrote.
+bool is_possible(const SiteVersion& version) {
+  return version.number > 0 && std::ranges::all_of(version.files, [](const auto& file) {
+           return is_kept(file.first) && is_object(file.second);
+         });
+}
+
 SiteVersion parsed(const std::string& manifest) {
   const json all = json::parse(manifest);
-  return {all.at("number").get<int>(), all.at("stamp_s").get<double>(), all.at("author").get<std::string>(),
-          all.at("sentence").get<std::string>(), all.at("files").get<std::map<std::string, std::string>>()};
+  const auto number = all.at("number").is_number_integer() ? all.at("number").get<std::int64_t>() : 0;
+  return {number > 0 && number <= kMostNumber ? static_cast<int>(number) : 0, all.at("stamp_s").get<double>(),
+          all.at("author").get<std::string>(), all.at("sentence").get<std::string>(),
+          all.at("files").get<std::map<std::string, std::string>>()};
 }
 
 /// Those that are no manifest are left out: the others count.
@@ -66,7 +82,7 @@ std::vector<SiteVersion> readable(const std::vector<std::string>& manifests) {
   std::vector<SiteVersion> all;
   for (const auto& text : manifests) {
     try {
-      all.push_back(parsed(text));
+      if (auto version = parsed(text); is_possible(version)) all.push_back(std::move(version));
     } catch (const json::exception&) {
       // not of this program, or damaged
     }
@@ -132,7 +148,13 @@ std::string author() {
 bool is_kept(const std::string& name) {
   return name == "site.yaml" || name == "walls.csv" || name == kOtherLinesFile || name == kWayFile ||
          name == "import.png" || name == "routes/tree.csv" || name == "routes/path.csv" ||
-         name.starts_with("drawing.");
+         (name.starts_with("drawing.") && is_site_name(name) && name.find('/') == std::string::npos);
+}
+
+bool is_of_versions(const std::string& name) {
+  const fs::path path(name);
+  const bool manifest = path.parent_path() == "versions" && path.extension() == ".json";
+  return manifest || (path.parent_path() == "versions/objects" && is_object(path.filename()));
 }
 
 std::string object_name(std::string_view content) {

@@ -40,6 +40,8 @@ inline constexpr const char* kWayFile = "driven_way.csv";
 
 /// Whether a file of a site belongs to its versions.
 [[nodiscard]] bool is_kept(const std::string& name);
+/// Whether a file below a site's `versions` is a manifest or an object, by its name in the site.
+[[nodiscard]] bool is_of_versions(const std::string& name);
 /// The name of a content below versions/objects: FNV-1a of 128 bits, and the length; keeps no secret.
 [[nodiscard]] std::string object_name(std::string_view content);
 
@@ -48,7 +50,7 @@ inline constexpr const char* kWayFile = "driven_way.csv";
 void bring_versions(SiteTransaction& change, const std::filesystem::path& site,
                     const std::vector<std::string>& manifests);
 
-/// All versions, oldest first; damaged manifests are left out.
+/// All versions, oldest first; manifests that are damaged, or name what no version keeps, are left out.
 [[nodiscard]] std::vector<SiteVersion> site_versions(const std::filesystem::path& site);
 /// Throws Error where there is no such version.
 [[nodiscard]] SiteVersion site_version(const std::filesystem::path& site, int number);

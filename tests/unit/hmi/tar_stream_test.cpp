@@ -156,6 +156,15 @@ TEST(SiteBackup, WhatNoCommandWouldReadIsNotRestored) {
   EXPECT_EQ(refusal_of(site, folder.path()), "");
 }
 
+TEST(SiteBackup, NamesThatNoBackupHasAreNotWritten) {
+  for (const char* name : {"tiles/a\n- b", "drawing./../pins", "walls.d/a", "versions/objects",
+                           "versions/a/b.json", "learned/../pins", "learned/", "pins"})
+    EXPECT_FALSE(is_in_backup(name)) << name;
+  for (const char* name : {"drawing.png", "walls.pcd", "map.yaml", "routes/tree.csv", "tiles/18/5/7.png",
+                           "learned/days/2026-11-25.png", "versions/000001.json", "versions/objects/0a1b-12"})
+    EXPECT_TRUE(is_in_backup(name)) << name;
+}
+
 TEST(SiteBackup, APipeIsNoneAndIsNotWaitedFor) {
   const test::TemporaryFolder folder;
   const fs::path pipe = folder.path() / "b.tar";

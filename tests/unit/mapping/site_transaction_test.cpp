@@ -96,6 +96,37 @@ TEST(SiteTransaction, AChangeThatCannotBeFinishedKeepsNoLock) {
   EXPECT_EQ(file_content(folder.path() / "walls.csv"), "new");
 }
 
+TEST(SiteTransaction, ANameThatLeavesTheSiteOrEndsALineOfItsJournalIsRefused) {
+  const test::TemporaryFolder folder;
+  const fs::path beside = folder.write("beside", "untouched");
+  SiteTransaction change(folder.path() / "site");
+  for (const std::string name : {"tiles/a\n- " + beside.string(), std::string("../beside"), beside.string(),
+                                 std::string("tiles/../../beside"), std::string("tiles/"), std::string()}) {
+    EXPECT_THROW(change.write(name, "x"), Error) << name;
+    EXPECT_THROW(change.remove(name), Error) << name;
+  }
+  change.write("tiles/a", "x");
+  change.commit();
+  EXPECT_EQ(file_content(beside), "untouched");
+}
+
+/// Before the commit, not half way through it.
+TEST(SiteTransaction, WhatIsInTheWayOfAFileIsToldWithTheSiteAsItWas) {
+  const test::TemporaryFolder folder;
+  const auto save = [&](const char* name) {
+    SiteTransaction change(folder.path());
+    change.write("walls.csv.old", name);
+    change.write(name, "x");
+    change.commit();
+  };
+  save("tiles/18/5.png");
+  for (const char* name : {"tiles/18", "tiles/18/5.png/7"}) {
+    EXPECT_THROW(save(name), Error) << name;
+    EXPECT_EQ(file_content(folder.path() / "walls.csv.old"), "tiles/18/5.png");
+  }
+  save("tiles/19");  // nothing was left undone
+}
+
 TEST(SiteTransaction, SurvivesKillAtAnyMoment) {
   const test::TemporaryFolder folder;
   folder.write("a", "0");

@@ -102,5 +102,24 @@ TEST_F(SiteVersionsTest, KillsAtAnyMomentLoseNoVersionAndLeaveNoneHalf) {
   }
 }
 
+/// As a backup of another computer may bring it.
+TEST_F(SiteVersionsTest, AManifestThatNamesWhatNoVersionKeepsIsLeftOut) {
+  save(site_, 1);
+  const std::string object = site_versions(site_)[0].files.at("routes/tree.csv");
+  const auto add = [&](const std::string& number, const std::string& name, const std::string& of) {
+    write_new_file(site_ / "versions/000007.json",
+                   "{\"number\":" + number +
+                       ",\"stamp_s\":1,\"author\":\"\",\"sentence\":\"\",\"files\":{\"" + name + "\":\"" +
+                       of + "\"}}");
+    return site_versions(site_).size();
+  };
+  EXPECT_EQ(add("7", "drawing.png", object), 2U);
+  EXPECT_EQ(add("7", "drawing./../../beside", object), 1U);
+  EXPECT_EQ(add("7", "pins", object), 1U);
+  EXPECT_EQ(add("7", "drawing.png", "../../site.yaml"), 1U);
+  EXPECT_EQ(add("2147483647", "drawing.png", object), 1U);  // has no number after it
+  EXPECT_EQ(add("1e300", "drawing.png", object), 1U);
+}
+
 }  // namespace
 }  // namespace madori::mapping
