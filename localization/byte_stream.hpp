@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/fnv1a.hpp"
+#include "core/possible.hpp"
 #include "core/transform2.hpp"
 
 namespace madori::localization {
@@ -57,11 +58,16 @@ class ByteReader {
     if constexpr (std::is_floating_point_v<T>) ok_ = ok_ && std::isfinite(value);
     return value;
   }
+  template <class Float>
+  Float metres() {
+    const auto value = get<Float>();
+    ok_ = ok_ && is_possible(static_cast<double>(value));
+    return value;
+  }
   template <class A, class B>
   Transform2<A, B> transform() {
-    const double x = get<double>();
-    const double y = get<double>();
-    return {x, y, get<double>()};
+    const auto x = metres<double>(), y = metres<double>(), yaw = metres<double>();
+    return {x, y, yaw};
   }
   /// A number of items of at least `item_bytes` each.
   std::uint32_t count(std::size_t item_bytes) {

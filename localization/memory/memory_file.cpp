@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::string_view kMagic = "MADORIMM";
 constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kLeastKeyframe = 61, kFactor = 105;  // bytes
 /// Of a keyframe; a cut is a break, too.
 constexpr unsigned kAfterBreak = 1;
 constexpr unsigned kCut = 2;
@@ -31,14 +32,14 @@ void put_scan(Writer& out, const SurfaceScan& scan) {
 SurfaceScan get_scan(Reader& in) {
   SurfaceScan scan;
   scan.stamp = Stamp(Duration(in.get<std::int64_t>()));
-  scan.sensor.x_m = in.get<double>();
-  scan.sensor.y_m = in.get<double>();
+  scan.sensor.x_m = in.metres<double>();
+  scan.sensor.y_m = in.metres<double>();
   scan.points.resize(in.count(4 * sizeof(float)));
   for (SurfacePoint& p : scan.points) {
-    p.x_m = in.get<float>();
-    p.y_m = in.get<float>();
-    p.normal_x = in.get<float>();
-    p.normal_y = in.get<float>();
+    p.x_m = in.metres<float>();
+    p.y_m = in.metres<float>();
+    p.normal_x = in.metres<float>();
+    p.normal_y = in.metres<float>();
   }
   return scan;
 }
@@ -102,17 +103,17 @@ Result<Memory> parse_memory(std::string_view bytes, std::uint64_t walls, const M
   if (in.get<std::uint32_t>() != kVersion) return refuse("it was written by another version");
   if (end.get<std::uint64_t>() != fnv1a(body)) return refuse("it is damaged");
   if (in.get<std::uint64_t>() != walls) return refuse("the walls have changed since");
-  std::vector<Keyframe> keyframes(in.count(1));
+  std::vector<Keyframe> keyframes(in.count(kLeastKeyframe));
   std::vector<Transform2<Map, Base>> poses(keyframes.size());
   for (std::size_t i = 0; i < keyframes.size() && in.ok(); ++i) {
     poses[i] = in.transform<Map, Base>();
-    keyframes[i].path_m = in.get<double>();
+    keyframes[i].path_m = in.metres<double>();
     const auto marks = in.get<std::uint8_t>();
     keyframes[i].after_break = marks != 0;
     keyframes[i].cut = (marks & kCut) != 0;
     keyframes[i].scan = std::make_shared<const SurfaceScan>(get_scan(in));
   }
-  std::vector<RelativeFactor> factors(in.count(1));
+  std::vector<RelativeFactor> factors(in.count(kFactor));
   for (RelativeFactor& f : factors) {
     f = get_factor(in);
     if (!has_ends(f, keyframes.size())) return refuse("it is damaged");

@@ -15,7 +15,7 @@ namespace madori::localization {
 [[nodiscard]] std::string memory_bytes(const Memory& memory, std::uint64_t walls);
 
 /// Reads them back. Refused, with the reason: bytes that are cut short or changed, another version, other
-/// walls, numbers that are not finite, factors between keyframes that are not there.
+/// walls, numbers that are not finite or no places, factors between keyframes that are not there.
 [[nodiscard]] Result<Memory> parse_memory(std::string_view bytes, std::uint64_t walls,
                                           const MemoryOptions& options = {});
 

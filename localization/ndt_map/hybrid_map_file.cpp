@@ -22,9 +22,9 @@ CellGaussian get_gaussian(ByteReader& in) {
   CellGaussian g;
   g.samples = in.get<float>();
   if (g.empty()) return g;
-  g.x_m = in.get<double>();
-  g.y_m = in.get<double>();
-  for (float* v : {&g.xx_m2, &g.xy_m2, &g.yy_m2, &g.z_m, &g.zz_m2}) *v = in.get<float>();
+  g.x_m = in.metres<double>();
+  g.y_m = in.metres<double>();
+  for (float* v : {&g.xx_m2, &g.xy_m2, &g.yy_m2, &g.z_m, &g.zz_m2}) *v = in.metres<float>();
   return g;
 }
 
@@ -46,6 +46,15 @@ MapCell get_cell(ByteReader& in) {
   cell.gaussian = get_gaussian(in);
   cell.lasting = get_gaussian(in);
   return cell;
+}
+
+bool is_possible(const CellGaussian& g) {
+  return g.samples >= 0.0F && g.xx_m2 >= 0.0F && g.yy_m2 >= 0.0F && g.zz_m2 >= 0.0F;
+}
+
+/// Only cells that were seen are kept, and no clock tells a time before 1970.
+bool is_possible(const MapCell& cell) {
+  return cell.layers.seen > Stamp{} && is_possible(cell.gaussian) && is_possible(cell.lasting);
 }
 
 }  // namespace
@@ -78,10 +87,12 @@ Result<KeptHybridMap> parse_hybrid_map(std::string_view bytes, const HybridMapOp
   if (in.get<double>() != options.cell_m) return refuse("its cells have another size");
   const std::uint32_t cells = in.count(kLeastBytes);
   if (cells > options.most_cells) return refuse("it holds more cells than are kept");
-  for (std::uint32_t i = 0; i < cells && in.ok(); ++i) {
+  for (std::uint32_t i = 0; i < cells; ++i) {
     const auto column = in.get<std::int32_t>();
     const auto row = in.get<std::int32_t>();
-    kept.map.restore({column, row}, get_cell(in));
+    const MapCell cell = get_cell(in);
+    if (!in.ok() || !is_possible(cell)) return refuse("it is damaged");
+    kept.map.restore({column, row}, cell);
   }
   if (!in.at_end()) return refuse("it is damaged");
   return kept;

@@ -22,7 +22,8 @@ struct KeptHybridMap {
   std::uint64_t walls = 0;
 };
 /// Reads them back. Refused, with the reason: bytes that are cut short or changed, another version, numbers
-/// that are not finite, another size of cells, more cells than the options allow.
+/// that are not finite, cells that cannot be (never seen, negative counts or variances), another size of
+/// cells, more cells than the options allow.
 [[nodiscard]] Result<KeptHybridMap> parse_hybrid_map(std::string_view bytes,
                                                      const HybridMapOptions& options = {});
 

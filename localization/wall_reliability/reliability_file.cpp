@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "core/possible.hpp"
 #include "mapping/site/atomic_file.hpp"
 
 namespace madori::localization {
@@ -27,7 +28,7 @@ std::optional<Row> numbers_of(std::string_view line) {
     if (comma == std::string_view::npos) return std::nullopt;
     const std::string_view field = line.substr(0, comma);
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
+    if (error != std::errc() || end != field.data() + field.size() || !is_possible(value))
       return std::nullopt;
     line.remove_prefix(comma + 1);
   }
@@ -46,7 +47,7 @@ std::optional<std::size_t> piece_of(const WallCells& cells, const Row& row) {
   return std::nullopt;
 }
 
-bool is_possible(const Row& row) {
+bool has_counts(const Row& row) {
   return row[6] >= 0.0 && row[7] >= 0.0 && row[8] >= 0.0 && row[10] >= 0.0;
 }
 
@@ -80,7 +81,7 @@ std::string load_reliability(const std::filesystem::path& file, WallReliability&
   while (std::getline(stream, line)) {
     ++rows;
     const auto row = numbers_of(line);
-    if (!row || !is_possible(*row))
+    if (!row || !has_counts(*row))
       return file.string() + ":" + std::to_string(rows + 1) + ": is damaged" + anew;
     const auto piece = piece_of(reliability.cells(), *row);
     if (!piece) continue;  // of a wall that was erased or drawn elsewhere

@@ -7,6 +7,7 @@
 #include <span>
 #include <sstream>
 
+#include "core/possible.hpp"
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 
@@ -26,7 +27,7 @@ void append(std::string& text, const char* word, std::span<const double> values)
   text += '\n';
 }
 
-/// Lines of a word and a known count of finite numbers, in a known order.
+/// Lines of a word and a known count of numbers, in a known order.
 class Lines {
  public:
   explicit Lines(const std::string& text) : stream_(text) {}
@@ -41,7 +42,7 @@ class Lines {
     std::array<double, N> values{};
     line >> found;
     for (double& value : values)
-      if (!(line >> value) || !std::isfinite(value)) return std::nullopt;
+      if (!(line >> value) || !is_possible(value)) return std::nullopt;
     if (found != word || line >> found) return std::nullopt;
     return values;
   }
@@ -56,12 +57,17 @@ class Lines {
   int number_ = 0;
 };
 
+bool is_count(double value) {
+  return value >= 0.0 && value <= kMostControls && value == std::floor(value);
+}
+
 std::optional<WarpField> read_field(Lines& lines) {
   WarpField field;
   const auto head = lines.values<5>("field");
   if (!head) return std::nullopt;
   const auto& [x, y, spacing, width, height] = *head;
-  if (width < 0.0 || height < 0.0 || width * height > kMostControls || spacing <= 0.0) return std::nullopt;
+  if (!is_count(width) || !is_count(height) || width * height > kMostControls || spacing <= 0.0)
+    return std::nullopt;
   field.origin = {x, y};
   field.spacing_m = spacing;
   field.width = static_cast<int>(width);
@@ -79,7 +85,7 @@ std::optional<WarpField> read_field(Lines& lines) {
 
 std::optional<WarpFit> read_fit(Lines& lines, std::size_t walls) {
   const auto similarity = lines.values<4>("similarity");
-  if (!similarity || (*similarity)[0] <= 0.0) return std::nullopt;
+  if (!similarity || (*similarity)[0] <= 0.0 || !is_possible(1.0 / (*similarity)[0])) return std::nullopt;
   const auto s = lines.values<5>("statistics");
   if (!s || (*s)[0] <= 0.0 || (*s)[1] <= 0.0 || (*s)[2] <= 0.0 || (*s)[3] <= 0.0) return std::nullopt;
   const auto found = lines.values<3>("fit");

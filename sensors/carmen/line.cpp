@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/angle.hpp"
+#include "core/possible.hpp"
 
 namespace madori::sensors::carmen {
 namespace {
@@ -11,7 +12,6 @@ namespace {
 constexpr int kMaxBeams = 20'000;
 constexpr int kMaxHalfCircleBeams = 722;
 constexpr double kHalfCircleRangeMaxM = 50.0;  ///< an 81.9 m error code lies beyond it as well
-constexpr double kLargest = 1e7;               ///< metres or radians; beyond it a number is garbage
 constexpr double kLargestTimeS = 9e9;          ///< keeps nanoseconds within 64 bits
 
 /// Takes words and numbers off the front of a line; after the first failure everything fails.
@@ -31,7 +31,7 @@ class Words {
     return found;
   }
 
-  double number(double largest = kLargest) {
+  double number(double largest = kLargestRead) {
     const std::string_view text = word();
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <limits>
 #include <random>
 
+#include "localization/byte_stream.hpp"
 #include "localization/ndt_map/hybrid_map_file.hpp"
 #include "localization/ndt_map/map_registration.hpp"
 #include "tests/support/made_up_buildings.hpp"
@@ -285,6 +288,25 @@ TEST(HybridMap, IsReadBackAsItWasAndRefusedWhenDamaged) {
     EXPECT_FALSE(parse_hybrid_map(bad).ok()) << "byte " << at;
     EXPECT_FALSE(parse_hybrid_map(std::string_view(bytes).substr(0, at)).ok()) << "cut at " << at;
   }
+}
+
+/// A right checksum does not make a map: a backup brings what anybody wrote.
+TEST(HybridMap, CellsThatCannotBeAreRefused) {
+  Room room;
+  room.look_for(2.0, box_at(5.0, 3.03));
+  const std::string bytes = hybrid_map_bytes(room.map, 77);
+  const auto with = [&](std::size_t at, auto value) {
+    std::string changed = bytes.substr(0, bytes.size() - sizeof(std::uint64_t));
+    std::memcpy(changed.data() + at, &value, sizeof value);
+    ByteWriter out;
+    out.put(changed);
+    return parse_hybrid_map(out.take());
+  };
+  constexpr std::size_t kSeen = 40, kSamples = 60;  // of the first cell
+  EXPECT_TRUE(with(kSeen, std::int64_t{5}).ok());
+  EXPECT_FALSE(with(kSeen, std::int64_t{0}).ok());
+  EXPECT_FALSE(with(kSeen, std::numeric_limits<std::int64_t>::min()).ok());
+  EXPECT_FALSE(with(kSamples, -1.0F).ok());
 }
 
 TEST(HybridMap, TheSameLooksGiveTheSameBytes) {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
+#include "localization/byte_stream.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
 
 namespace madori::localization {
@@ -52,6 +54,20 @@ TEST(MemoryFile, OtherWallsAndDamageAreRefusedWithTheReason) {
     EXPECT_FALSE(parse_memory(bad, 77).ok()) << "byte " << at;
     EXPECT_FALSE(parse_memory(std::string_view(bytes).substr(0, at), 77).ok()) << "cut at " << at;
   }
+}
+
+/// A right checksum does not make a memory: a backup brings what anybody wrote.
+TEST(MemoryFile, APoseThatIsNoPlaceIsRefused) {
+  const std::string bytes = memory_bytes(some_memory(), 77);
+  const auto with = [&](double x_m) {
+    std::string body = bytes.substr(0, bytes.size() - sizeof(std::uint64_t));
+    std::memcpy(body.data() + 24, &x_m, sizeof x_m);  // of the first pose
+    ByteWriter out;
+    out.put(body);
+    return parse_memory(out.take(), 77);
+  };
+  EXPECT_TRUE(with(-3.5).ok());
+  EXPECT_FALSE(with(1e300).ok());
 }
 
 TEST(MemoryFile, AnyMovedWallChangesTheFingerprint) {

@@ -80,5 +80,34 @@ TEST(WarpFile, AFieldThatFoldsIsRefused) {
   EXPECT_NE(load_warp(folder.path() / "warp.txt", walls, back).find("is damaged"), std::string::npos);
 }
 
+TEST(WarpFile, ALatticeIsOfWholeNumbersOfControlPoints) {
+  const test::TemporaryFolder folder;
+  const mapping::Walls walls = test::laboratory_hall();
+  const std::string text = warp_text(WarpFit{}, walls);
+  const std::size_t field = text.find("field "), end = text.find('\n', field);
+  for (const char* lattice : {"field 0 0 2 1e300 0", "field 0 0 2 0 -1e300", "field 0 0 2 0.5 0"}) {
+    mapping::write_file_atomically(folder.path() / "warp.txt",
+                                   std::string(text).replace(field, end - field, lattice));
+    WarpFit back;
+    EXPECT_NE(load_warp(folder.path() / "warp.txt", walls, back).find("is damaged"), std::string::npos)
+        << lattice;
+  }
+}
+
+TEST(WarpFile, NumbersThatLeadNowhereAreRefused) {
+  const test::TemporaryFolder folder;
+  const mapping::Walls walls = test::laboratory_hall();
+  const std::string text = warp_text(WarpFit{}, walls);
+  const std::size_t line = text.find("similarity "), end = text.find('\n', line);
+  for (const char* similarity :
+       {"similarity 1e308 0 0 0", "similarity 1e-308 0 0 0", "similarity 1 0 1e308 0"}) {
+    mapping::write_file_atomically(folder.path() / "warp.txt",
+                                   std::string(text).replace(line, end - line, similarity));
+    WarpFit back;
+    EXPECT_NE(load_warp(folder.path() / "warp.txt", walls, back).find("is damaged"), std::string::npos)
+        << similarity;
+  }
+}
+
 }  // namespace
 }  // namespace madori::localization
