@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// ROS 1 bags without ROS types. This header and its .cpp files are C++17, because the message headers need
-/// it: they include nothing of core. Everybody else uses reader.hpp and writer.hpp.
+/// ROS 1 bags without ROS types. This header and bridge_output.cpp are C++17, because the message headers
+/// need it: they include nothing of core. Everybody else uses reader.hpp and writer.hpp.
 namespace madori::sensors::rosbag_bridge {
 
 struct Scan {
@@ -50,15 +50,14 @@ struct Packet {
   std::vector<std::uint8_t> bytes;  ///< 1206 of a VLP-16
 };
 
-enum class Kind { Scan, Cloud, Odometry, Text };
+enum class Kind { Scan, Cloud, Odometry, Text, Packets };
 
 struct Topic {
   std::string name;
   Kind kind = Kind::Scan;
-  std::uint64_t messages = 0;
 };
 
-/// Every function throws std::runtime_error with the library's words.
+/// Every function throws std::runtime_error with the reason.
 class Input {
  public:
   explicit Input(const std::string& file);

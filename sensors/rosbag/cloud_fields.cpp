@@ -114,7 +114,7 @@ Result<PointCloud<Lidar>> cloud_from_fields(const Cloud& in) {
     return Answer::failure("the cloud's rows lie outside its data");
   PointCloud<Lidar> cloud{Stamp(Duration(in.stamp_ns)), {}};
   cloud.points.reserve(points);
-  for (std::size_t row = 0; row < in.height; ++row)
+  for (std::size_t row = 0; points > 0 && row < in.height; ++row)
     for (std::size_t column = 0; column < in.width; ++column) {
       const auto point = read_point(in.data.data() + row * in.row_step + column * in.point_step, layout);
       if (point) cloud.points.push_back(*point);

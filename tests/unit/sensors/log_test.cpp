@@ -11,12 +11,14 @@
 #include "sensors/rosbag/bridge.hpp"
 #include "sensors/rosbag/cloud_fields.hpp"
 #include "sensors/rosbag/writer.hpp"
+#include "tests/support/made_bag.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::sensors {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string error_of(const std::filesystem::path& file, const LogOptions& options = {}) {
   try {
@@ -113,6 +115,62 @@ TEST(Bag, RefusesWhatIsNone) {
   EXPECT_THAT(error_of(folder.write("b.bag", "")), HasSubstr("no readable ROS 1 bag"));
 }
 
+std::string std_string(const std::string& text) {
+  return test::number_bytes(static_cast<std::uint32_t>(text.size())) + text;
+}
+
+/// All texts of a bag; what is wrong with it ends them.
+std::string texts_of(const std::filesystem::path& file) {
+  std::string all;
+  rosbag_bridge::Input::Sinks sinks;
+  sinks.text = [&](const std::string& topic, const std::string& text) { all += topic + " " + text + "\n"; };
+  try {
+    rosbag_bridge::Input input(file.string());
+    input.choose({"/3"});
+    while (input.next(sinks)) {
+    }
+  } catch (const std::runtime_error& e) {
+    all += e.what();
+  }
+  return all;
+}
+
+TEST(Bag, IsReadHoweverItsChunksArePacked) {
+  const test::TemporaryFolder folder;
+  std::vector<test::MadeMessage> messages;
+  std::string expected;
+  for (const std::size_t size : {5U, 0U, 3'000'000U}) {
+    messages.push_back({3, std_string(std::string(size, 'x'))});
+    expected += "/3 " + std::string(size, 'x') + "\n";
+  }
+  for (const char* packing : {"none", "bz2"})
+    EXPECT_EQ(texts_of(folder.write(packing, test::made_bag(messages, packing))), expected) << packing;
+}
+
+/// What a bag says of itself and what it is: no memory is asked for, and no byte read, that it does not have.
+TEST(Bag, WhatLiesOutsideIsRefusedWithTheReason) {
+  const test::TemporaryFolder folder;
+  const std::string bag = test::made_bag({{3, std_string("first")}, {3, std_string("second")}}, "none");
+  const auto said = [&](const std::string& before, std::uint32_t value, std::size_t times = 1) {
+    std::string bytes = bag;
+    std::size_t at = 0;
+    for (; times > 0; --times) at = bytes.find(before, at) + before.size();
+    bytes.replace(at, sizeof value, test::number_bytes(value));
+    return texts_of(folder.write("a.bag", bytes));
+  };
+  EXPECT_THAT(said("size=", 1U << 31U), HasSubstr("larger than 256 MiB"));
+  EXPECT_THAT(said("size=", 4), HasSubstr("damaged"));
+  EXPECT_THAT(said("chunk_count=", 2), HasSubstr("too soon"));
+  EXPECT_THAT(said("index_pos=", 0xFFFFFFF0U), HasSubstr("too soon"));
+  EXPECT_THAT(said("index_pos=", 0), HasSubstr("no index"));
+  const std::string second_at = test::number_bytes(2U) + test::number_bytes(0U);
+  EXPECT_THAT(said(second_at, 0xFFFFFFF0U, 2), HasSubstr("outside its record"));
+  EXPECT_THAT(said(second_at, 0, 2), HasSubstr("first\n/3 first"));
+  EXPECT_THAT(said(std::string("\x09\0\0\0", 4), 0xFFFFFFFFU), HasSubstr("outside its record"));
+  for (std::size_t length = 0; length < bag.size(); length += 7)
+    EXPECT_THAT(texts_of(folder.write("a.bag", bag.substr(0, length))), Not(HasSubstr("second"))) << length;
+}
+
 TEST(PointCloud2, RefusesRowsAndFieldsOutsideItsData) {
   const rosbag_bridge::Cloud good = fields_from_cloud(sample_cloud({}));
   ASSERT_TRUE(cloud_from_fields(good));
@@ -127,6 +185,7 @@ TEST(PointCloud2, RefusesRowsAndFieldsOutsideItsData) {
   EXPECT_TRUE(broken([](auto& c) { c.fields[0].offset = 0xFFFFFFFEU; }));
   EXPECT_TRUE(broken([](auto& c) { c.fields[2].name = "w"; }));
   EXPECT_TRUE(broken([](auto& c) { c.big_endian = true; }));
+  EXPECT_FALSE(broken([](auto& c) { c.width = 0, c.height = 0xFFFFFFFFU; })) << "rows of nothing";
 }
 
 /// As velodyne_pointcloud stamps a revolution unless it is told otherwise: at its last packet.

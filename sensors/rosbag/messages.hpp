@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "sensors/rosbag/bag_bytes.hpp"
+#include "sensors/rosbag/bridge.hpp"
+
+namespace madori::sensors::rosbag_bridge {
+
+/// A ROS message type by its name, and the MD5 sum of its definition.
+struct MessageType {
+  Kind kind;
+  const char *name, *md5sum;
+};
+inline constexpr MessageType kMessageTypes[]{
+    {Kind::Scan, "sensor_msgs/LaserScan", "90c7ef2dc6895d81024acba2ac42f369"},
+    {Kind::Cloud, "sensor_msgs/PointCloud2", "1158d486dd51d683ce2f1be655c3c181"},
+    {Kind::Odometry, "nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7"},
+    {Kind::Text, "std_msgs/String", "992ce8a1687cec8c8bd883ec73ca41d1"},
+    {Kind::Packets, "velodyne_msgs/VelodyneScan", "50804fc9533a0e579e6322c04ae70566"}};
+
+/// Nothing for types that are not read.
+[[nodiscard]] std::optional<Kind> kind_of(const std::string& type, const std::string& md5sum);
+
+/// Messages from their bytes (ROS serialization: fields in order, little-endian, arrays behind a u32 count).
+/// All throw std::runtime_error where the bytes end before the message does.
+[[nodiscard]] Scan scan_from(Bytes message);
+[[nodiscard]] Cloud cloud_from(Bytes message);
+[[nodiscard]] Pose odometry_from(Bytes message);
+[[nodiscard]] std::string text_from(Bytes message);
+[[nodiscard]] std::vector<Packet> packets_from(Bytes message);
+
+}  // namespace madori::sensors::rosbag_bridge
