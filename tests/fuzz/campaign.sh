@@ -14,6 +14,7 @@ cmake --preset fuzz > /dev/null
 cmake --build build/fuzz --target fuzz_seeds "${targets[@]/#/fuzz_}"
 build/fuzz/tests/fuzz/fuzz_seeds build/fuzz/seeds
 mkdir -p build/fuzz/findings
+[ ! -w /dev/shm ] || export TMPDIR=/dev/shm  # what targets write to files need not go to a disk
 one() {
   name=$1
   mkdir -p "build/fuzz/corpora/$name"

@@ -1,37 +1,32 @@
 // What every fuzz target begins with, of our own encoders: a search that begins with nothing does not get
 // past a length, a signature or a checksum. Usage: fuzz_seeds FOLDER; writes FOLDER/TARGET/NAME.
+#include "tests/fuzz/seeds.hpp"
+
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
-#include "app/mapping_drive/drive_journal.hpp"
 #include "control/drive_link/wire.hpp"
-#include "mapping/days/day_file.hpp"
 #include "mapping/site/atomic_file.hpp"
-#include "mapping/site/site.hpp"
 #include "sensors/lms1xx/encode.hpp"
+#include "sensors/rosbag/bag_file.hpp"
+#include "sensors/rosbag/writer.hpp"
 #include "sensors/s300/encode.hpp"
 #include "sensors/vlp16/encode.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
 using namespace madori;
-using Bytes = std::vector<std::uint8_t>;
+using fuzz::Bytes;
+using fuzz::save;
 
 template <class Container>
 void append(Bytes& to, const Container& more) {
   to.insert(to.end(), more.begin(), more.end());
-}
-
-void save(const std::filesystem::path& file, const auto& bytes) {
-  std::filesystem::create_directories(file.parent_path());
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
 }
 
 /// As many packets before azimuth 0 as behind it.
@@ -156,6 +151,39 @@ void carmen_seed(const std::filesystem::path& folder) {
   save(folder / "log", text);
 }
 
+/// A bag by our writer, and its messages alone, each behind its type.
+void bag_seeds(const std::filesystem::path& folder) {
+  const test::TemporaryFolder own;
+  const auto file = own.path() / "run.bag";
+  const auto at = [](double seconds) { return stamp_from_seconds(1'700'000'000.0 + seconds); };
+  sensors::RawPacket packet;
+  const Bytes vlp16 = vlp16_packets(sensors::vlp16::ReturnMode::Strongest, 1);
+  packet.bytes.assign(vlp16.begin(), vlp16.end());
+  {
+    sensors::BagWriter bag(file);
+    bag.write(
+        "/scan",
+        LaserScan{
+            at(0.01), std::chrono::microseconds(27), -1.5, 0.01, 30.0, {1.0F, LaserScan::kNoReturn}, {}});
+    bag.write("/points", PointCloud<Lidar>{at(0.02), {{1.0F, 2.0F, 0.5F, 0.001F, 7, 3}, {4.0F, 5.0F, 0.5F}}});
+    bag.write("/odom", OdometryReading{at(0.03), {1.0, 2.0, 0.5}});
+    bag.write("/events", "started", at(0.04));
+    bag.write("/packets", std::vector<sensors::RawPacket>{packet}, 0, at(0.05));
+    bag.close();
+  }
+  save(folder / "file", std::string(1, '\0') + mapping::file_content(file));
+  sensors::rosbag_bridge::BagFile bag(file);
+  std::string messages;
+  for (const auto& place : bag.places({0, 1, 2, 3, 4})) {
+    const auto bytes = bag.message(place);
+    messages += static_cast<char>(place.connection);
+    messages.append(bytes.begin(), bytes.end());
+    messages += '\xff';
+  }
+  for (const char packing : {1, 2})
+    save(folder / std::to_string(packing), std::string(1, packing) + messages);
+}
+
 /// A small room with an inner wall and a door, as a picture and as a drawing.
 void drawing_seeds(const std::filesystem::path& image, const std::filesystem::path& dxf) {
   cv::Mat picture(120, 160, CV_8UC1, cv::Scalar(255));
@@ -176,28 +204,6 @@ void drawing_seeds(const std::filesystem::path& image, const std::filesystem::pa
   save(dxf / "room", text);
 }
 
-void kept_seeds(const std::filesystem::path& day, const std::filesystem::path& journal,
-                const std::filesystem::path& site) {
-  mapping::DayMap map;
-  map.day = *mapping::civil_day("2026-11-25");
-  map.frame = "1a2b3c";
-  map.resize(12, 9);
-  map.set(3, 4, {mapping::DayState::Static, 2});
-  save(day / "day", std::string(1, '\0') + mapping::day_png(map));
-  const auto file = journal / "drive.bin";
-  std::filesystem::create_directories(journal);
-  std::filesystem::remove(file);
-  {
-    app::DriveJournal drive(file, 0);
-    drive.add(OdometryReading{});
-    drive.add(app::DriveScan{{}, {0.2, 0.0}, {{1.0, 2.0}, {3.0, 1.0}}});
-  }
-  const std::string bytes = mapping::file_content(file);
-  std::filesystem::remove(file);
-  save(journal / "drive", std::string(1, '\0') + bytes);
-  save(site / "plain.yaml", mapping::site_yaml(mapping::Site{}));
-}
-
 }  // namespace
 
 int main(int count, char** words) {
@@ -210,6 +216,7 @@ int main(int count, char** words) {
   pcap_seed(folder / "pcap");
   drive_link_seed(folder / "drive_link");
   carmen_seed(folder / "carmen");
+  bag_seeds(folder / "bag");
   drawing_seeds(folder / "image", folder / "dxf");
-  kept_seeds(folder / "day", folder / "drive_journal", folder / "site");
+  fuzz::kept_seeds(folder);
 }
