@@ -1,6 +1,9 @@
 #include "sensors/rosbag/bag_file.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <system_error>
+#include <tuple>
 
 #include "sensors/rosbag/unpack_chunk.hpp"
 

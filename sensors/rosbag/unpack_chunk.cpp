@@ -37,16 +37,14 @@ std::vector<std::uint8_t> from_lz4(Bytes packed, std::size_t bytes) {
   const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context(
       made, LZ4F_freeDecompressionContext);
   return grown(bytes, [&](std::uint8_t* to, std::size_t room) {
-    std::size_t came = 0;
-    while (came == 0 && !packed.empty()) {
-      std::size_t taken = packed.size();
-      came = room;
+    for (;;) {
+      std::size_t came = room, taken = packed.size();
       if (LZ4F_isError(LZ4F_decompress(context.get(), to, &came, packed.data(), &taken, nullptr)) != 0)
         refuse();
-      if (came == 0 && taken == 0) refuse();
       packed = packed.subspan(taken);
+      if (came > 0) return came;
+      if (taken == 0) refuse();
     }
-    return came;
   });
 }
 

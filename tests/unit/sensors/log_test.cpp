@@ -145,6 +145,13 @@ TEST(Bag, IsReadHoweverItsChunksArePacked) {
   }
   for (const char* packing : {"none", "bz2"})
     EXPECT_EQ(texts_of(folder.write(packing, test::made_bag(messages, packing))), expected) << packing;
+  {
+    BagWriter writer(folder.path() / "lz4");
+    for (std::size_t i = 0; i < messages.size(); ++i)
+      writer.write("/3", messages[i].bytes.substr(4), stamp_from_seconds(1.0 + static_cast<double>(i)));
+    writer.close();
+  }
+  EXPECT_EQ(texts_of(folder.path() / "lz4"), expected);
 }
 
 /// What a bag says of itself and what it is: no memory is asked for, and no byte read, that it does not have.
@@ -166,7 +173,8 @@ TEST(Bag, WhatLiesOutsideIsRefusedWithTheReason) {
   const std::string second_at = test::number_bytes(2U) + test::number_bytes(0U);
   EXPECT_THAT(said(second_at, 0xFFFFFFF0U, 2), HasSubstr("outside its record"));
   EXPECT_THAT(said(second_at, 0, 2), HasSubstr("first\n/3 first"));
-  EXPECT_THAT(said(std::string("\x09\0\0\0", 4), 0xFFFFFFFFU), HasSubstr("outside its record"));
+  const std::string first_bytes = test::number_bytes(1U) + test::number_bytes(0U) + test::number_bytes(9U);
+  EXPECT_THAT(said(first_bytes, 0xFFFFFFFFU), HasSubstr("outside its record"));
   for (std::size_t length = 0; length < bag.size(); length += 7)
     EXPECT_THAT(texts_of(folder.write("a.bag", bag.substr(0, length))), Not(HasSubstr("second"))) << length;
 }
