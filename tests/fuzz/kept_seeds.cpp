@@ -56,7 +56,7 @@ void backup_seeds(const std::filesystem::path& folder) {
     change.commit();
   }
   hmi::write_backup(site, file);
-  for (const char choice : {0, 1, 2, 3})
+  for (char choice = 0; choice < 4; ++choice)
     save(folder / std::to_string(choice), chosen(choice, mapping::file_content(file)));
 }
 

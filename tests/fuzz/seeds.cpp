@@ -180,7 +180,7 @@ void bag_seeds(const std::filesystem::path& folder) {
     messages.append(bytes.begin(), bytes.end());
     messages += '\xff';
   }
-  for (const char packing : {1, 2})
+  for (const char packing : {'\1', '\2'})
     save(folder / std::to_string(packing), std::string(1, packing) + messages);
 }
 

@@ -100,8 +100,8 @@ TEST(SiteTransaction, ANameThatLeavesTheSiteOrEndsALineOfItsJournalIsRefused) {
   const test::TemporaryFolder folder;
   const fs::path beside = folder.write("beside", "untouched");
   SiteTransaction change(folder.path() / "site");
-  for (const std::string name : {"tiles/a\n- " + beside.string(), std::string("../beside"), beside.string(),
-                                 std::string("tiles/../../beside"), std::string("tiles/"), std::string()}) {
+  for (const std::string& name : {"tiles/a\n- " + beside.string(), std::string("../beside"), beside.string(),
+                                  std::string("tiles/../../beside"), std::string("tiles/"), std::string()}) {
     EXPECT_THROW(change.write(name, "x"), Error) << name;
     EXPECT_THROW(change.remove(name), Error) << name;
   }
