@@ -22,6 +22,7 @@ static_assert(std::endian::native == std::endian::little, "the files are little-
 class ByteWriter {
  public:
   template <class T>
+  requires std::is_arithmetic_v<T>
   void put(T value) {
     std::array<char, sizeof(T)> raw;
     std::memcpy(raw.data(), &value, sizeof(T));
