@@ -1,6 +1,7 @@
 #include "localization/warp/bent_drawing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "localization/warp/other_ways.hpp"
@@ -13,6 +14,15 @@ namespace {
 /// two metres, or by so much of what is known.
 constexpr double kMoreWalls = 4.0;
 constexpr double kGrowth = 1.05;
+
+/// How far a place lies beside where the warp carries it, as the walls around it do: an uncertain field,
+/// walls beside it, their pieces. The field is off by half as much again as it says
+/// (docs/explanation/warp.md).
+double beside_m(const DrawingWarp& warp, const Point2<Map>& drawn) {
+  constexpr double kMoreThanSaid = 1.5, kLeastM = 0.01;
+  const WarpStatistics& known = warp.statistics();
+  return std::max(kLeastM, kMoreThanSaid * std::hypot(warp.sigma_m(drawn), known.offset_m, known.residual_m));
+}
 
 std::pair<double, double> in_order(const Point2<Map>& p) {
   return {p.x_m, p.y_m};
@@ -75,7 +85,8 @@ void BendingDrawing::take(const WarpFit& fit, const MemoryCloud& cloud) {
   BentDrawing bent{fit, std::move(stands), {}};
   for (const Point2<Map>& drawn : places_) {
     const Point2<Building> carried = fit.warp.building(drawn);
-    bent.places.push_back({drawn, place_by_clearances(walls, cloud, drawn, {carried.x_m, carried.y_m})});
+    bent.places.push_back({drawn, place_by_clearances(walls, cloud, drawn, {carried.x_m, carried.y_m},
+                                                      beside_m(fit.warp, drawn))});
   }
   std::ranges::sort(bent.places, {}, [](const BentDrawing::Place& p) { return in_order(p.drawn); });
   bent_ = std::make_shared<const BentDrawing>(std::move(bent));

@@ -8,36 +8,27 @@
 #include "core/angle.hpp"
 #include "core/beam_to_segment.hpp"
 #include "core/segment_distance.hpp"
+#include "localization/warp/seen_clearances.hpp"
 
 namespace madori::localization {
 namespace {
 
 constexpr double kNearbyM = 4.0;  ///< walls farther away say nothing of the place in the room
 constexpr int kAxes = 8;          ///< directions come in pairs
-constexpr double kBesideRad = to_rad(3.0);
-constexpr double kEdgeM = 0.5;  ///< beams so much beside that differ by more look past an edge
-constexpr double kReachM = 1.0;
 constexpr double kGridM = 0.05;
-constexpr double kExpectedM = 0.3;  ///< standard deviation of the place about where it is expected
-constexpr double kExactM = 0.1;     ///< ... of a distance, as drawn and as the memory has it (half a voxel)
-/// That a beam meets what is drawn against anything else within 2.4 m (7 in 10), where it fits exactly.
+/// Standard deviation of the vehicle about its place: arrival, and the memory's surfaces.
+constexpr double kStandsM = 0.05;
+constexpr double kExactM = 0.1;  ///< ... of a distance, as drawn and as the memory has it (half a voxel)
+/// That a beam meets what is drawn against anything else within 2.4 m, where it fits exactly.
 constexpr double kPeak = 20.0;
+constexpr double kElse = 0.3;         ///< how often it meets something else: what a beam that misses says
 constexpr double kObservation = 0.5;  ///< of a beam: its neighbour mostly meets the same wall
 /// Standard deviation of the nearest clearance's logarithm, where it is less than it should be at least.
 constexpr double kNearer = 0.2;
 constexpr double kUnknown = -1.0;
 
-constexpr int kToRim = static_cast<int>(kReachM / kGridM);
+constexpr int kToRim = static_cast<int>(kPlacesReachM / kGridM);
 constexpr int kAcross = 2 * kToRim + 1;
-
-/// Both ways along an axis.
-using Both = std::array<double, 2>;
-struct Axis {
-  explicit Axis(int k) : x(std::cos(kPi * k / kAxes)), y(std::sin(kPi * k / kAxes)) {}
-  [[nodiscard]] double along(double px, double py) const { return x * px + y * py; }
-  [[nodiscard]] double across(double px, double py) const { return -y * px + x * py; }
-  double x, y;
-};
 
 double cast(const mapping::Walls& walls, const Point2<Map>& from, double direction_rad) {
   const double dx = std::cos(direction_rad), dy = std::sin(direction_rad);
@@ -55,61 +46,19 @@ double drawn_clearance(const mapping::Walls& walls, const Point2<Map>& from, dou
   return most <= kNearbyM + kEdgeM && most - least <= kEdgeM && ahead_m <= kNearbyM ? ahead_m : kUnknown;
 }
 
-/// What was seen about a place, by an axis: where a line beside the place meets it. Metres from the place.
-class Crossings {
- public:
-  Crossings(const Axis& axis, const MemoryCloud& about) {
-    constexpr double kHalfM = 0.55 * kVoxelM;  // neighbours touch
-    for (const CloudSurface& s : about) {
-      const double dx = -s.normal_y * kHalfM, dy = s.normal_x * kHalfM;
-      const double from = axis.across(s.x_m - dx, s.y_m - dy), to = axis.across(s.x_m + dx, s.y_m + dy);
-      const double along = axis.along(s.x_m, s.y_m), slope = axis.along(dx, dy);
-      const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-      for (int k = std::max(0, line(std::min(from, to)) + 1);
-           k <= std::min(kLines - 1, line(std::max(from, to))); ++k) {
-        const double share = std::abs(half) > 1e-9 ? std::clamp((beside(k) - middle) / half, -1.0, 1.0) : 0.0;
-        met_[static_cast<std::size_t>(k)].push_back(along + share * slope);
-      }
-    }
-    for (auto& met : met_) std::sort(met.begin(), met.end());
-  }
-
-  /// Ahead and behind; infinite where nothing was seen.
-  [[nodiscard]] Both nearest(double along_m, double across_m) const {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    const auto k = static_cast<std::size_t>(
-        std::clamp(static_cast<int>(std::lround(across_m / kFineM)) + kMiddle, 0, kLines - 1));
-    const auto& met = met_[k];
-    const auto next = std::lower_bound(met.begin(), met.end(), along_m);
-    return {next != met.end() ? *next - along_m : kNone,
-            next != met.begin() ? along_m - *std::prev(next) : kNone};
-  }
-
- private:
-  static constexpr double kFineM = 0.025;
-  static constexpr int kMiddle = static_cast<int>(1.5 * kReachM / kFineM);
-  static constexpr int kLines = 2 * kMiddle + 1;
-  [[nodiscard]] static int line(double across_m) {
-    return static_cast<int>(std::floor(across_m / kFineM)) + kMiddle;
-  }
-  [[nodiscard]] static double beside(int line) { return (line - kMiddle) * kFineM; }
-
-  std::array<std::vector<double>, kLines> met_;
-};
-
-/// What a beam so far off says for a place.
+/// What a beam so far off says for a place. One that meets nothing, or an edge, says nothing: zero.
 double nats(double off_m) {
   constexpr double kBinM = 0.005;
   static const auto table = [] {
     std::array<double, 100> made{};
     for (std::size_t k = 0; k < made.size(); ++k) {
       const double z = static_cast<double>(k) * kBinM / kExactM;
-      made[k] = kObservation * std::log1p(kPeak * std::exp(-0.5 * z * z));
+      made[k] = kObservation * (std::log(kElse) + std::log1p(kPeak * std::exp(-0.5 * z * z)));
     }
     return made;
   }();
   const double bin = off_m / kBinM + 0.5;
-  return bin < static_cast<double>(table.size()) ? table[static_cast<std::size_t>(bin)] : 0.0;
+  return bin < static_cast<double>(table.size()) ? table[static_cast<std::size_t>(bin)] : table.back();
 }
 
 /// How well the distances both ways are those that are drawn, in nats.
@@ -143,6 +92,37 @@ std::array<double, 2> beside(std::size_t i) {
   return {(k % kAcross - kToRim) * kGridM, (k / kAcross - kToRim) * kGridM};
 }
 
+Grid where_expected(double sigma_m) {
+  Grid grid;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const auto [x, y] = beside(i);
+    grid[i] = -0.5 * (x * x + y * y) / (sigma_m * sigma_m);
+  }
+  return grid;
+}
+
+/// How well the vehicle stands where it is sent to a place, in nats: it comes to stand near by.
+Grid where_it_stands(Grid grid) {
+  constexpr int kBeside = 3;
+  const double most = *std::max_element(grid.begin(), grid.end());
+  for (double& nats : grid) nats = std::exp(nats - most);
+  for (const int step : {1, kAcross}) {
+    const Grid before = grid;
+    for (int i = 0; i < kAcross * kAcross; ++i) {
+      const int k = i / step % kAcross;
+      double weights = 0.0, weighed = 0.0;
+      for (int d = std::max(-kBeside, -k); d <= std::min(kBeside, kAcross - 1 - k); ++d) {
+        const double z = d * kGridM / kStandsM, weight = std::exp(-0.5 * z * z);
+        weights += weight;
+        weighed += weight * before[static_cast<std::size_t>(i + d * step)];
+      }
+      grid[static_cast<std::size_t>(i)] = weighed / weights;
+    }
+  }
+  for (double& share : grid) share = std::log(share);
+  return grid;
+}
+
 Point2<Map> highest(const Grid& grid, const Point2<Map>& expected) {
   const auto best = static_cast<int>(std::max_element(grid.begin(), grid.end()) - grid.begin());
   const int u = best % kAcross, v = best / kAcross;
@@ -160,21 +140,17 @@ Point2<Map> highest(const Grid& grid, const Point2<Map>& expected) {
 }  // namespace
 
 Point2<Map> place_by_clearances(const mapping::Walls& drawn, const MemoryCloud& seen,
-                                const Point2<Map>& place, const Point2<Map>& expected) {
+                                const Point2<Map>& place, const Point2<Map>& expected, double sigma_m) {
   mapping::Walls walls;
   for (const mapping::Wall& wall : drawn)
     if (distance_m(wall.segment, place) < kNearbyM + kEdgeM) walls.push_back(wall);
   MemoryCloud about;
   for (CloudSurface s : seen) {
     s.x_m -= expected.x_m, s.y_m -= expected.y_m;
-    if (std::hypot(s.x_m, s.y_m) < kNearbyM + 2.0 * kReachM) about.push_back(s);
+    if (std::hypot(s.x_m, s.y_m) < kNearbyM + 2.0 * kPlacesReachM) about.push_back(s);
   }
-  Grid grid, nearest_m;
+  Grid grid = where_expected(sigma_m), nearest_m;
   nearest_m.fill(std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const auto [x, y] = beside(i);
-    grid[i] = -0.5 * (x * x + y * y) / (kExpectedM * kExpectedM);
-  }
   double drawn_nearest_m = kNearbyM;
   for (int k = 0; k < kAxes; ++k) {
     const double direction = kPi * k / kAxes;
@@ -182,15 +158,16 @@ Point2<Map> place_by_clearances(const mapping::Walls& drawn, const MemoryCloud& 
                        drawn_clearance(walls, place, direction + kPi)};
     for (const double m : drawn_m)
       if (m != kUnknown) drawn_nearest_m = std::min(drawn_nearest_m, m);
-    const Axis axis(k);
-    const Crossings crossings(axis, about);
+    const SeenClearances seen_about(direction, about);
     for (std::size_t i = 0; i < grid.size(); ++i) {
       const auto [x, y] = beside(i);
-      const Both seen_m = crossings.nearest(axis.along(x, y), axis.across(x, y));
+      const Both seen_m = seen_about.nearest(x, y);
       nearest_m[i] = std::min({nearest_m[i], seen_m[0], seen_m[1]});
-      grid[i] += nats(drawn_m, seen_m);
+      if (drawn_m[0] != kUnknown || drawn_m[1] != kUnknown)
+        grid[i] += nats(drawn_m, seen_about.of_walls(x, y));
     }
   }
+  grid = where_it_stands(grid);
   // What is not drawn pushes nobody away from where it stood beside the expected place already.
   const double least_m = std::min(drawn_nearest_m, nearest_m[kToRim * kAcross + kToRim]);
   for (std::size_t i = 0; i < grid.size(); ++i) grid[i] += nearest_nats(least_m, nearest_m[i]);
