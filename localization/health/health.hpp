@@ -31,7 +31,6 @@ struct HealthLimits {
   double believed = 0.6;    ///< less there, and less than `localized` around: not known where
   double rival = 0.2;       ///< at another place: two places look alike
   double mirrored = 0.5;
-  double maybe_mirrored = 0.01;  ///< more than this and it is not sure: on a mirrored drawing all is wrong
   double explained = 0.28;  ///< of what is seen; in a wrong place, or a wrong drawing, a fifth fits by chance
   double blind_m = 2.0;
   double blind_s = 1.2;
