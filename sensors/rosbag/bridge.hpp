@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-/// ROS 1 bags without ROS types. This header and bridge_output.cpp are C++17, because the message headers
-/// need it: they include nothing of core. Bags are written by ROS' library and read by our own BagFile. Everybody else uses reader.hpp and writer.hpp.
+/// ROS 1 bags without ROS types, written by ROS' library and read by our own BagFile. This header and
+/// bridge_output.cpp are C++17, because the message headers need it: they include nothing of core. Everybody
+/// else uses reader.hpp and writer.hpp.
 namespace madori::sensors::rosbag_bridge {
 
 struct Scan {
