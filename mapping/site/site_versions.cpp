@@ -187,8 +187,12 @@ SiteVersion site_version(const fs::path& site, int number) {
 
 std::string version_file(const fs::path& site, const SiteVersion& version, const std::string& name) {
   const auto found = version.files.find(name);
-  return found == version.files.end() ? std::string()
-                                      : file_content(site / "versions/objects" / found->second);
+  if (found == version.files.end()) return "";
+  std::string content = file_content(site / "versions/objects" / found->second);
+  if (object_name(content) != found->second)
+    throw Error(site.string(), fmt::format("version {} lost its {}, or it is damaged", version.number, name),
+                "restore another version, or a backup");
+  return content;
 }
 
 void stage_version(SiteTransaction& change, const fs::path& site, const fs::path& staging,
@@ -244,12 +248,7 @@ void restore_version(const fs::path& site, int number) {
   const SiteVersion version = site_version(site, number);
   SiteTransaction change(site);
   change.say("version " + std::to_string(number) + " restored");
-  for (const auto& [name, object] : version.files) {
-    if (!fs::exists(site / "versions/objects" / object))
-      throw Error(site.string(), "version " + std::to_string(number) + " lost its " + name,
-                  "restore another version, or a backup");
-    change.write(name, version_file(site, version, name));
-  }
+  for (const auto& [name, object] : version.files) change.write(name, version_file(site, version, name));
   const auto versions = site_versions(site);
   for (const auto& [name, object] : versions.back().files)
     if (!version.files.contains(name)) change.remove(name);

@@ -54,7 +54,8 @@ void bring_versions(SiteTransaction& change, const std::filesystem::path& site,
 [[nodiscard]] std::vector<SiteVersion> site_versions(const std::filesystem::path& site);
 /// Throws Error where there is no such version.
 [[nodiscard]] SiteVersion site_version(const std::filesystem::path& site, int number);
-/// The content of a file of a version; empty where it had none.
+/// The content of a file of a version; empty where it had none. Throws Error where it is lost, or is not what
+/// was kept: a disk that errs, a backup that was changed.
 [[nodiscard]] std::string version_file(const std::filesystem::path& site, const SiteVersion& version,
                                        const std::string& name);
 /// Makes the site what it was, as a new version. Throws Error.

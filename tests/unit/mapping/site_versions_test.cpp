@@ -76,6 +76,18 @@ TEST_F(SiteVersionsTest, WhatAnotherProgramSavedIsKeptBeforeTheNextSave) {
   EXPECT_EQ(version_file(site_, versions[1], "routes/tree.csv"), "by hand");
 }
 
+TEST_F(SiteVersionsTest, WhatIsNotAsItWasKeptIsNotRestored) {
+  save(site_, 1);
+  save(site_, 2);
+  const auto object = site_ / "versions/objects" / site_versions(site_)[0].files.at("routes/tree.csv");
+  for (const bool lost : {false, true}) {
+    lost ? (void)std::filesystem::remove(object) : (void)(std::ofstream(object) << "of a disk that errs");
+    EXPECT_THROW(restore_version(site_, 1), Error);
+    EXPECT_EQ(site_versions(site_).size(), 2U);
+    EXPECT_EQ(now("tree.csv"), version_file(site_, site_versions(site_)[1], "routes/tree.csv"));
+  }
+}
+
 /// A save that was cut off has either happened with its version, or not at all.
 TEST_F(SiteVersionsTest, KillsAtAnyMomentLoseNoVersionAndLeaveNoneHalf) {
   std::mt19937 random(5);
