@@ -21,7 +21,6 @@ constexpr double kStandsM = 0.05;
 constexpr double kExactM = 0.1;  ///< ... of a distance, as drawn and as the memory has it (half a voxel)
 /// That a beam meets what is drawn against anything else within 2.4 m, where it fits exactly.
 constexpr double kPeak = 20.0;
-constexpr double kElse = 0.3;         ///< how often it meets something else: what a beam that misses says
 constexpr double kObservation = 0.5;  ///< of a beam: its neighbour mostly meets the same wall
 /// Standard deviation of the nearest clearance's logarithm, where it is less than it should be at least.
 constexpr double kNearer = 0.2;
@@ -46,19 +45,19 @@ double drawn_clearance(const mapping::Walls& walls, const Point2<Map>& from, dou
   return most <= kNearbyM + kEdgeM && most - least <= kEdgeM && ahead_m <= kNearbyM ? ahead_m : kUnknown;
 }
 
-/// What a beam so far off says for a place. One that meets nothing, or an edge, says nothing: zero.
+/// What a beam so far off says for a place; nothing where something else stands in its way.
 double nats(double off_m) {
   constexpr double kBinM = 0.005;
   static const auto table = [] {
     std::array<double, 100> made{};
     for (std::size_t k = 0; k < made.size(); ++k) {
       const double z = static_cast<double>(k) * kBinM / kExactM;
-      made[k] = kObservation * (std::log(kElse) + std::log1p(kPeak * std::exp(-0.5 * z * z)));
+      made[k] = kObservation * std::log1p(kPeak * std::exp(-0.5 * z * z));
     }
     return made;
   }();
   const double bin = off_m / kBinM + 0.5;
-  return bin < static_cast<double>(table.size()) ? table[static_cast<std::size_t>(bin)] : table.back();
+  return bin < static_cast<double>(table.size()) ? table[static_cast<std::size_t>(bin)] : 0.0;
 }
 
 /// How well the distances both ways are those that are drawn, in nats.
