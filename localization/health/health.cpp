@@ -29,7 +29,7 @@ LocalizationHealth lost(const HealthEvidence& e, const HealthLimits& limits) {
   if (e.here >= limits.believed || e.around >= limits.localized) return {LocalizationState::Localized, ""};
   if (e.rival > limits.believed) return because(reason::kMovedByHand.english);
   if (e.rival > limits.rival) return {LocalizationState::Ambiguous, reason::kTwoAlike.english};
-  return because(reason::kNoPlace.english);
+  return because(e.inliers < limits.explained ? reason::kNoPlace.english : reason::kNoneSure.english);
 }
 
 LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits) {

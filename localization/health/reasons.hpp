@@ -16,6 +16,8 @@ namespace reason {
 inline constexpr Reason kNoScan{"no-scan-yet", "no scan yet"};
 inline constexpr Reason kNothingToSearch{"nothing-to-search", "the scan has no points, or the map no places"};
 inline constexpr Reason kNoPlace{"no-place", "no place on the drawing explains the scan"};
+inline constexpr Reason kNoneSure{"none-sure",
+                                  "several places on the drawing explain what is seen, none of them surely"};
 inline constexpr Reason kThroughWalls{"through-walls",
                                       "the best place would have the lidar look through drawn walls"};
 inline constexpr Reason kTwoAlike{"two-alike", "two places look alike"};
@@ -46,7 +48,7 @@ inline constexpr std::array kReasons{
     reason::kTwoAlike,       reason::kMuchUndrawn,     reason::kThroughSomeWalls,  reason::kComparing,
     reason::kSearching,      reason::kOnceMore,        reason::kSeesNothing,       reason::kLittleDrawn,
     reason::kWallsAndWheels, reason::kMovedByHand,     reason::kOtherSurroundings, reason::kChangedAndAlike,
-    reason::kGivenRefuted};
+    reason::kGivenRefuted,   reason::kNoneSure};
 
 /// The codes of a LocalizationHealth's reason, the outer one first, joined by '+'; empty for one that is not
 /// in kReasons.

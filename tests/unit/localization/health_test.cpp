@@ -49,6 +49,9 @@ TEST(Health, StatesAreThresholdsOnTheShareOfTheBelief) {
   EXPECT_THAT(judge(e).reason, HasSubstr("certain to 95 %"));
   e.here = 0.59;
   EXPECT_EQ(judge(e).state, LocalizationState::Lost);
+  EXPECT_EQ(judge(e).reason, reason::kNoneSure.english);
+  e.inliers = 0.2;
+  EXPECT_EQ(judge(e).reason, reason::kNoPlace.english);
 }
 
 TEST(Health, AMirroredDrawingIsNamed) {
@@ -57,6 +60,20 @@ TEST(Health, AMirroredDrawingIsNamed) {
   e.mirrored = 0.8;
   EXPECT_EQ(judge(e).state, LocalizationState::Lost);
   EXPECT_THAT(judge(e).reason, HasSubstr("mirror"));
+}
+
+/// The mirror image is one of the places that share what is not believed here.
+TEST(Health, AMirroredDrawingIsNamedWhereItIsMostOfTheDoubt) {
+  HealthEvidence e = sound();
+  e.here = 0.96;
+  e.mirrored = 0.04;
+  EXPECT_EQ(judge(e).state, LocalizationState::Localized);
+  e.here = 0.9;
+  e.mirrored = 0.08;
+  EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
+  EXPECT_THAT(judge(e).reason, HasSubstr("mirror"));
+  e.mirrored = 0.02;
+  EXPECT_THAT(judge(e).reason, HasSubstr("certain to 90 %"));
 }
 
 TEST(Health, ARivalPlaceIsAmbiguousABetterOneIsLost) {

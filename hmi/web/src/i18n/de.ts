@@ -553,6 +553,7 @@ export const de: Record<TextKey, string> = {
   "reason.no-scan-yet": "noch kein Scan",
   "reason.nothing-to-search": "der Scan hat keine Punkte, oder die Karte keine Orte",
   "reason.no-place": "kein Ort der Zeichnung erklärt den Scan",
+  "reason.none-sure": "mehrere Orte der Zeichnung erklären, was zu sehen ist, keiner davon sicher",
   "reason.through-walls": "am besten Ort sähe der Lidar durch gezeichnete Wände",
   "reason.two-alike": "zwei Orte sehen gleich aus",
   "reason.much-undrawn": "vieles, was zu sehen ist, ist nicht gezeichnet, und kein Ort ragt heraus",

@@ -580,6 +580,7 @@ export const en = {
   "reason.no-scan-yet": "no scan yet",
   "reason.nothing-to-search": "the scan has no points, or the map no places",
   "reason.no-place": "no place on the drawing explains the scan",
+  "reason.none-sure": "several places on the drawing explain what is seen, none of them surely",
   "reason.through-walls": "the best place would have the lidar look through drawn walls",
   "reason.two-alike": "two places look alike",
   "reason.much-undrawn": "much of what is seen is not drawn, and no place stands out",

@@ -581,6 +581,7 @@ export const ja: Record<TextKey, string> = {
   "reason.no-scan-yet": "スキャンがまだありません",
   "reason.nothing-to-search": "スキャンに点がないか、地図に場所がありません",
   "reason.no-place": "スキャンに合う場所が図面にありません",
+  "reason.none-sure": "見えているものに合う場所が図面に複数あり、どれも確実ではありません",
   "reason.through-walls": "最も合う場所では、ライダーが図面の壁の向こうを見ることになります",
   "reason.two-alike": "似た場所が二つあります",
   "reason.much-undrawn": "見えるものの多くが図面になく、場所を決められません",
