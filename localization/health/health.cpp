@@ -37,10 +37,10 @@ LocalizationHealth degraded(const HealthEvidence& e, const HealthLimits& limits)
     return LocalizationHealth{LocalizationState::Degraded, std::move(reason)};
   };
   if (e.here < limits.believed) return because("the place is certain to a metre only: drive on slowly");
-  if (e.here < limits.localized && e.mirrored > 0.5 * (1.0 - e.here))
-    return because("the drawing may be mirrored: drive on slowly");
   if (e.here < limits.localized)
-    return because("the place is certain to " + percent(e.here) + " only: drive on slowly");
+    return because(e.mirrored > 0.5 * (1.0 - e.here)
+                       ? "the drawing may be mirrored: drive on slowly"
+                       : "the place is certain to " + percent(e.here) + " only: drive on slowly");
   if (e.has_drawing && e.inliers < limits.explained)
     return because("the drawing explains only " + percent(e.inliers) + " of what is seen: drive on slowly");
   if (e.blind_scans > 1 && e.blind_s > 0.5 * limits.blind_s)

@@ -24,7 +24,7 @@ constexpr double kPeak = 20.0;
 constexpr double kObservation = 0.5;  ///< of a beam: its neighbour mostly meets the same wall
 /// Standard deviation of the nearest clearance's logarithm, where it is less than it should be at least.
 constexpr double kNearer = 0.2;
-constexpr double kUnknown = -1.0;
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 constexpr int kToRim = static_cast<int>(kPlacesReachM / kGridM);
 constexpr int kAcross = 2 * kToRim + 1;
@@ -41,8 +41,7 @@ double drawn_clearance(const mapping::Walls& walls, const Point2<Map>& from, dou
   const double ahead_m = cast(walls, from, direction_rad);
   const double left_m = cast(walls, from, direction_rad + kBesideRad);
   const double right_m = cast(walls, from, direction_rad - kBesideRad);
-  const auto [least, most] = std::minmax({ahead_m, left_m, right_m});
-  return most <= kNearbyM + kEdgeM && most - least <= kEdgeM && ahead_m <= kNearbyM ? ahead_m : kUnknown;
+  return ahead_m <= kNearbyM && is_of_one_wall(ahead_m, left_m, right_m) ? ahead_m : kUnknown;
 }
 
 /// What a beam so far off says for a place; nothing where something else stands in its way.
@@ -64,9 +63,9 @@ double nats(double off_m) {
 double nats(const Both& drawn_m, const Both& seen_m) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
-    if (drawn_m[i] == kUnknown || !std::isfinite(seen_m[i])) continue;
+    if (!std::isfinite(drawn_m[i]) || !std::isfinite(seen_m[i])) continue;
     double off_m = std::abs(seen_m[i] - drawn_m[i]);
-    if (drawn_m[1 - i] != kUnknown && std::isfinite(seen_m[1 - i]))
+    if (std::isfinite(drawn_m[1 - i]) && std::isfinite(seen_m[1 - i]))
       off_m = std::min(
           off_m, std::abs(seen_m[i] - (seen_m[0] + seen_m[1]) * drawn_m[i] / (drawn_m[0] + drawn_m[1])));
     sum += nats(off_m);
@@ -155,15 +154,14 @@ Point2<Map> place_by_clearances(const mapping::Walls& drawn, const MemoryCloud& 
     const double direction = kPi * k / kAxes;
     const Both drawn_m{drawn_clearance(walls, place, direction),
                        drawn_clearance(walls, place, direction + kPi)};
-    for (const double m : drawn_m)
-      if (m != kUnknown) drawn_nearest_m = std::min(drawn_nearest_m, m);
+    drawn_nearest_m = std::min({drawn_nearest_m, drawn_m[0], drawn_m[1]});
     const SeenClearances seen_about(direction, about);
     for (std::size_t i = 0; i < grid.size(); ++i) {
       const auto [x, y] = beside(i);
       const Both seen_m = seen_about.nearest(x, y);
       nearest_m[i] = std::min({nearest_m[i], seen_m[0], seen_m[1]});
-      if (drawn_m[0] != kUnknown || drawn_m[1] != kUnknown)
-        grid[i] += nats(drawn_m, seen_about.of_walls(x, y));
+      if (std::isfinite(drawn_m[0]) || std::isfinite(drawn_m[1]))
+        grid[i] += nats(drawn_m, seen_about.of_walls(seen_m, x, y));
     }
   }
   grid = where_it_stands(grid);

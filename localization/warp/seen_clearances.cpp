@@ -12,6 +12,11 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+bool is_of_one_wall(double ahead_m, double left_m, double right_m) {
+  const auto [least, most] = std::minmax({ahead_m, left_m, right_m});
+  return std::isfinite(most) && most - least <= kEdgeM;
+}
+
 Crossings::Crossings(double direction_rad, const MemoryCloud& about)
     : x_(std::cos(direction_rad)), y_(std::sin(direction_rad)) {
   for (const CloudSurface& surface : about) add(surface);
@@ -48,14 +53,11 @@ SeenClearances::SeenClearances(double direction_rad, const MemoryCloud& about)
       left_(direction_rad + kBesideRad, about),
       right_(direction_rad - kBesideRad, about) {}
 
-Both SeenClearances::of_walls(double x_m, double y_m) const {
-  Both ahead = ahead_.nearest(x_m, y_m);
-  const Both left = left_.nearest(x_m, y_m), right = right_.nearest(x_m, y_m);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto [least, most] = std::minmax({ahead[i], left[i], right[i]});
-    if (!std::isfinite(most) || most - least > kEdgeM) ahead[i] = kNone;
-  }
-  return ahead;
+Both SeenClearances::of_walls(Both ahead_m, double x_m, double y_m) const {
+  const Both left_m = left_.nearest(x_m, y_m), right_m = right_.nearest(x_m, y_m);
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!is_of_one_wall(ahead_m[i], left_m[i], right_m[i])) ahead_m[i] = kNone;
+  return ahead_m;
 }
 
 }  // namespace madori::localization

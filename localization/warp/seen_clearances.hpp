@@ -15,6 +15,7 @@ using Both = std::array<double, 2>;
 /// edge. The rule is the same for what is drawn and for what was seen.
 inline constexpr double kBesideRad = to_rad(3.0);
 inline constexpr double kEdgeM = 0.5;
+[[nodiscard]] bool is_of_one_wall(double ahead_m, double left_m, double right_m);
 /// Places so much beside the middle are asked about, along x and y.
 inline constexpr double kPlacesReachM = 1.0;
 
@@ -44,8 +45,8 @@ class SeenClearances {
   SeenClearances(double direction_rad, const MemoryCloud& about);
   /// Of the first surface; infinite where nothing was seen.
   [[nodiscard]] Both nearest(double x_m, double y_m) const { return ahead_.nearest(x_m, y_m); }
-  /// The same where it is a wall's: infinite where the beam looks past an edge.
-  [[nodiscard]] Both of_walls(double x_m, double y_m) const;
+  /// Of what nearest() gave there, that of walls: infinite where the beam looks past an edge.
+  [[nodiscard]] Both of_walls(Both ahead_m, double x_m, double y_m) const;
 
  private:
   Crossings ahead_, left_, right_;

@@ -255,7 +255,7 @@ void restore_version(const fs::path& site, int number) {
   if (version.files.contains("site.yaml") && version.files.contains("walls.csv")) {
     const Site record = change.said_of_site([&] { return read_site_file(change.staged("site.yaml")); });
     const double unit = record.scale ? record.scale->m_per_px : 1.0;
-    const std::string walls = version_file(site, version, "walls.csv");
+    const std::string walls = file_content(change.staged("walls.csv"));
     const Walls lines = change.said_of_site([&] { return load_walls(change.staged("walls.csv")); });
     (void)stage_wall_files(change, lines, record.drawing.width_px * unit, record.drawing.height_px * unit,
                            record.scale ? WallFileOptions{} : WallFileOptions::unscaled());

@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   const std::string_view rest(reinterpret_cast<const char*>(data) + 1, size - 1);
   const std::string bytes =
       data[0] == 0 ? std::string(rest) : bag_around(rest, data[0] % 2 == 1 ? "none" : "bz2");
-  file.write(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  file.write(bytes);
   read_as_log(file.path());
   read_as_recording(file.path());
   return 0;

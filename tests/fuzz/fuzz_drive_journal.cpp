@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   if (size == 0) return 0;
   const std::string_view rest(reinterpret_cast<const char*>(data) + 1, size - 1);
   const std::string bytes = data[0] == 0 ? std::string(rest) : with_sums(rest);
-  file.write(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  file.write(bytes);
   std::size_t points = 0;
   try {
     const auto whole = madori::app::read_drive(

@@ -6,7 +6,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   static const madori::fuzz::MemoryFile file(".dxf");
   std::string text(reinterpret_cast<const char*>(data), size);
   if (size % 8 != 0) text += "\n  0\nEOF\n";  // without this end a file is refused at once
-  file.write(reinterpret_cast<const unsigned char*>(text.data()), text.size());
+  file.write(text);
   try {
     const auto plan = madori::mapping::load_dxf(file.path(), {});
     madori::fuzz::check(plan.picture);

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "core/result.hpp"
 #include "mapping/picture/gray_image.hpp"
@@ -40,6 +41,9 @@ class MemoryFile {
   void write(const std::uint8_t* data, std::size_t size) const {
     require(::ftruncate(descriptor_, 0) == 0);
     require(::pwrite(descriptor_, data, size, 0) == static_cast<ssize_t>(size));
+  }
+  void write(std::string_view text) const {
+    write(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 

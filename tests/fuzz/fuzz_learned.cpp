@@ -60,7 +60,7 @@ void fuzz_living_map(const std::string& bytes) {
 
 void fuzz_warp(const std::string& bytes) {
   static const fuzz::MemoryFile file(".warp");
-  file.write(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  file.write(bytes);
   WarpFit fit;
   if (!load_warp(file.path(), fuzz::learned_walls(), fit).empty()) return;
   const Point2<Map> there = fit.warp.map(fit.warp.building(Point2<Map>{3.0, 2.0}));
@@ -70,7 +70,7 @@ void fuzz_warp(const std::string& bytes) {
 
 void fuzz_reliability(const std::string& bytes) {
   static const fuzz::MemoryFile file(".csv");
-  file.write(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  file.write(bytes);
   WallReliability learned(fuzz::learned_walls());
   if (!load_reliability(file.path(), learned).empty()) return;
   const WallWeights weights = wall_weights(fuzz::learned_walls(), learned);

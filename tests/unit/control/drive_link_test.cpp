@@ -59,16 +59,21 @@ struct Told {
   Duration behind{};
 };
 
+/// Whether the controller answers that it is healthy, once it has taken commands.
+bool answers(Device& device, DriveLink& link, Told& told) {
+  return eventually([&] {
+    link.send({}, false);
+    device.step();
+    return told.state() == wire::DriveState::Idle;
+  });
+}
+
 TEST(DriveLink, DrivesAControllerOverASerialLine) {
   Device device;
   Told told;
   DriveLink link({.device = device.cable.name()}, std::ref(told));
   ASSERT_TRUE(eventually([&] { return link.is_open(); }));
-  ASSERT_TRUE(eventually([&] {
-    device.step();
-    link.send({}, false);
-    return told.state() == wire::DriveState::Idle;
-  }));
+  ASSERT_TRUE(answers(device, link, told));
   ASSERT_TRUE(eventually([&] {
     device.step();
     link.send({1.5, -0.25}, true);
@@ -90,11 +95,7 @@ TEST(DriveLink, TellsHowFarTheDriveIsBehind) {
   Told told;
   DriveLink link({.device = device.cable.name()}, std::ref(told));
   ASSERT_TRUE(eventually([&] { return link.is_open(); }));
-  ASSERT_TRUE(eventually([&] {
-    link.send({}, false);
-    device.step();
-    return told.state() == wire::DriveState::Idle;
-  }));
+  ASSERT_TRUE(answers(device, link, told));
   const Stamp before = clock_now();
   link.send({}, false);  // stays on the way: the device does not read
   const auto taken = device.controller.next_status();

@@ -92,11 +92,12 @@ TEST(SeenClearances, ABeamThatLooksPastAnEdgeIsNoClearance) {
   see(cloud, {4.0, -1.0}, {4.0, 1.0});
   const SeenClearances ahead(0.0, cloud);
   EXPECT_NEAR(ahead.nearest(0.0, -0.5)[0], 2.0, 1e-9);
-  EXPECT_NEAR(ahead.of_walls(0.0, -0.5)[0], 2.0, 1e-9);
+  const auto of_walls = [&](double x, double y) { return ahead.of_walls(ahead.nearest(x, y), x, y); };
+  EXPECT_NEAR(of_walls(0.0, -0.5)[0], 2.0, 1e-9);
   EXPECT_NEAR(ahead.nearest(0.0, -0.02)[0], 2.0, 1e-9);
-  EXPECT_TRUE(std::isinf(ahead.of_walls(0.0, -0.02)[0]));  // 3 degrees to the left it is 4 m
-  EXPECT_NEAR(ahead.of_walls(0.0, 0.4)[0], 4.0, 1e-9);
-  EXPECT_TRUE(std::isinf(ahead.of_walls(0.0, 0.4)[1]));  // nothing was seen behind
+  EXPECT_TRUE(std::isinf(of_walls(0.0, -0.02)[0]));  // 3 degrees to the left it is 4 m
+  EXPECT_NEAR(of_walls(0.0, 0.4)[0], 4.0, 1e-9);
+  EXPECT_TRUE(std::isinf(of_walls(0.0, 0.4)[1]));  // nothing was seen behind
 }
 
 }  // namespace
