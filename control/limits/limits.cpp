@@ -37,7 +37,7 @@ LimitOutput limit(const LimitState& state, const LimitInput& input, const LimitO
       already(state.previous.angular_radps, angular) + options.turn_acceleration_radps2 * input.step_s;
   const VelocityCommand command{linear * share, angular * std::min(share, share_within(angular, turn))};
   const double gained = std::max(0.0, (std::abs(command.linear_mps) - before) / input.step_s);
-  return {{command, std::min(gained, options.acceleration_mps2)}, command};
+  return {{command, gained}, command};
 }
 
 }  // namespace madori::control

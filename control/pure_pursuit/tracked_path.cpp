@@ -73,9 +73,10 @@ double TrackedPath::speed_at(const PathPiece& piece, double along_m) const {
 PathPlace TrackedPath::locate(const PathPiece& piece, std::size_t hint,
                               const Transform2<Map, Base>& map_from_base) const {
   const Point2<Map> here = map_from_base.translation();
-  std::size_t best = std::clamp(hint, piece.first, piece.end - 1);
+  const std::size_t from = std::clamp(hint, piece.first, piece.end - 2);
+  std::size_t best = from;
   double best_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = best; i + 1 < piece.end && along_m_[i] <= along_m_[hint] + kSearchAheadM; ++i) {
+  for (std::size_t i = from; i + 1 < piece.end && along_m_[i] <= along_m_[from] + kSearchAheadM; ++i) {
     const double away_m =
         distance_m(Segment2<Map>{path_.points[i].position, path_.points[i + 1].position}, here);
     if (away_m < best_m) {
@@ -84,13 +85,11 @@ PathPlace TrackedPath::locate(const PathPiece& piece, std::size_t hint,
     }
   }
   // On the last segment the vehicle may be past the end: measured along its direction, not clamped.
-  const PathPoint& point = path_.points[best];
-  const bool has_next = best + 1 < piece.end;
-  const Point2<Map> next = has_next ? path_.points[best + 1].position : point.position;
-  const double direction =
-      has_next ? std::atan2(next.y_m - point.position.y_m, next.x_m - point.position.x_m) : point.heading_rad;
-  const double dx = here.x_m - point.position.x_m;
-  const double dy = here.y_m - point.position.y_m;
+  const Point2<Map>& a = path_.points[best].position;
+  const Point2<Map>& b = path_.points[best + 1].position;
+  const double direction = std::atan2(b.y_m - a.y_m, b.x_m - a.x_m);
+  const double dx = here.x_m - a.x_m;
+  const double dy = here.y_m - a.y_m;
   const double forward_m = dx * std::cos(direction) + dy * std::sin(direction);
   const double left_m = -dx * std::sin(direction) + dy * std::cos(direction);
   return {best, along_m_[best] + forward_m, left_m};
@@ -99,16 +98,10 @@ PathPlace TrackedPath::locate(const PathPiece& piece, std::size_t hint,
 Point2<Map> TrackedPath::point_at(const PathPiece& piece, std::size_t hint, double along_m) const {
   std::size_t i = std::max(hint, piece.first);
   while (i + 2 < piece.end && along_m_[i + 1] < along_m) ++i;
-  const PathPoint& a = path_.points[i];
-  if (i + 1 >= piece.end) {
-    const double beyond_m = along_m - along_m_[i];
-    return {a.position.x_m + beyond_m * std::cos(a.heading_rad),
-            a.position.y_m + beyond_m * std::sin(a.heading_rad)};
-  }
+  const Point2<Map>& a = path_.points[i].position;
   const Point2<Map>& b = path_.points[i + 1].position;
   const double share = (along_m - along_m_[i]) / (along_m_[i + 1] - along_m_[i]);
-  return {a.position.x_m + share * (b.x_m - a.position.x_m),
-          a.position.y_m + share * (b.y_m - a.position.y_m)};
+  return {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m)};
 }
 
 }  // namespace madori::control

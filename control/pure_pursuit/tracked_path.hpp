@@ -50,10 +50,11 @@ class TrackedPath {
   [[nodiscard]] double length_m() const { return along_m_.empty() ? 0.0 : along_m_.back(); }
   /// The speed allowed at a point of the path; zero at the end of every piece.
   [[nodiscard]] double speed_at(const PathPiece& piece, double along_m) const;
-  /// The vehicle beside a piece; the search goes at most 2 m ahead of `hint` and never back before it.
+  /// The vehicle beside a piece of two points or more; the search goes at most 2 m ahead of `hint` and never
+  /// back before it.
   [[nodiscard]] PathPlace locate(const PathPiece& piece, std::size_t hint,
                                  const Transform2<Map, Base>& map_from_base) const;
-  /// The point at a distance along the path, beyond the piece's end straight ahead.
+  /// The point at a distance along such a piece, beyond its end straight ahead; `hint` as of locate().
   [[nodiscard]] Point2<Map> point_at(const PathPiece& piece, std::size_t hint, double along_m) const;
 
  private:

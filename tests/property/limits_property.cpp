@@ -76,6 +76,37 @@ RC_GTEST_PROP(LimitsProperty, NeverChangesALegalCommand, ()) {
   RC_ASSERT(limit(c.state, c.input, c.options).command == c.input.requested);
 }
 
+/// Of commands alone: the speed that one step gains is at most what the step before gained, and the jerk.
+RC_GTEST_PROP(LimitsProperty, TheGainOfSpeedGrowsNoFasterThanTheJerk, ()) {
+  Case c = any_case();
+  c.state = {};
+  double gain_mps2 = 0.0, previous_mps = 0.0;
+  for (int step = 0; step < 30; ++step) {
+    if (*rc::gen::inRange(0, 5) == 0) c.input.requested = any_case().input.requested;
+    const auto out = limit(c.state, c.input, c.options);
+    c.state = out.state;
+    const double now_mps = out.command.linear_mps;
+    const double before_mps = now_mps * previous_mps > 0.0 ? std::abs(previous_mps) : 0.0;
+    const double gained_mps2 = std::max(0.0, std::abs(now_mps) - before_mps) / c.input.step_s;
+    RC_ASSERT(gained_mps2 <= gain_mps2 + c.options.jerk_mps3 * c.input.step_s + 1e-9);
+    gain_mps2 = gained_mps2;
+    previous_mps = now_mps;
+  }
+}
+
+RC_GTEST_PROP(LimitsProperty, BackwardsAsForwards, ()) {
+  const Case c = any_case();
+  const auto mirrored = [](const VelocityCommand& v) {
+    return VelocityCommand{-v.linear_mps, -v.angular_radps};
+  };
+  Case back = c;
+  back.state.previous = mirrored(c.state.previous);
+  back.input.requested = mirrored(c.input.requested);
+  const auto forth = limit(c.state, c.input, c.options), turned = limit(back.state, back.input, c.options);
+  RC_ASSERT(turned.command == mirrored(forth.command));
+  RC_ASSERT(turned.state.acceleration_mps2 == forth.state.acceleration_mps2);
+}
+
 RC_GTEST_PROP(LimitsProperty, StopsWhenItMayNotMove, ()) {
   Case c = any_case();
   c.input.may_move = false;

@@ -68,6 +68,25 @@ TEST(DriveController, StopsByItselfAfter200msOfSilence) {
   EXPECT_TRUE(bench.controller.next_status().watchdog_expired);
 }
 
+TEST(DriveController, TheSilenceEndsTheRunBetweenTwoTicksToo) {
+  Bench bench;
+  bench.start();
+  bench.wait_ms(195);
+  bench.now_us += 5000;
+  bench.send(true);
+  EXPECT_EQ(bench.controller.left_uradps(), 0);
+}
+
+TEST(DriveController, AStopWithoutAnyCommandMeanwhileIsHeld) {
+  Bench bench;
+  bench.start();
+  bench.inputs.bumper = true;
+  bench.wait_ms(1);
+  bench.inputs.bumper = false;
+  for (int i = 0; i < 30; ++i) bench.wait_ms(10), bench.send(true);
+  EXPECT_EQ(bench.controller.left_uradps(), 0) << "no command without enable has come since";
+}
+
 TEST(DriveController, StaysStoppedWhenThePcComesBackWithItsOldOrder) {
   Bench bench;
   bench.start();
@@ -99,6 +118,11 @@ TEST(DriveController, EveryCauseStopsAndIsHeld) {
     bench.inputs = inputs;
     bench.wait_ms(1);
     EXPECT_EQ(bench.controller.state(), state);
+    EXPECT_EQ(bench.controller.left_uradps(), 0) << "before the PC says anything";
+    const Status told = bench.controller.next_status();
+    EXPECT_EQ(told.emergency_stop, inputs.emergency_stop);
+    EXPECT_EQ(told.bumper, inputs.bumper);
+    EXPECT_EQ(told.faults, inputs.faults);
     bench.send(false);
     bench.send(true);
     EXPECT_EQ(bench.controller.left_uradps(), 0);
@@ -118,15 +142,17 @@ TEST(DriveController, EveryCauseStopsAndIsHeld) {
 
 TEST(DriveController, CountsTurnsBothWays) {
   Bench bench;
+  bench.wait_ms(1);  // takes the reference
   int counts = 0;
   for (const int step : {4000, -4000}) {
     for (int i = 0; i < 20; ++i) {
       counts += step;
       bench.inputs.left_angle = static_cast<std::uint16_t>(counts & (kCountsPerTurn - 1));
+      bench.inputs.right_angle = static_cast<std::uint16_t>(-counts & (kCountsPerTurn - 1));
       bench.wait_ms(1);
       const Status status = bench.controller.next_status();
-      // The first tick only takes the reference: turns are counted from there.
       ASSERT_EQ(status.left_turns * kCountsPerTurn + status.left_angle, counts);
+      ASSERT_EQ(status.right_turns * kCountsPerTurn + status.right_angle, -counts);
     }
   }
 }

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "control/limits/limits.hpp"
 #include "core/angle.hpp"
+#include "core/segment_distance.hpp"
 #include "tests/support/rolling_vehicle.hpp"
 
 namespace madori::control {
@@ -25,6 +27,33 @@ Path bent_path(double radius_m, double final_heading_rad) {
     path.points.push_back({{4.0 + radius_m, radius_m + y}, kPi / 2.0, 0.0});
   path.points.push_back({path.points.back().position, final_heading_rad, 0.0});
   return path;
+}
+
+/// Few points and sharp bends both ways: nothing between two points is nearly one of them.
+Path coarse_path() {
+  Path path;
+  for (const Point2<Map>& p :
+       {Point2<Map>{0.0, 0.0}, {1.5, 0.0}, {2.5, 0.6}, {3.1, 0.7}, {4.0, 0.2}, {4.3, -0.6}, {5.5, -1.0}})
+    path.points.push_back({p, 0.0, 0.0});
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const Point2<Map>& a = path.points[i > 0 ? i - 1 : 0].position;
+    const Point2<Map>& b = path.points[i > 0 ? i : 1].position;
+    path.points[i].heading_rad = std::atan2(b.y_m - a.y_m, b.x_m - a.x_m);
+  }
+  return path;
+}
+
+/// Walked from point to point.
+Point2<Map> along(const Path& path, double way_m) {
+  std::size_t i = 0;
+  for (; i + 2 < path.points.size(); ++i) {
+    const double step_m = distance_m(path.points[i].position, path.points[i + 1].position);
+    if (way_m <= step_m) break;
+    way_m -= step_m;
+  }
+  const Point2<Map>&a = path.points[i].position, &b = path.points[i + 1].position;
+  const double share = way_m / distance_m(a, b);
+  return {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m)};
 }
 
 struct Drive {
@@ -149,6 +178,93 @@ TEST(PurePursuit, ComingBackToThePathKeepsTheLateralAcceleration) {
         << aside_m;
     EXPECT_GT(out.linear_mps, 0.1);
   }
+}
+
+TEST(PurePursuit, ItsPlaceIsBesideTheNearestSegmentThatComes) {
+  const Path path = coarse_path();
+  const TrackedPath tracked(path, {});
+  const PathPiece whole = tracked.pieces().front();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> x(-0.5, 6.0), y(-1.5, 1.5);
+  for (int run = 0; run < 1000; ++run) {
+    const Point2<Map> here{x(random), y(random)};
+    const std::size_t hint = random() % (path.points.size() - 1);
+    const auto segment = [&](std::size_t i) {
+      return Segment2<Map>{path.points[i].position, path.points[i + 1].position};
+    };
+    double nearest_m = 1e9;
+    for (std::size_t i = hint; i < path.points.size() - 1; ++i)
+      if (tracked.along_m(i) - tracked.along_m(hint) <= 2.0)
+        nearest_m = std::min(nearest_m, distance_m(segment(i), here));
+    const PathPlace place = tracked.locate(whole, hint, {here.x_m, here.y_m, 0.0});
+    EXPECT_NEAR(distance_m(segment(place.index), here), nearest_m, 1e-9);
+    const auto [a, b] = segment(place.index);
+    const double length_m = distance_m(a, b), forward_m = place.along_m - tracked.along_m(place.index);
+    const double ux = (b.x_m - a.x_m) / length_m, uy = (b.y_m - a.y_m) / length_m;
+    const Point2<Map> laid{a.x_m + forward_m * ux - place.cross_track_m * uy,
+                           a.y_m + forward_m * uy + place.cross_track_m * ux};
+    EXPECT_LT(distance_m(laid, here), 1e-9);
+  }
+}
+
+TEST(PurePursuit, TheArcLeadsThroughThePathOneLookAheadFurther) {
+  PursuitOptions options;
+  options.min_look_ahead_m = options.max_look_ahead_m = 0.8;
+  const Path straight{{{{0.0, 0.0}}, {{3.0, 0.0}}}};
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> way(0.1, 2.9), aside(-0.3, 0.3), yaw(-0.5, 0.5);
+  for (const Path& path : {coarse_path(), straight})
+    for (int run = 0; run < 300; ++run) {
+      const Point2<Map> at = along(path, way(random));
+      const Transform2<Map, Base> pose(at.x_m, at.y_m + aside(random), yaw(random));
+      const auto out = pursue(TrackedPath(path, {}), {0, 0, false, true}, {.map_from_base = pose}, options);
+      ASSERT_EQ(out.status, PursuitStatus::Following);
+      const auto& [v, w] = out.command;
+      const Point2<Base> target = pose.inverse() * along(path, out.along_m + options.min_look_ahead_m);
+      EXPECT_NEAR(w * (target.x_m * target.x_m + target.y_m * target.y_m), 2.0 * v * target.y_m, 1e-9)
+          << "distance to the circle's centre is the radius";
+    }
+}
+
+TEST(PurePursuit, BackwardsIsForwardsOfAVehicleThatLooksTheOtherWay) {
+  const Path path = bent_path(1.0, kPi);
+  Path backwards = path;
+  for (PathPoint& point : backwards.points) point.reverse = true;
+  const TrackedPath there(path, {}), back(backwards, {});
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> way(0.0, 6.0), aside(-0.5, 0.5), yaw(-1.0, 3.0);
+  for (int run = 0; run < 300; ++run) {
+    const Point2<Map> at = along(path, way(random));
+    const Transform2<Map, Base> pose(at.x_m + aside(random), at.y_m + aside(random), yaw(random));
+    const PursuitState state{0, 0, false, run % 2 == 0};
+    const auto forth = pursue(there, state, {.map_from_base = pose}, {});
+    const auto turned =
+        pursue(back, state, {.map_from_base = pose * Transform2<Base, Base>(0.0, 0.0, kPi)}, {});
+    EXPECT_EQ(turned.status, forth.status);
+    EXPECT_NEAR(turned.along_m, forth.along_m, 1e-9);
+    EXPECT_NEAR(turned.command.linear_mps, -forth.command.linear_mps, 1e-9);
+    EXPECT_NEAR(turned.command.angular_radps, forth.command.angular_radps, 1e-9);
+  }
+}
+
+TEST(PurePursuit, ATurnOnTheSpotLiesWhereItsPieceBegins) {
+  const TrackedPath path(bent_path(1.0, kPi), {});
+  const std::size_t last = path.points().size() - 1;
+  const auto out = pursue(path, {1, last, true, true}, {.map_from_base = {5.0, 4.0, kPi / 2.0}}, {});
+  EXPECT_EQ(out.status, PursuitStatus::Turning);
+  EXPECT_EQ(out.along_m, path.length_m());
+}
+
+TEST(PurePursuit, TheProfileIsAsFastAsStoppingAtTheEndAllows) {
+  Path path;
+  for (int i = 0; i <= 40; ++i) path.points.push_back({{0.1 * i, 0.0}});
+  const SpeedLimits limits;
+  const TrackedPath tracked(path, limits);
+  for (std::size_t i = 0; i < path.points.size(); ++i)
+    EXPECT_NEAR(
+        tracked.speed_at(tracked.pieces().front(), tracked.along_m(i)),
+        std::min(limits.max_speed_mps, limits.speed_to_stop_within(tracked.length_m() - tracked.along_m(i))),
+        1e-9);
 }
 
 }  // namespace

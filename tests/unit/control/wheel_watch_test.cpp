@@ -79,6 +79,7 @@ TEST(WheelWatch, AMotorThatFailsIsNamed) {
   EXPECT_NEAR(found->asked_mps, 0.8, 1e-9);
   EXPECT_NEAR(found->turned_mps, 0.0, 1e-9);
   EXPECT_LT(after_s, 0.15);
+  EXPECT_FALSE(watch.update(command_of(0.8, 0.8), command_of(0.8, 0.0), kStatusEveryS, kOptions)) << "twice";
 }
 
 TEST(WheelWatch, HalfTheSpeedIsTooLittleAndASingleReadingIsNothing) {
@@ -96,11 +97,11 @@ TEST(WheelWatch, AWheelThatRunsAwayFromAStandstillIsNamed) {
 }
 
 TEST(WheelWatch, AVehicleThatIsHeldIsNoMatterOfAWheel) {
-  for (const double way : {1.0, -1.0}) {
+  for (const double asked_mps : {0.8, 0.4, -0.4, -0.8}) {
     WheelWatch watch;
-    ASSERT_FALSE(said_after(watch, 3.0, 0.8 * way, 0.8 * way, 0.8 * way));
-    EXPECT_FALSE(said_after(watch, 2.0, 0.8 * way, 0.0, 0.1 * way));
-    EXPECT_TRUE(said_after(watch, 0.5, 0.8 * way, -0.8 * way, 0.1 * way)) << "one runs the wrong way";
+    ASSERT_FALSE(said_after(watch, 3.0, asked_mps, asked_mps, asked_mps));
+    EXPECT_FALSE(said_after(watch, 2.0, asked_mps, 0.0, 0.1 * asked_mps)) << asked_mps;
+    EXPECT_TRUE(said_after(watch, 0.5, asked_mps, -asked_mps, 0.1 * asked_mps)) << "one runs the wrong way";
   }
 }
 
@@ -109,6 +110,9 @@ TEST(WheelWatch, WhereTheDriveFollowsNoCommandNothingIsJudged) {
   for (int k = 0; k < 100; ++k)
     EXPECT_FALSE(watch.update(std::nullopt, command_of(0.9, 0.9), kStatusEveryS, kOptions)) << "it is pushed";
   EXPECT_FALSE(said_after(watch, 0.3, 0.0, 0.7, 0.7)) << "it brakes from there";
+  for (int k = 0; k < 4; ++k)
+    EXPECT_FALSE(watch.update(std::nullopt, command_of(1.5, 1.5), kStatusEveryS, kOptions)) << "a jolt";
+  EXPECT_FALSE(said_after(watch, 0.3, 0.0, 1.4, 1.4)) << "and from there";
 }
 
 }  // namespace
