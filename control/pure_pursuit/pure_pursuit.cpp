@@ -51,8 +51,6 @@ bool turn_towards(double direction_rad, const PursuitInput& input, const Pursuit
 
 VelocityCommand aim(const TrackedPath& path, const PathPiece& piece, const PathPlace& place,
                     const PursuitInput& input, const PursuitOptions& options) {
-  const double end_m = path.along_m(piece.end - 1);
-  const double left_m = end_m - place.along_m;
   double speed = path.speed_at(piece, std::max(place.along_m, path.along_m(piece.first)));
   speed =
       std::max(speed, options.creep_mps);  // the last centimetres; what follows may still stop the vehicle
@@ -65,7 +63,6 @@ VelocityCommand aim(const TrackedPath& path, const PathPiece& piece, const PathP
   const double curvature = square > 1e-9 ? 2.0 * target.y_m / square : 0.0;
   speed = std::min({speed, options.speed.speed_to_stop_within(input.free_distance_m),
                     options.speed.speed_on_curve(curvature)});
-  if (left_m <= options.goal_tolerance_m) speed = 0.0;
   return {speed, speed * curvature};
 }
 

@@ -38,6 +38,7 @@ class Bench {
 TEST(DriveController, RunsOnlyAfterDisableThenEnable) {
   Bench bench;
   bench.wait_ms(1);
+  EXPECT_EQ(bench.controller.state(), DriveState::Idle) << "nobody was silent yet";
   bench.send(true);
   EXPECT_EQ(bench.controller.state(), DriveState::Idle);
   EXPECT_EQ(bench.controller.left_uradps(), 0);
@@ -171,6 +172,17 @@ TEST(DriveController, CountsStopsAndTellsTheirNumber) {
     ASSERT_EQ(decode(frame, size - 1, status), Verdict::Good);
     EXPECT_EQ(status.stops, stop % kStopsWrap);
     EXPECT_FALSE(status.emergency_stop || status.bumper);
+  }
+}
+
+TEST(DriveController, NumbersItsStatusesAndNamesTheCommandThatItTook) {
+  Bench bench;
+  bench.start();
+  for (std::uint16_t i = 0; i < 5; ++i) {
+    bench.send(true);
+    const Status status = bench.controller.next_status();
+    EXPECT_EQ(status.sequence, i);
+    EXPECT_EQ(status.command_sequence, bench.last.sequence);
   }
 }
 

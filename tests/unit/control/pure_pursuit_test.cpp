@@ -247,6 +247,50 @@ TEST(PurePursuit, BackwardsIsForwardsOfAVehicleThatLooksTheOtherWay) {
   }
 }
 
+/// Moved and turned as a whole, or seen in a mirror, the same is done.
+TEST(PurePursuit, IsTheSameAnywhereAndInAMirror) {
+  const Path path = bent_path(1.0, kPi);
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> way(0.0, 6.0), aside(-0.8, 0.8), yaw(-1.0, 3.0), anywhere(-9.0, 9.0);
+  int turned = 0, off_path = 0;
+  for (int run = 0; run < 300; ++run) {
+    const Point2<Map> at = along(path, way(random));
+    const Transform2<Map, Base> pose(at.x_m + aside(random), at.y_m + aside(random), yaw(random));
+    const Transform2<Map, Map> shift(anywhere(random), anywhere(random), anywhere(random));
+    Path moved = path, mirrored = path;
+    for (PathPoint& p : moved.points)
+      p.position = shift * p.position, p.heading_rad = wrap_angle(p.heading_rad + shift.yaw_rad());
+    for (PathPoint& p : mirrored.points)
+      p.position.y_m = -p.position.y_m, p.heading_rad = -p.heading_rad,
+      p.curvature_per_m = -p.curvature_per_m;
+    const auto out = pursue(TrackedPath(path, {}), {}, {.map_from_base = pose}, {});
+    const auto there = pursue(TrackedPath(moved, {}), {}, {.map_from_base = shift * pose}, {});
+    const auto left = pursue(TrackedPath(mirrored, {}), {},
+                             {.map_from_base = {pose.x_m(), -pose.y_m(), -pose.yaw_rad()}}, {});
+    EXPECT_EQ(there.status, out.status);
+    EXPECT_NEAR(there.command.linear_mps, out.command.linear_mps, 1e-9);
+    EXPECT_NEAR(there.command.angular_radps, out.command.angular_radps, 1e-9);
+    EXPECT_EQ(left.status, out.status);
+    EXPECT_NEAR(left.command.linear_mps, out.command.linear_mps, 1e-9);
+    EXPECT_NEAR(left.command.angular_radps, -out.command.angular_radps, 1e-9);
+    turned += out.status == PursuitStatus::Turning ? 1 : 0;
+    off_path += out.status == PursuitStatus::OffPath ? 1 : 0;
+  }
+  EXPECT_GT(turned, 20);
+  EXPECT_GT(off_path, 5);
+}
+
+TEST(PurePursuit, ATurnIsNoFasterThanItCanBeBrakedToItsHeading) {
+  const TrackedPath path(bent_path(1.0, 0.0), {});
+  const PursuitOptions options;
+  for (const double off_rad : {0.1, 0.2, 0.4}) {
+    const auto out = pursue(path, {0, 0, true, true}, {.map_from_base = {0.0, 0.0, -off_rad}}, options);
+    const double rate = out.command.angular_radps;
+    EXPECT_NEAR(rate * options.speed.reaction_s + rate * rate / (2.0 * options.turn_acceleration_radps2),
+                off_rad, 1e-9);
+  }
+}
+
 TEST(PurePursuit, ATurnOnTheSpotLiesWhereItsPieceBegins) {
   const TrackedPath path(bent_path(1.0, kPi), {});
   const std::size_t last = path.points().size() - 1;
@@ -265,6 +309,14 @@ TEST(PurePursuit, TheProfileIsAsFastAsStoppingAtTheEndAllows) {
         tracked.speed_at(tracked.pieces().front(), tracked.along_m(i)),
         std::min(limits.max_speed_mps, limits.speed_to_stop_within(tracked.length_m() - tracked.along_m(i))),
         1e-9);
+  for (std::size_t i = 20; i < 30; ++i) path.points[i].speed_limit_mps = 0.2;
+  const TrackedPath slow(path, limits);
+  for (std::size_t i = 0; i < 20; ++i) {
+    const double v = slow.speed_at(slow.pieces().front(), slow.along_m(i));
+    const double braked =
+        std::sqrt(0.2 * 0.2 + 2.0 * limits.deceleration_mps2 * 0.1 * (20.0 - static_cast<double>(i)));
+    EXPECT_NEAR(v, std::min(limits.max_speed_mps, braked), 1e-9) << "before a slow stretch";
+  }
 }
 
 }  // namespace
