@@ -262,7 +262,6 @@ void ObstacleField::add_felt(const std::vector<Point2<Odom>>& places, Stamp now)
     felt.min_y_m = felt.max_y_m = static_cast<float>(place.y_m);
     felt.low_m = static_cast<float>(options_.ground_clearance_m);
     felt.high_m = felt.top_m = static_cast<float>(kHighM);
-    felt.confirmed = true;
     felt.since = now;
     auto at = std::lower_bound(columns_.begin(), columns_.end(), felt, by_cell);
     if (at == columns_.end() || by_cell(felt, *at)) at = columns_.insert(at, felt);

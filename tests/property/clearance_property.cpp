@@ -113,6 +113,36 @@ RC_GTEST_PROP(ClearanceLaw, ACommandThatKeepsAwayFromEverythingIsLeftAlone, ()) 
   RC_ASSERT(share_of(world) == 1.0);
 }
 
+/// Nor is it more than a law: driven a centimetre further on its curve than braking leads, the vehicle would
+/// be too near to something.
+RC_GTEST_PROP(ClearanceLaw, ASlowedCommandIsAsFastAsTheLawAllows, ()) {
+  const World world = any_world();
+  const double share = share_of(world);
+  if (share >= 1.0) return;
+  const auto& [v, w] = world.asked;
+  const double braking_s = 0.5 * std::max(std::abs(v) / world.braking.deceleration_mps2,
+                                          std::abs(w) / world.braking.turn_deceleration_radps2);
+  const double lost_s = world.braking.reaction_s + world.braking.scan_period_s;
+  const double corner_mps = std::abs(v) + std::abs(w) * world.vehicle.reach_m();
+  const double until_s = share * (share * braking_s + lost_s) + 0.01 / corner_mps;
+  double least_room_m = 1e9;
+  const auto note = [&](const Transform2<Base, Base>& pose, const auto& shape, double margin_m) {
+    const auto seen = world.pose.inverse() * shape;
+    const double least_m = least_allowed_m(clearance_m(world.vehicle, seen), margin_m);
+    least_room_m = std::min(least_room_m, clearance_m(world.vehicle, pose.inverse() * seen) - least_m);
+  };
+  constexpr int kParts = 2000;
+  Transform2<Base, Base> pose;
+  const double step_s = until_s / kParts, turn = w * step_s;
+  for (int i = 0; i < kParts; ++i) {
+    pose = pose *
+           Transform2<Base, Base>(v * step_s * std::cos(0.5 * turn), v * step_s * std::sin(0.5 * turn), turn);
+    for (const auto& body : world.bodies) note(pose, body, world.guard.body_margin_m);
+    for (const auto& wall : world.walls) note(pose, wall, world.guard.wall_margin_m);
+  }
+  RC_ASSERT(least_room_m < 0.001);
+}
+
 /// An obstacle more takes nothing away from the others: the share can only fall.
 RC_GTEST_PROP(ClearanceLaw, AnObstacleMoreNeverSwitchesOffAnother, ()) {
   World world = any_world();
@@ -136,7 +166,8 @@ RC_GTEST_PROP(ClearanceOfAnOutline, IsTheLeastOverTheSegment, ()) {
   RC_ASSERT(found > least - 0.003);
 }
 
-/// What is set back is outside the margins and no nearer than it was; what was outside stays where it was.
+/// What is set back is outside the margins and no nearer than it was, the shortest way out where the outline
+/// alone counts; what was outside stays where it was, and so does what is deep inside.
 RC_GTEST_PROP(SetBack, AVehicleMayLeaveWhatItStandsAgainst, ()) {
   const World world = any_world();
   CheckOptions options;
@@ -154,7 +185,51 @@ RC_GTEST_PROP(SetBack, AVehicleMayLeaveWhatItStandsAgainst, ()) {
     const bool free = is_free(world.pose, {obstacles[i]}, {}, options);
     RC_ASSERT(free || (was_m < -0.1 && obstacles[i] == world.bodies[i]));
     RC_ASSERT(is_m >= was_m - 1e-9);
-    if (was_m > most_m) RC_ASSERT(obstacles[i] == world.bodies[i]);
+    if (was_m > most_m || was_m < -0.1) RC_ASSERT(obstacles[i] == world.bodies[i]);
+    const double seen_within_m = 0.02, ends_m = std::min(v.front_m, v.rear_m) + options.ends_margin_m;
+    if (obstacles[i] == world.bodies[i] || ends_m < v.half_width_m + options.sides_margin_m) continue;
+    const auto beyond =
+        v.grown(options.ends_margin_m + seen_within_m, options.sides_margin_m + seen_within_m);
+    const double depth_m = -clearance_m(beyond, base_from_map * world.bodies[i]);
+    RC_ASSERT(std::abs(distance_m(obstacles[i], world.bodies[i]) - depth_m) < 1e-9);
+  }
+}
+
+/// A path that is one point long is free where the vehicle may stand there.
+RC_GTEST_PROP(CheckPath, OfOnePointIsWhetherTheVehicleIsFreeThere, ()) {
+  const World world = any_world();
+  CheckOptions options;
+  options.vehicle = world.vehicle;
+  const WallGrid walls(world.walls);
+  const Path path{{{world.pose.translation(), world.pose.yaw_rad(), 0.0}}};
+  const PathCheck check = check_path(path, 0, 0.0, world.bodies, walls, options);
+  RC_ASSERT(check.blocked() == !is_free(world.pose, world.bodies, walls, options));
+  if (check.blocked()) RC_ASSERT(check.free_m == 0.0);
+}
+
+/// Whatever is passed in a turn on the spot, begun where nothing is within the margins: never nearer than
+/// half of them, at any heading. Both checks of a way see the same.
+RC_GTEST_PROP(CheckPath, ATurnOnTheSpotPassesNothingNearerThanHalfTheMargin, ()) {
+  World world = any_world();
+  CheckOptions options;
+  options.vehicle = world.vehicle;
+  options.ends_margin_m = options.sides_margin_m = options.turn_margin_m = between(0.02, 0.1);
+  std::erase_if(world.bodies, [&](const auto& body) { return !is_free(world.pose, {body}, {}, options); });
+  const double turn_rad = between(-2.9, 2.9);
+  Path path;
+  path.points.assign(2, PathPoint{world.pose.translation(), world.pose.yaw_rad()});
+  path.points.back().heading_rad += turn_rad;
+  const auto pose_at = [&](double share) {
+    return world.pose * Transform2<Base, Base>(0.0, 0.0, share * turn_rad);
+  };
+  const bool blocked = check_path(path, 1, 0.0, world.bodies, {}, options).blocked();
+  RC_ASSERT(blocked == !is_free_between(world.pose, pose_at(1.0), world.bodies, {}, options));
+  if (blocked) return;
+  constexpr int kParts = 500;
+  for (int i = 0; i <= kParts; ++i) {
+    const auto base_from_map = pose_at(static_cast<double>(i) / kParts).inverse();
+    for (const auto& body : world.bodies)
+      RC_ASSERT(clearance_m(world.vehicle, base_from_map * body) > 0.45 * options.turn_margin_m);
   }
 }
 

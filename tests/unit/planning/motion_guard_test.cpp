@@ -40,6 +40,9 @@ TEST(MotionGuard, SlowsTheVehicleDownBeforeWhatItWouldMeet) {
   EXPECT_LT(share({}, {0.3, 0.9}, {{0.75, 0.5}}), 0.9) << "the nose swings to the left";
   EXPECT_EQ(share({}, {0.3, -0.9}, {{0.75, 0.5}}), 1.0);
   EXPECT_LT(share({}, {0.0, 1.0}, {{0.78, 0.33}}), 0.2);
+  const double corner_rad = std::atan2(kVehicle.half_width_m, kVehicle.front_m) + 0.3;
+  const double passed_m = kVehicle.reach_m() + 0.9 * GuardOptions().body_margin_m;
+  EXPECT_LT(share({}, {0.0, 1.0}, {{passed_m * std::cos(corner_rad), passed_m * std::sin(corner_rad)}}), 1.0);
   const WallGrid wall(std::vector<Segment2<Map>>{{{-5.0, 0.4}, {5.0, 0.4}}});
   EXPECT_LT(share({}, {0.3, 0.9}, {}, wall), 0.9);
   EXPECT_EQ(share({}, {1.0, 0.0}, {}, wall), 1.0);

@@ -113,19 +113,99 @@ TEST(CheckMovers, WhoComesIntoTheCircleOfATurnHoldsIt) {
   EXPECT_FALSE(turn_meets(pose, {{{0.0, -4.0}, 0.0, 1.2, 0.2}}, {}, options)) << "later";
 }
 
-TEST(MovingObjects, ALidarThatTurnsSlowlyMeasuresThemToo) {
+/// A column that came there, as the field gives it.
+Column come_to(double x_m, Stamp stamp) {
+  Column c;
+  c.min_x_m = c.max_x_m = static_cast<float>(x_m);
+  c.cell_x = static_cast<std::int32_t>(std::floor(10.0 * x_m));
+  c.confirmed = c.entered = true;
+  c.high_m = 1.7F;
+  c.seen = stamp;
+  return c;
+}
+
+/// One that goes along x, seen five times a second.
+std::vector<Mover<Odom>> at_speed(double speed_mps) {
   MovingObjects objects;
   for (int i = 0; i < 6; ++i) {
     const Stamp stamp = stamp_from_seconds(1.0 + 0.2 * i);
-    Column c;
-    c.min_x_m = c.max_x_m = static_cast<float>(0.24 * i);
-    c.cell_x = static_cast<std::int32_t>(2.4 * i);
-    c.confirmed = c.entered = true;
-    c.seen = stamp;
-    objects.update({c}, stamp);
+    objects.update({come_to(0.2 * speed_mps * i, stamp)}, stamp);
   }
-  ASSERT_EQ(objects.movers().size(), 1U);
-  EXPECT_NEAR(objects.movers()[0].vx_mps, 1.2, 0.01);
+  return objects.movers();
+}
+
+TEST(MovingObjects, ALidarThatTurnsSlowlyMeasuresThemToo) {
+  ASSERT_EQ(at_speed(1.2).size(), 1U);
+  EXPECT_NEAR(at_speed(1.2)[0].vx_mps, 1.2, 0.01);
+}
+
+TEST(MovingObjects, WhatIsTooSlowIsMeasuredAsIfItStood) {
+  const double slowest_mps = MoverOptions().slowest_mps;
+  EXPECT_TRUE(at_speed(0.8 * slowest_mps).empty());
+  EXPECT_EQ(at_speed(1.2 * slowest_mps).size(), 1U);
+}
+
+TEST(MovingObjects, WhoComesNextInheritsNothingOfWhoLeft) {
+  MovingObjects objects;
+  int i = 0;
+  const auto next = [&] { return stamp_from_seconds(1.0 + 0.2 * i++); };
+  for (int k = 0; k < 6; ++k) {
+    const Stamp stamp = next();
+    objects.update({come_to(0.24 * k, stamp)}, stamp);
+  }
+  objects.update({}, next());
+  for (int k = 0; k < 6; ++k) {
+    const Stamp stamp = next();
+    Column low = come_to(5.0, stamp);
+    low.high_m = 0.4F;
+    objects.update({low}, stamp);
+    EXPECT_TRUE(objects.movers().empty()) << "it stands";
+    ASSERT_EQ(objects.tracks().size(), 1U);
+    EXPECT_NEAR(objects.tracks()[0].high_m, 0.4, 1e-6);
+  }
+}
+
+/// When a vehicle that gains speed at once has driven so far, step by step.
+double gained_s(double way_m, double speed_mps, const MoverOptions& options) {
+  constexpr double kTickS = 1e-3;
+  double time_s = 0.0;
+  for (double along_m = 0.0; along_m < way_m; time_s += kTickS) {
+    along_m += speed_mps * kTickS;
+    speed_mps = std::max(speed_mps, std::min(options.top_speed_mps, speed_mps + options.gain_mps2 * kTickS));
+  }
+  return time_s;
+}
+
+/// Somebody walks straight across the way: who would be met by a vehicle that gains speed at once, or by one
+/// that keeps its own, holds it; not who has left before the earliest could come, and a while more.
+TEST(CheckMovers, WhoIsMetAtAnyPaceHoldsAndWhoHasLeftBeforeDoesNot) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> speed(0.0, 1.2), place(1.5, 4.0), walk(0.8, 2.0), gain(0.2, 1.5);
+  const CheckOptions check;
+  int held = 0, left = 0;
+  for (int run = 0; run < 300; ++run) {
+    MoverOptions options;
+    options.gain_mps2 = gain(random);
+    const double speed_mps = speed(random), across_m = place(random), walk_mps = walk(random);
+    const auto blocks = [&](double y_m) {
+      const Mover<Map> m{{across_m, y_m}, 0.0, walk_mps, 0.2};
+      return check_movers(test::straight_way(10), 0, 7.0, speed_mps, {m}, check, options).blocked();
+    };
+    for (const double met_s : {gained_s(across_m, speed_mps, options), across_m / std::max(speed_mps, 0.3)}) {
+      if (met_s > options.foresight_s) continue;
+      EXPECT_TRUE(blocks(-walk_mps * met_s)) << "at " << speed_mps << " m/s, met after " << met_s;
+      ++held;
+    }
+    const double margin_m = 0.2 + options.margin_m;
+    const double front_m = across_m - check.vehicle.front_m - margin_m;
+    const double gone_s = gained_s(front_m, speed_mps, options) - options.window_s - 0.05;
+    if (gone_s < 0.0) continue;
+    EXPECT_FALSE(blocks(check.vehicle.half_width_m + margin_m - walk_mps * gone_s))
+        << "left after " << gone_s;
+    ++left;
+  }
+  EXPECT_GT(held, 100);
+  EXPECT_GT(left, 100);
 }
 
 TEST(CheckMovers, AVehicleThatDrivesBackwardMeetsTheSame) {

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
 
 #include "core/angle.hpp"
 #include "tests/support/toy_lidar.hpp"
@@ -441,6 +444,75 @@ TEST(ObstacleField, NonFinitePointsAreLeftOut) {
   }
   field.update(cloud, kVlp, {});
   EXPECT_TRUE(field.columns().empty());
+}
+
+TEST(ObstacleField, WhatTheVehicleRanAgainstStandsWhereItWasFelt) {
+  ObstacleField field;
+  const std::vector<Point2<Odom>> places{{12.34, -7.61}, {12.38, -7.69}, {-3.02, 0.04}, {-3.02, 0.17}};
+  for (int again = 0; again < 2; ++again) {
+    field.add_felt(places, at(1));
+    EXPECT_EQ(field.columns().size(), 3U) << "two of them in one square";
+    EXPECT_TRUE(std::ranges::is_sorted(field.columns(), by_cell));
+    for (const auto& place : places)
+      EXPECT_TRUE(std::ranges::any_of(field.columns(), [&](const Column& c) {
+        Column with = c;
+        with.widen(place);
+        return c.confirmed && with == c && c.cell_x == std::floor(10.0 * place.x_m) &&
+               c.cell_y == std::floor(10.0 * place.y_m);
+      })) << place.x_m;
+  }
+}
+
+/// Beside a search through all points.
+TEST(ColumnLayer, CountsWhatStandsBesideAndTellsHowHighItReaches) {
+  struct Point {
+    int x, y;
+    double height_m;
+    [[nodiscard]] bool beside(const Column& c, int cells) const {
+      return std::abs(x - c.cell_x) <= cells && std::abs(y - c.cell_y) <= cells;
+    }
+  };
+  constexpr double kCellM = 0.2, kTallM = 0.5;
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> height(0.1, 0.55), share(0.1, 0.9);
+  for (int run = 0; run < 50; ++run) {
+    const int mx = static_cast<int>(random() % 400) - 200, my = static_cast<int>(random() % 400) - 200;
+    const auto points = [&](int count) {
+      std::vector<Point> all;
+      while (count-- > 0)
+        all.push_back({mx + static_cast<int>(random() % 16) - 8, my + static_cast<int>(random() % 16) - 8,
+                       height(random)});
+      return all;
+    };
+    const auto laid = [&](ColumnLayer& layer, const std::vector<Point>& all) {
+      layer.begin({(mx + 0.5) * kCellM, (my + 0.5) * kCellM}, 9.0 * kCellM, kCellM, at(1));
+      for (const Point& p : all)
+        layer.add({(p.x + share(random)) * kCellM, (p.y + share(random)) * kCellM}, p.height_m);
+    };
+    ColumnLayer layer, stood;
+    const auto now = points(40), before = points(run % 2 == 0 ? 0 : 20);
+    laid(layer, now);
+    laid(stood, before);
+    layer.confirm(3, kTallM, stood);
+    const auto was = [&](int x, int y) {
+      return std::ranges::any_of(before, [&](const Point& p) { return p.x == x && p.y == y; });
+    };
+    for (const Column& c : layer.columns()) {
+      int count = 0;
+      bool tall = false;
+      std::vector<double> heights;
+      for (const Point& p : now) {
+        tall = tall || (p.beside(c, 3) && p.height_m > kTallM);
+        if (!p.beside(c, 1)) continue;
+        heights.push_back(p.height_m);
+        if (was(c.cell_x, c.cell_y) || !was(p.x, p.y)) ++count;
+      }
+      std::ranges::sort(heights, std::greater());
+      EXPECT_EQ(c.confirmed, count >= 3);
+      EXPECT_EQ(c.part_of_tall, tall);
+      EXPECT_NEAR(static_cast<double>(c.top_m), count > 1 ? heights[1] : static_cast<double>(c.high_m), 1e-6);
+    }
+  }
 }
 
 }  // namespace

@@ -166,5 +166,19 @@ TEST(OutOfSight, WhoStandsAtTheRimIsBelievedThere) {
   }
 }
 
+TEST(OutOfSight, WhoWasSeenAllAlongBesideTheMastIsAnotherOne) {
+  Scene scene;
+  scene.lidar.posts.push_back({{-2.4, -2.5}, 0.2, 1.75});
+  scene.stand(1.0);
+  for (int i = 0; i < 45; ++i) {
+    if (i < 26) scene.person().x_m -= 0.1;
+    scene.lidar.posts.back().at.y_m += 0.1;
+    scene.look();
+    EXPECT_TRUE(i < 30 || scene.out_of_sight.anyone()) << i;
+  }
+  scene.out_of_sight.clear();
+  EXPECT_FALSE(scene.out_of_sight.anyone() || !scene.out_of_sight.points().empty());
+}
+
 }  // namespace
 }  // namespace madori::planning
