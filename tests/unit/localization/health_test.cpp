@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <random>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "localization/health/reasons.hpp"
 #include "localization/health/wall_fit.hpp"
@@ -93,6 +97,7 @@ TEST(Health, WherePlacesSideBySideAreAlikeItIsKnownToAMetre) {
   e.rival = 0.49;
   e.around = 0.99;
   EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
+  EXPECT_EQ(judge(e).place, e.around) << "within a metre of there it is, for sure";
   e.around = 0.94;
   EXPECT_EQ(judge(e).state, LocalizationState::Ambiguous);
 }
@@ -167,6 +172,62 @@ TEST(Health, WhoHasNotLookedIsLost) {
   HealthEvidence e = sound();
   e.looked = false;
   EXPECT_EQ(judge(e).state, LocalizationState::Lost);
+}
+
+/// Whatever is known, less sure evidence never lets the vehicle drive, or drive faster, where it might not.
+TEST(Health, WorseEvidenceIsNeverABetterState) {
+  const auto danger = [](const HealthEvidence& e) {
+    const auto state = judge(e).state;
+    return state == LocalizationState::Localized ? 0 : state == LocalizationState::Degraded ? 1 : 2;
+  };
+  std::mt19937 random(9);
+  const auto any = [&](double most) { return std::uniform_real_distribution<double>(0.0, most)(random); };
+  int degraded = 0;
+  for (int run = 0; run < 5000; ++run) {
+    HealthEvidence e = sound();
+    e.here = run % 2 == 0 ? 1.0 - any(0.1) : any(1.0);
+    e.around = std::max(e.here, run % 3 == 0 ? 1.0 - any(0.1) : any(1.0));
+    e.rival = any(1.0 - e.here);
+    e.mirrored = any(1.0 - e.here);
+    e.inliers = 0.2 + any(0.3);
+    e.position_sigma_m = any(0.7);
+    e.blind_scans = static_cast<int>(random() % 5);
+    e.blind_m = any(4.0);
+    e.blind_s = any(3.0);
+    e.off_walls = random() % 4 == 0;
+    std::vector<HealthEvidence> worse(9, e);
+    worse[0].here = any(e.here);
+    worse[1].around = std::max(e.here, any(e.around));
+    worse[2].inliers = any(e.inliers);
+    worse[3].position_sigma_m += any(1.0);
+    worse[4].blind_scans += 3;
+    worse[5].blind_m += any(4.0);
+    worse[6].blind_s += any(3.0);
+    worse[7].off_walls = true;
+    worse[8].looked = false;
+    for (std::size_t i = 0; i < worse.size(); ++i) EXPECT_GE(danger(worse[i]), danger(e)) << i;
+    degraded += danger(e) == 1 ? 1 : 0;
+  }
+  EXPECT_GT(degraded, 500);
+}
+
+/// Each alone.
+TEST(Health, WhatMakesASurePlaceDegraded) {
+  const std::vector<std::function<void(HealthEvidence&)>> doubts{
+      [](HealthEvidence& e) { e.blind_scans = 2, e.blind_s = 1.0; },
+      [](HealthEvidence& e) { e.position_sigma_m = 0.6; },
+      [](HealthEvidence& e) { e.here = 0.5, e.around = 0.99; },
+      [](HealthEvidence& e) { e.here = 0.9; },
+      [](HealthEvidence& e) { e.inliers = 0.2; },
+      [](HealthEvidence& e) { e.off_walls = true; },
+  };
+  std::set<std::string> reasons;
+  for (const auto& doubt : doubts) {
+    HealthEvidence e = sound();
+    doubt(e);
+    EXPECT_EQ(judge(e).state, LocalizationState::Degraded);
+    EXPECT_TRUE(reasons.insert(judge(e).reason).second) << judge(e).reason;
+  }
 }
 
 TEST(Reasons, EveryOneHasACodeOfItsOwnAndIsFoundByItsWords) {
