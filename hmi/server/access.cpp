@@ -28,6 +28,8 @@ std::string new_token() {
 
 std::map<Role, std::string> read_hashes(const std::filesystem::path& file) {
   std::map<Role, std::string> hashes;
+  std::error_code unknown;
+  if (std::filesystem::status(file, unknown).type() == std::filesystem::file_type::not_found) return hashes;
   std::ifstream stream(file);
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
@@ -42,6 +44,8 @@ std::map<Role, std::string> read_hashes(const std::filesystem::path& file) {
                   "remove the line and set the PIN again: madori pin");
     hashes[*role] = hash;
   }
+  if (!stream.eof())  // without its PINs the panel would be open to everybody
+    throw Error(file.string(), "cannot be read", "let the user own it that runs this program");
   return hashes;
 }
 
@@ -137,12 +141,14 @@ void Access::set_pin(Role role, const std::string& pin) {
                         crypto_pwhash_MEMLIMIT_INTERACTIVE) != 0)
     throw Error("PIN", "cannot be hashed: not enough memory", "free some memory and try again");
   const std::scoped_lock lock(mutex_);
-  hashes_[role] = hash.data();
+  auto hashes = hashes_;
+  hashes[role] = hash.data();
   std::string text;
-  for (const auto& [r, h] : hashes_) text += std::string(to_string(r)) + ' ' + h + '\n';
+  for (const auto& [r, h] : hashes) text += std::string(to_string(r)) + ' ' + h + '\n';
   mapping::write_file_atomically(pin_file_, text);
   std::filesystem::permissions(pin_file_,
                                std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  hashes_ = std::move(hashes);
   std::erase_if(sessions_, [&](const auto& s) { return s.second.role == role; });
 }
 

@@ -27,7 +27,8 @@ class Access {
   static constexpr int kTriesOfAll = 20;
   static constexpr std::chrono::minutes kTryAgain{1};
 
-  /// `pin_file` holds "role hash" lines; absent means no PIN is set. Throws Error on a malformed file.
+  /// `pin_file` holds "role hash" lines; absent means no PIN is set. Throws Error on a malformed file,
+  /// and on one that cannot be read.
   Access(std::filesystem::path pin_file, bool open_to_network, Clock clock);
 
   /// The role of a session's token; None for a foreign or expired one.
@@ -43,7 +44,8 @@ class Access {
   Login login(const std::string& pin, const std::string& address);
   void logout(const std::string& token);
 
-  /// Stores the PIN of a role (4 to 64 characters). Throws Error on a bad PIN or an unwritable file.
+  /// Stores the PIN of a role (4 to 64 characters). Throws Error on a bad PIN or an unwritable file; then the
+  /// old one stays.
   void set_pin(Role role, const std::string& pin);
 
  private:

@@ -42,6 +42,16 @@ TEST_F(AccessTest, APinOpensASessionOfItsRoleUntilItExpires) {
   EXPECT_EQ(access.role_of(*login.token), Role::None);
 }
 
+TEST_F(AccessTest, NoTokenIsGivenTwice) {
+  Access access(file_, true, clock_);
+  access.set_pin(Role::Operator, "4711");
+  const auto first = access.login("4711", "a").token, second = access.login("4711", "a").token;
+  ASSERT_TRUE(first && second);
+  EXPECT_NE(*first, *second);
+  EXPECT_NE(*first, std::string(first->size(), first->front())) << "nor can it be guessed";
+  EXPECT_EQ(first->size(), 64U);
+}
+
 TEST_F(AccessTest, LoggingOutAndChangingThePinEndSessions) {
   Access access(file_, true, clock_);
   access.set_pin(Role::Viewer, "1234");
@@ -103,6 +113,17 @@ TEST_F(AccessTest, BadPinsAndFilesAreRefused) {
   EXPECT_THROW(access.set_pin(Role::Operator, "123"), Error);
   std::ofstream(file_) << "operator plain-text-pin\n";
   EXPECT_THROW(Access(file_, true, clock_), Error);
+}
+
+TEST_F(AccessTest, PinsThatCannotBeReadDoNotOpenThePanel) {
+  std::filesystem::create_directory(file_);
+  EXPECT_THROW(Access(file_, false, clock_), Error);
+}
+
+TEST_F(AccessTest, APinThatCannotBeWrittenIsNotTaken) {
+  Access access(folder_.path() / "missing" / "pins", true, clock_);
+  EXPECT_THROW(access.set_pin(Role::Operator, "4711"), Error);
+  EXPECT_FALSE(access.login("4711", "a").token);
 }
 
 }  // namespace
