@@ -90,7 +90,8 @@ BrakingTest::Words BrakingTest::begin(const CycleInput& input, const CycleState&
   if (is_to_be_confirmed(state.mode)) return fail(BrakingTrouble::Ended);
   if (is_silent(state.lidar_heard, input.now, config.lidar_silent_s)) return fail(BrakingTrouble::NoLidar);
   const double needs_m = braking_test_way_m(plan_.speed_mps, config);
-  const double free_m = std::min(free_straight_m(state, config, true), config.field.reach_m);
+  const double looked_at_m = config.field.reach_m - config.check.vehicle.front_m;
+  const double free_m = std::min(free_straight_m(state, config, true), looked_at_m);
   if (free_m < needs_m)
     return fail(BrakingTrouble::NoRoom, {{"needs", two_decimals(needs_m)}, {"free", two_decimals(free_m)}});
   if (state.mode != Mode::Manual) return {{OperatorWord::ManualOn, {}, {}}};

@@ -132,6 +132,19 @@ TEST(BrakingTest, TheWayMustBeFree) {
   EXPECT_EQ(hall.run.factory->distance_driven_m(), 0.0);
 }
 
+TEST(BrakingTest, WhatIsTooFarToBeSeenIsNotFree) {
+  Hall hall({}, as_recorded());
+  const CycleConfig& config = hall.site.config;
+  const double seen_m = config.field.reach_m - config.check.vehicle.front_m;
+  double speed_mps = 0.5;
+  while (braking_test_way_m(speed_mps, config) < seen_m) speed_mps += 0.01;
+  ASSERT_LT(braking_test_way_m(speed_mps, config), config.field.reach_m);
+  ASSERT_TRUE(hall.desk.start({speed_mps, 1}, false));
+  ASSERT_TRUE(hall.ends());
+  EXPECT_EQ(hall.desk.view().trouble.code, "no-room");
+  EXPECT_EQ(hall.run.factory->distance_driven_m(), 0.0);
+}
+
 TEST(BrakingTest, WhoeverComesIntoTheWayOrPressesStopEndsIt) {
   for (const bool pressed : {false, true}) {
     Hall hall({}, as_recorded());
