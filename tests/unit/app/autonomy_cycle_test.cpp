@@ -81,6 +81,31 @@ TEST(AutonomyCycle, ManualModeFollowsTheHeldKeyAndStopsWithoutIt) {
   EXPECT_EQ(v->state().mode, Mode::Paused);
 }
 
+TEST(AutonomyCycle, WhoeverStopsItIsObeyedAlsoByHandAndItIsSaidWhatHasEnded) {
+  for (const OperatorWord word : {OperatorWord::Stop, OperatorWord::Halt}) {
+    auto v = corridor_vehicle();
+    v->drive_to({{2}});
+    v->say(OperatorWord::Resume);
+    ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.5; }, 10.0));
+    v->say(word);
+    v->step();
+    EXPECT_EQ(v->output.command, VelocityCommand{});
+    EXPECT_EQ(v->state().mode, Mode::Paused);
+    EXPECT_EQ(v->state().standstill.cause.code,
+              entry(word == OperatorWord::Stop ? Cause::StoppedOrder : Cause::Stopped).code);
+    v->say(OperatorWord::ManualOn);
+    v->commands.push_back({OperatorWord::Jog, {0.3, 0.0}});
+    v->run_until([&] { return false; }, 0.2);
+    ASSERT_GT(v->output.command.linear_mps, 0.0);
+    v->say(word);
+    v->step();
+    EXPECT_EQ(v->output.command, VelocityCommand{}) << "also the key that is still held";
+    EXPECT_EQ(v->state().mode, Mode::Paused);
+    v->say(OperatorWord::Resume);
+    EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
+  }
+}
+
 TEST(AutonomyCycle, APlaceThatAPersonGivesReachesLocalization) {
   auto v = corridor_vehicle();
   v->commands.push_back({OperatorWord::SetPose, {}, {{std::nan(""), 0.0}, 0.0, {}}});
