@@ -11,15 +11,17 @@ namespace madori::planning {
 struct CsvRow {
   int line = 0;
   std::vector<std::string> fields;
-  bool open_quote = false;  ///< a double quote begins and does not end: the fields cannot be told
+  bool open_quote = false;     ///< a double quote begins and does not end: the fields cannot be told
+  bool decimal_comma = false;  ///< semicolons or tabs separate: a comma is the point of a number
 };
 
 /// Splits a CSV text. A byte-order mark, CRLF, blank lines, spaces and `# comments` are tolerated;
-/// a field in double quotes may hold commas. Tabs and semicolons separate too (spreadsheets write them).
+/// a field in double quotes may hold commas. A row with semicolons or tabs is separated by these alone
+/// (spreadsheets write so, with decimal commas where the country has them).
 [[nodiscard]] std::vector<CsvRow> csv_rows(std::string_view text);
 
 /// The whole text as a finite number. The typographic minus sign of printed tables counts as a minus.
-[[nodiscard]] std::optional<double> csv_number(std::string_view text);
+[[nodiscard]] std::optional<double> csv_number(std::string_view text, bool decimal_comma = false);
 /// The whole text as a whole number.
 [[nodiscard]] std::optional<int> csv_integer(std::string_view text);
 

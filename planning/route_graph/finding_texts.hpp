@@ -21,6 +21,7 @@ enum class Fault {
   UnknownNeighbour,
   BadNeighbour,
   TooManyColumns,
+  SurplusField,
   OwnNeighbour,
   RepeatedNeighbour,
   RepeatedRow,
@@ -57,6 +58,9 @@ inline constexpr std::array kFindingTexts{
                 "node {text} is not in path.csv - add its position there or remove it here"},
     FindingText{"bad-neighbour", "\"{text}\" is no node ID - separate neighbours by spaces"},
     FindingText{"too-many-columns", "has more than two columns - separate neighbours by spaces"},
+    FindingText{"surplus-field",
+                "\"{text}\" stands in no column - where numbers have decimal commas, separate the fields by "
+                "semicolons"},
     FindingText{"own-neighbour", "node {node} is its own neighbour - left out"},
     FindingText{"repeated-neighbour", "neighbour {node} stands twice - counted once"},
     FindingText{"repeated-row", "node {node} stands already on line {earlier} - join the two lines"},

@@ -67,7 +67,7 @@ class NodeRow {
     return found == columns_.end() || found->second >= row_.fields.size() ? "" : row_.fields[found->second];
   }
   std::optional<double> number(const std::string& column, double low, double high) {
-    const auto value = csv_number(text(column));
+    const auto value = csv_number(text(column), row_.decimal_comma);
     if (value && *value >= low && *value <= high) return value;
     const auto shown = [](double limit) {
       std::ostringstream digits;
@@ -80,6 +80,13 @@ class NodeRow {
   }
   std::optional<double> optional_number(const std::string& column, double low, double high) {
     return text(column).empty() ? std::nullopt : number(column, low, high);
+  }
+  /// What no column names would be lost: a decimal comma makes one field more of every number.
+  void refuse_surplus() {
+    std::size_t width = 0;
+    for (const auto& [name, column] : columns_) width = std::max(width, column + 1);
+    for (std::size_t i = width; i < row_.fields.size(); ++i)
+      if (!row_.fields[i].empty()) return fail(Fault::SurplusField, {{"text", row_.fields[i]}});
   }
   void fail(Fault fault, Findings::Values values) {
     findings_.error(row_.line, fault, std::move(values));
@@ -114,6 +121,7 @@ bool read_station(NodeRow& row) {
 std::optional<RouteNode> read_node(const CsvRow& csv, const std::map<std::string, std::size_t>& columns,
                                    Findings& findings) {
   NodeRow row(csv, columns, findings);
+  row.refuse_surplus();
   RouteNode node;
   const auto id = csv_integer(row.text("ID"));
   if (!id || *id < 0) row.fail(Fault::BadId, {{"text", row.text("ID")}});

@@ -48,6 +48,25 @@ TEST(RouteCsv, ToleratesWhatSpreadsheetsWrite) {
   EXPECT_TRUE(routes.graph.one_way_legs().empty());
 }
 
+TEST(RouteCsv, ReadsDecimalCommasBetweenSemicolons) {
+  const ParsedRoutes routes = parse_routes("ID;EDA\n0;1\n1;0\n",
+                                           "ID;x;y;name;speed_mps\n0;8,5;20,25;Press 2, left;0,5\n"
+                                           "1\t-12,0\t20.5\n");
+  EXPECT_TRUE(routes.findings.empty());
+  ASSERT_EQ(routes.graph.nodes().size(), 2U);
+  EXPECT_EQ(routes.graph.nodes()[0].position, (Point2<Map>{8.5, 20.25}));
+  EXPECT_EQ(routes.graph.nodes()[0].name, "Press 2, left");
+  EXPECT_DOUBLE_EQ(routes.graph.nodes()[0].speed_limit_mps.value_or(0.0), 0.5);
+  EXPECT_EQ(routes.graph.nodes()[1].position, (Point2<Map>{-12.0, 20.5}));
+}
+
+TEST(RouteCsv, LeavesNoFieldOut) {
+  EXPECT_THAT(findings("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,8,5,20,2\n1,12,20,,\n"),
+              ::testing::Contains(HasSubstr("path.csv:2: \"20\" stands in no column")));
+  EXPECT_THAT(findings("ID;EDA\n0;\n", "ID;x;y\n0;1.234,5;2\n"),
+              ::testing::Contains(HasSubstr("x \"1.234,5\" must be a number")));
+}
+
 TEST(RouteCsv, ReadsAndWritesOptionalColumns) {
   const std::string path =
       "ID,x,y,name,station,heading_deg,speed_mps,action\n0,0,0,\"Press 2, "

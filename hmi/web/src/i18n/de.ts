@@ -537,6 +537,7 @@ export const de: Record<TextKey, string> = {
   "finding.unknown-neighbour": "Punkt {text} ist nicht in path.csv: dort ergänzen oder hier entfernen",
   "finding.bad-neighbour": "„{text}“ ist kein Punkt: Nachbarn durch Leerzeichen trennen",
   "finding.too-many-columns": "mehr als zwei Spalten: Nachbarn durch Leerzeichen trennen",
+  "finding.surplus-field": "„{text}“ steht in keiner Spalte: bei Dezimalkommas die Felder durch Semikolons trennen",
   "finding.own-neighbour": "Punkt {node} ist sein eigener Nachbar: weggelassen",
   "finding.repeated-neighbour": "Nachbar {node} steht zweimal: einmal gezählt",
   "finding.repeated-row": "Punkt {node} steht schon in Zeile {earlier}: Zeilen vereinen",

@@ -564,6 +564,7 @@ export const en = {
   "finding.unknown-neighbour": "point {text} is not in path.csv: add its position there or remove it here",
   "finding.bad-neighbour": "\"{text}\" is no point: separate neighbours by spaces",
   "finding.too-many-columns": "more than two columns: separate neighbours by spaces",
+  "finding.surplus-field": "“{text}” stands in no column: where numbers have decimal commas, separate the fields by semicolons",
   "finding.own-neighbour": "point {node} is its own neighbour: left out",
   "finding.repeated-neighbour": "neighbour {node} stands twice: counted once",
   "finding.repeated-row": "point {node} stands already on line {earlier}: join the two lines",

@@ -565,6 +565,7 @@ export const ja: Record<TextKey, string> = {
   "finding.unknown-neighbour": "点 {text} は path.csv にありません。そこに位置を加えるか、ここから除いてください",
   "finding.bad-neighbour": "「{text}」は点ではありません。隣の点は空白で区切ってください",
   "finding.too-many-columns": "列が三つ以上あります。隣の点は空白で区切ってください",
+  "finding.surplus-field": "「{text}」に当たる列がありません。小数にコンマを使う場合は、列をセミコロンで区切ってください",
   "finding.own-neighbour": "点 {node} が自分の隣になっています。無視しました",
   "finding.repeated-neighbour": "隣の点 {node} が二度あります。一度と数えました",
   "finding.repeated-row": "点 {node} は {earlier} 行目にもあります。一行にまとめてください",
