@@ -37,8 +37,7 @@ Plan load_plan(const std::filesystem::path& file, const PlanOptions& options) {
     throw Error(file.string(), "is a DWG drawing, which only CAD programs can open",
                 "save it as DXF there and import that");
   if (extension == ".dxf") return load_bounded(file, [&] { return load_dxf(file, options); });
-  if (extension == ".pdf")
-    return load_bounded(file, [&] { return picture_alone(load_pdf(file, options.page, options.dpi)); });
+  if (extension == ".pdf") return load_bounded(file, [&] { return load_pdf(file, options); });
   if (extension == ".svg")
     return load_bounded(file, [&] { return picture_alone(load_svg(file, options.dpi)); });
   return picture_alone(load_image(file));

@@ -34,16 +34,16 @@ std::unique_ptr<poppler::document> open_pdf(const std::filesystem::path& file) {
 
 }  // namespace
 
-GrayImage load_pdf(const std::filesystem::path& file, int page_number, std::optional<double> dpi) {
+Plan load_pdf(const std::filesystem::path& file, const PlanOptions& options) {
   poppler::set_debug_error_function([](const std::string&, void*) {}, nullptr);
   const auto document = open_pdf(file);
-  if (page_number < 1 || page_number > document->pages())
-    throw Error(file.string(), "has no page " + std::to_string(page_number),
+  if (options.page < 1 || options.page > document->pages())
+    throw Error(file.string(), "has no page " + std::to_string(options.page),
                 "choose --page 1 to " + std::to_string(document->pages()));
-  const std::unique_ptr<poppler::page> page(document->create_page(page_number - 1));
+  const std::unique_ptr<poppler::page> page(document->create_page(options.page - 1));
   if (!page)
-    throw Error(file.string(), "page " + std::to_string(page_number) + " is damaged", "export it again");
-  const double resolution = choose_dpi(page->page_rect(), dpi);
+    throw Error(file.string(), "page " + std::to_string(options.page) + " is damaged", "export it again");
+  const double resolution = choose_dpi(page->page_rect(), options.dpi);
   const double megapixels = page->page_rect().width() * page->page_rect().height() * resolution * resolution /
                             (kPointsPerInch * kPointsPerInch) / 1e6;
   if (!(megapixels <= kMaxImageMegapixels))
@@ -55,16 +55,20 @@ GrayImage load_pdf(const std::filesystem::path& file, int page_number, std::opti
   renderer.set_render_hint(poppler::page_renderer::antialiasing, true);
   const poppler::image image = renderer.render_page(page.get(), resolution, resolution);
   if (!image.is_valid() || image.width() == 0)
-    throw Error(file.string(), "page " + std::to_string(page_number) + " cannot be rendered",
+    throw Error(file.string(), "page " + std::to_string(options.page) + " cannot be rendered",
                 "export it as PNG instead");
-  GrayImage gray{image.width(), image.height(), {}, resolution};
+  Plan plan;
+  GrayImage& gray = plan.picture = {image.width(), image.height(), {}, resolution};
   gray.pixels.reserve(static_cast<std::size_t>(gray.width_px) * static_cast<std::size_t>(gray.height_px));
   for (int v = 0; v < gray.height_px; ++v) {
     const auto* row = reinterpret_cast<const std::uint8_t*>(image.const_data()) +
                       static_cast<std::ptrdiff_t>(v) * image.bytes_per_row();
     gray.pixels.insert(gray.pixels.end(), row, row + gray.width_px);
   }
-  return gray;
+  if (document->pages() > 1)  // the first is often a title page, whose letters are lines too
+    plan.notes.push_back("page " + std::to_string(options.page) + " of " + std::to_string(document->pages()) +
+                         " was read; --page names another one");
+  return plan;
 }
 
 }  // namespace madori::mapping

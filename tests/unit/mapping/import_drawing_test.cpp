@@ -191,6 +191,27 @@ TEST_F(ImportDrawing, PagesOutOfRangeAreRefused) {
   EXPECT_THAT(refusal(o), HasSubstr("choose a lower --dpi"));
 }
 
+/// A PDF of two pages, a room on each.
+const std::string kTwoPages =
+    "%PDF-1.4\n1 0 obj<</Type/Catalog/Pages 2 0 R>>endobj\n"
+    "2 0 obj<</Type/Pages/Kids[3 0 R 4 0 R]/Count 2/MediaBox[0 0 400 300]>>endobj\n"
+    "3 0 obj<</Type/Page/Parent 2 0 R/Contents 5 0 R>>endobj\n"
+    "4 0 obj<</Type/Page/Parent 2 0 R/Contents 5 0 R>>endobj\n"
+    "5 0 obj<</Length 49>>stream\n40 40 320 220 re 48 48 304 204 re f*             \nendstream endobj\n"
+    "trailer<</Root 1 0 R>>\n";
+
+TEST_F(ImportDrawing, SaysWhichPageOfSeveralWasRead) {
+  ImportOptions o = options(folder_.write("two.pdf", kTwoPages));
+  o.plan.dpi = 100;
+  EXPECT_THAT(import_drawing(o).notes, testing::ElementsAre(HasSubstr("page 1 of 2 was read; --page")));
+  o.plan.page = 2;
+  o.force = true;
+  EXPECT_THAT(import_drawing(o).notes, testing::ElementsAre(HasSubstr("page 2 of 2")));
+  o.drawing = fs::path(MADORI_SOURCE_DIR) / "data/sample_factory/factory.pdf";
+  o.plan.page = 1;
+  EXPECT_THAT(import_drawing(o).notes, testing::IsEmpty());
+}
+
 TEST_F(ImportDrawing, AnExistingSiteIsOnlyReplacedOnRequest) {
   ImportOptions o = options(draw_room(folder_));
   o.m_per_px = 0.02;
