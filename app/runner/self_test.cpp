@@ -23,10 +23,14 @@ std::string look_at_routes(const fs::path& site, const SiteForDriving& loaded) {
   options.vehicle = loaded.config.check.vehicle;
   options.tree_file = (site / "routes/tree.csv").string();
   options.path_file = (site / "routes/path.csv").string();
-  for (const auto& finding :
-       planning::check_routes(loaded.config.routes, loaded.config.walls->walls(), options))
+  const auto findings = planning::check_routes(loaded.config.routes, loaded.config.walls->walls(), options);
+  for (const auto& finding : findings)
     if (finding.severity == planning::Severity::Error) throw Error(finding.text());
-  return std::to_string(loaded.config.routes.nodes().size()) + " nodes, every station can be reached";
+  const std::string good =
+      std::to_string(loaded.config.routes.nodes().size()) + " nodes, every station can be reached";
+  if (findings.empty()) return good;  // legs too narrow for the vehicle come from a wrong scale, too
+  return good + "; " + std::to_string(findings.size()) +
+         " warning(s) of madori route --check, the first: " + findings.front().text();
 }
 
 /// What a scanner surely sees against what the vehicle needs to stand.
