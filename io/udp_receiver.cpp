@@ -58,7 +58,10 @@ UdpReceiver::UdpReceiver(const std::string& address, std::uint16_t port, Packet 
     state_->socket.open(endpoint.protocol());
     state_->socket.set_option(udp::socket::receive_buffer_size(1 << 21));
     state_->socket.bind(endpoint);
-  } catch (const std::exception& e) {
+  } catch (const boost::system::system_error& e) {
+    if (e.code() == boost::system::errc::address_not_available)
+      throw Error(place, "is no address of this computer",
+                  "give the one that the device sends to, not the device's own; 0.0.0.0 takes all");
     throw Error(place, std::string("cannot be listened on: ") + e.what(),
                 "check the address and that the port is free");
   }

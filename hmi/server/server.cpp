@@ -58,6 +58,8 @@ void Server::Impl::listen() {
   acceptor.open(endpoint.protocol());
   acceptor.set_option(tcp::acceptor::reuse_address(true));
   acceptor.bind(endpoint, error);
+  if (error == boost::system::errc::address_not_available)
+    throw Error(where, "is no address of this machine", "give one like 127.0.0.1:8080 or 0.0.0.0:8080");
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error)
     throw Error(where, "cannot be served: " + error.message(), "choose another port with --hmi HOST:PORT");

@@ -29,6 +29,16 @@ using asio::ip::tcp;
 using asio::ip::udp;
 using test::eventually;
 
+TEST(Vlp16Receiver, TheLidarsOwnAddressIsNotTakenForABusyPort) {
+  const vlp16::ReceiverOptions lidars_own{.address = "192.0.2.201", .data_port = 0, .position_port = 0};
+  try {
+    const vlp16::Receiver receiver(lidars_own, [](vlp16::Frame&) {});
+    ADD_FAILURE() << "listens on an address that no computer has";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("is no address of this computer"), std::string::npos) << e.what();
+  }
+}
+
 TEST(Vlp16Receiver, CutsRevolutionsFromUdp) {
   std::atomic<int> frames = 0, tapped = 0;
   std::atomic<std::size_t> points = 0;
