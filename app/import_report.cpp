@@ -7,6 +7,17 @@
 #include <nlohmann/json.hpp>
 
 namespace madori::app {
+namespace {
+
+/// As a shell takes it for one word: the line that names it is copied.
+std::string as_typed(const std::string& text) {
+  if (text.find_first_of(" \t\"'\\$&|;<>()*?[]#~!`") == std::string::npos) return text;
+  std::string typed = "'";
+  for (const char c : text) typed += c == '\'' ? "'\\''" : std::string(1, c);
+  return typed + "'";
+}
+
+}  // namespace
 
 using nlohmann::json;
 
@@ -64,7 +75,7 @@ void print_import_summary(const mapping::ImportReport& report, const std::string
   std::printf("look at   %s/import.png\n", site.c_str());
   if (!report.site.scale)
     std::printf("UNSCALED  nothing may drive on it yet: madori scale %s --known u1,v1,u2,v2=METRES --apply\n",
-                site.c_str());
+                as_typed(site).c_str());
 }
 
 }  // namespace madori::app
