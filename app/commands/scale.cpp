@@ -44,6 +44,12 @@ void print(const ScaleFindings& found, std::FILE* stream) {
                  found.best.reason.c_str());
 }
 
+/// What anybody sees who has been in the building: a length that is wrong by ten.
+void print_size(const mapping::DrawingRecord& drawing, double m_per_px, std::FILE* stream) {
+  std::fprintf(stream, "the whole drawing is then %.1f x %.1f m\n", drawing.width_px * m_per_px,
+               drawing.height_px * m_per_px);
+}
+
 /// The inputs, with what was measured while driving where that is asked for.
 ScaleInputs inputs_of(const ScaleArguments& arguments, const mapping::Site& site, std::FILE* stream) {
   ScaleInputs inputs = arguments.inputs;
@@ -65,6 +71,7 @@ void run(const ScaleArguments& arguments) {
   const ScaleFindings found = find_scale(inputs_of(arguments, site, stream), site);
   const bool refused = found.best.verdict == mapping::Verdict::Refused;
   print(found, stream);
+  print_size(site.drawing, found.best.m_per_px, stream);
   if (!arguments.apply) {
     write_report(arguments, found, false);
     std::fprintf(stream, "nothing was changed; %s\n",

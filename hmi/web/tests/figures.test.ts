@@ -30,6 +30,12 @@ describe("figures on the page", () => {
     expect(figures.certainty(0.554)).toBe("55");
     expect(figures.certainty(0.9999)).toBe("> 99");
   });
+  it("a nought has no sign", () => {
+    expect(figures.figure(-0.04, 1)).toBe("0.0");
+    expect(figures.figure(-0.4, 0)).toBe("0");
+    expect(figures.figure(-0.06, 1)).toBe("-0.1");
+    expect(figures.figure(-10, 0)).toBe("-10");
+  });
   it("an uncertainty is never shown as none", () => {
     expect(figures.uncertainty(0.0004)).toBe("0.04");
     expect(figures.uncertainty(0.00001)).toBe("< 0.01");

@@ -129,6 +129,8 @@ export const en = {
 
   "drawing.choose": "Choose a drawing",
   "drawing.replace": "Another drawing",
+  "drawing.page": "Another page",
+  "drawing.page.number": "Page of the PDF",
   "drawing.hint": "Drop the factory's layout here, or choose the file: DXF, PDF, PNG, JPEG, TIFF, BMP or SVG.",
   "drawing.working": "Finding the walls: {stage}",
   "drawing.stage": "beginning",
@@ -183,6 +185,7 @@ export const en = {
   "scale.residual": "off by {residual} mm",
   "scale.outlier": "does not fit the others",
   "scale.result": "{scale} mm a pixel ± {percent} %",
+  "scale.size": "The whole drawing is {width} × {height} m.",
   "scale.force": "Use all the same",
   "scale.attribution": "Whom to name for the pictures",
   "scale.published": "Z_m {zm} for Z_p {zp} at zoom {zoom}",

@@ -130,6 +130,8 @@ export const ja: Record<TextKey, string> = {
 
   "drawing.choose": "図面を選ぶ",
   "drawing.replace": "別の図面",
+  "drawing.page": "別のページ",
+  "drawing.page.number": "PDFのページ",
   "drawing.hint": "工場のレイアウト図をここに置くか、ファイルを選んでください（DXF、PDF、PNG、JPEG、TIFF、BMP、SVG）。",
   "drawing.working": "壁を探しています：{stage}",
   "drawing.stage": "開始",
@@ -184,6 +186,7 @@ export const ja: Record<TextKey, string> = {
   "scale.residual": "ずれ {residual} mm",
   "scale.outlier": "ほかと合いません",
   "scale.result": "1画素 {scale} mm ± {percent} %",
+  "scale.size": "図面全体は{width} × {height} mです。",
   "scale.force": "それでも使う",
   "scale.attribution": "画像の出典",
   "scale.published": "ズーム{zoom}で Z_p {zp} のとき Z_m {zm}",

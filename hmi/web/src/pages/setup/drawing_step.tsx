@@ -3,6 +3,7 @@ import { Point } from "ol/geom";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { api } from "../../api";
 import type { Job, Routes, Site, Walls } from "../../api_types";
+import { figure } from "../../figures";
 import { useText } from "../../i18n";
 import type { FactoryMap } from "../../map/factory_map";
 import type { XY } from "../../map/geometry";
@@ -11,6 +12,7 @@ import { pickOn } from "../../map/pick";
 import { corners } from "../../map/snap";
 import { EditBar } from "../../ui/edit_bar";
 import type { IconName } from "../../ui/icon";
+import { AskNumber } from "../../ui/number_pad";
 import { Restore } from "../../ui/restore";
 import { attempt } from "../../ui/toast";
 import { Tool } from "../../ui/tool";
@@ -29,7 +31,7 @@ interface StepProps {
   site: Site;
   walls: Walls;
   routes: Routes;
-  changed: () => void;
+  changed: () => Promise<boolean>;
   next: () => void;
 }
 
@@ -51,19 +53,33 @@ function Report({ report }: { report: NonNullable<Job["report"]> }) {
   const { walls, rejected, skew_deg, notes } = report;
   return (
     <div class="report" role="status">
-      <p>{t("drawing.report", { walls, rejected, skew: skew_deg.toFixed(1) })}</p>
+      <p>{t("drawing.report", { walls, rejected, skew: figure(skew_deg, 1) })}</p>
       {notes.map((note) => <p key={note} class="quiet" lang="en">{note}</p>)}
     </div>
   );
 }
 
+/** A PDF's first page is often a title page: another one of the same file. */
+function AnotherPage({ read }: { read: (page: number) => void }) {
+  const t = useText();
+  const [asks, setAsks] = useState(false);
+  return (
+    <>
+      <Tool icon="file" label={t("drawing.page")} onClick={() => setAsks(true)} />
+      {asks && <AskNumber label={t("drawing.page.number")} value={null} least={1} most={9999} done={(page) => page !== null && read(Math.round(page))} cancel={() => setAsks(false)} />}
+    </>
+  );
+}
+
 interface EditorProps extends StepProps {
   report: Job["report"];
+  /** reads another page of the file that was imported just now, where it has pages */
+  readPage: ((page: number) => void) | null;
   revised: (revised: Revised) => void;
   replace: (file: File) => void;
 }
 
-function WallEditor({ site, walls, next, report, revised, replace }: EditorProps) {
+function WallEditor({ site, walls, next, report, readPage, revised, replace }: EditorProps) {
   const t = useText();
   const [tool, setTool] = useState<ToolName>("look");
   const map = useRef<FactoryMap | null>(null);
@@ -121,6 +137,7 @@ function WallEditor({ site, walls, next, report, revised, replace }: EditorProps
           {choose("area", "select", t("drawing.area"))}
           {choose("add", "pen", t("drawing.add"))}
           <AnotherDrawing revised={revised} replace={replace} />
+          {readPage && <AnotherPage read={readPage} />}
         </div>
         <p class="quiet">{t(`drawing.hint.${tool}`)}</p>
         <span class="spring" />
@@ -138,17 +155,20 @@ export function DrawingStep(props: StepProps) {
   const [working, setWorking] = useState(false);
   const [revised, setRevised] = useState<Revised | null>(null);
   const [mapping, setMapping] = useState(false);
+  const [imports, setImports] = useState(0);
+  const [sent, setSent] = useState<File | null>(null);
   const done = (finished: Job) => {
     setJob(finished);
-    changed();
+    void changed().then((came) => came && setImports((count) => count + 1));  // the editor keeps the walls that it began with
   };
-  const send = (file: File) => {
+  const send = (file: File, options: Record<string, string> = {}) => {
     setRevised(null);
-    void attempt(() => api.uploadDrawing(file, {})).then(setWorking);
+    setSent(file);
+    void attempt(() => api.uploadDrawing(file, options)).then(setWorking);
   };
   const close = (taken: boolean) => {
     setRevised(null);
-    if (taken) changed();
+    if (taken) void changed();
   };
   if (working) return <div class="centre"><JobCard kind="import" done={done} ended={() => setWorking(false)} /></div>;
   if (!site.drawing && mapping) return <MappingStart close={() => setMapping(false)} />;
@@ -158,7 +178,7 @@ export function DrawingStep(props: StepProps) {
         <h2>{t("drawing.none")}</h2>
         <Upload send={send} />
         <div class="buttons">
-          <Restore over={false} done={changed} />
+          <Restore over={false} done={() => void changed()} />
           <Tool icon="hand" label={t("mapping.offer")} onClick={() => setMapping(true)} />
         </div>
       </div>
@@ -166,5 +186,6 @@ export function DrawingStep(props: StepProps) {
   }
   if (revised)
     return <RevisionView {...props} name={revised.file.name} preview={revised.preview} laid={(preview) => setRevised({ ...revised, preview })} asNew={() => send(revised.file)} close={close} />;
-  return <WallEditor key={site.drawing.file + site.drawing.width_px} {...props} report={job?.report ?? null} revised={setRevised} replace={send} />;
+  const readPage = sent && /\.pdf$/i.test(sent.name) ? (page: number) => send(sent, { page: String(page) }) : null;
+  return <WallEditor key={`${site.drawing.file}${site.drawing.width_px}/${imports}`} {...props} report={job?.report ?? null} readPage={readPage} revised={setRevised} replace={send} />;
 }

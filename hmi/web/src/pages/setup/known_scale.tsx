@@ -65,7 +65,7 @@ export function KnownScale({ site, walls, ways, finish }: ScaleWay) {
       <MapView ready={ready} />
       <aside>
         {ways}
-        {result && <Verdict result={result} />}
+        {result && <Verdict site={site} result={result} />}
         {(ends.length === 1 || !result) && <p class="quiet">{ends.length === 1 ? t("scale.length.second") : t("scale.length.hint")}</p>}
         <Measurements labels={known.map((row) => t("unit.m", { value: row[4] }))} result={result} remove={(i) => keep(known.filter((_, j) => j !== i))} />
         <span class="spring" />

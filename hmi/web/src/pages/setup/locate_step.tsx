@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { api } from "../../api";
 import type { Hypothesis, Site, Walls } from "../../api_types";
+import { figure } from "../../figures";
 import { useText } from "../../i18n";
 import { live } from "../../live/live_socket";
 import type { FactoryMap } from "../../map/factory_map";
@@ -11,11 +12,11 @@ import { Stale } from "../../ui/stale";
 import { attempt } from "../../ui/toast";
 import { Tool } from "../../ui/tool";
 
-const degrees = (yaw: number) => ((yaw * 180) / Math.PI).toFixed(0);
+const degrees = (yaw: number) => figure((yaw * 180) / Math.PI, 0);
 
 function PlaceText({ pose, children }: { pose: Pose; children?: ComponentChildren }) {
   const t = useText();
-  return <span>{t("locate.place", { x: pose.x.toFixed(1), y: pose.y.toFixed(1), yaw: degrees(pose.yaw) })}{children}</span>;
+  return <span>{t("locate.place", { x: figure(pose.x, 1), y: figure(pose.y, 1), yaw: degrees(pose.yaw) })}{children}</span>;
 }
 
 function Places(props: { places: readonly Hypothesis[]; chosen: number; choose: (index: number) => void }) {

@@ -109,7 +109,7 @@ export function OverlayScale({ site, ways, finish }: ScaleWay) {
             <NumberField label={t("scale.zp")} value={Number(numbers.photo_zoom.toPrecision(5))} least={0.2} most={60} change={(value) => value !== null && setPhotoZoom(value)} />
           </div>
         )}
-        {result && <Verdict result={result} />}
+        {result && <Verdict site={site} result={result} />}
         <span class="spring" />
         {finish(result, apply)}
       </aside>

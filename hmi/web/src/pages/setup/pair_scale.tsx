@@ -90,7 +90,7 @@ export function PairScale({ site, walls, ways, finish }: ScaleWay) {
       <aside>
         {ways}
         {info && <p class="quiet" role="status">{begun ? t("scale.pairs.photo", { number: pairs.length + 1 }) : t("scale.pairs.drawing", { number: pairs.length + 1 })}</p>}
-        {result && <Verdict result={result} />}
+        {result && <Verdict site={site} result={result} />}
         <Measurements labels={pairs.map(([, , lat, lon]) => `${lat.toFixed(6)}, ${lon.toFixed(6)}`)} result={result} remove={(i) => keep(pairs.filter((_, j) => j !== i))} />
         {pairs.length === 0 && <FetchTiles site={site} done={load} />}
         <span class="spring" />

@@ -81,7 +81,7 @@ export function SetupPage({ site, walls, routes, changed, finished, teach = fals
       <StepBar shown={step} site={site} setup={setup} choose={setStep} />
       {locked && locked.text !== "" && <p class="caution locked" role="status"><Icon name="warning" /> {noticeText(t, "error", locked)}</p>}
       <div class="with-map step" key={step}>
-        {step === "drawing" && <DrawingStep site={site} walls={walls} routes={routes} changed={() => void changed()} next={saved} />}
+        {step === "drawing" && <DrawingStep site={site} walls={walls} routes={routes} changed={changed} next={saved} />}
         {step === "scale" && <ScaleStep key={site.scale?.m_per_px} site={site} walls={walls} next={next} saved={saved} />}
         {step === "routes" && <RoutesStep key={site.scale?.m_per_px} site={site} walls={walls} routes={routes} teach={teach} changed={() => void changed()} next={saved} />}
         {step === "vehicle" && <VehicleStep site={site} next={saved} />}
