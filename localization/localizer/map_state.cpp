@@ -149,7 +149,17 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
   memory.optimise(unary);
   // Only now: what has drifted is pulled back by what was known, before the drawing is bent to it.
   if (drawing->belief.probability_here(memory.poses().back()) > options.health.localized)
-    drawing->walls.bend(memory_cloud(memory), memory.poses().back().translation());
+    drawing->walls.bend(memory_cloud(memory), memory.poses().back().translation(), told_of_warp());
+}
+
+/// A pose that was given says where on the drawing the memory begins, and so how the drawing is bent there.
+WarpPrior MapState::told_of_warp() const {
+  if (!told) return {};
+  const Transform2<Map, Base>& first = memory.poses().front();
+  const Transform2<Building, Base> began(first.x_m(), first.y_m(), first.yaw_rad());
+  return [prior = *told, began, area_m2 = drawing->belief.area_m2()](const DrawingWarp& warp) {
+    return log_prior(prior, warp.map(began), area_m2);
+  };
 }
 
 /// How far beside its place the newest stretch is sought. What fits the drawing poorly though every scan

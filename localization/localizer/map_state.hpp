@@ -55,6 +55,7 @@ struct MapState {
   void settle(MemoryCloud& cloud, const LocalizerOptions& options);
   void lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& options);
   void move(const Transform2<Map, Map>& by);
+  [[nodiscard]] WarpPrior told_of_warp() const;
   bool correct_recent_drift(const LocalizerOptions& options);
   [[nodiscard]] AlignmentWindow drift_window(const MemoryCloud& recent, std::size_t first,
                                              const LocalizerOptions& options) const;

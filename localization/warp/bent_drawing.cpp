@@ -73,7 +73,7 @@ SharedError BendingDrawing::shared_error() const {
 }
 
 void BendingDrawing::take(const WarpFit& fit, const MemoryCloud& cloud) {
-  start_ = fit.warp;
+  start_ = fit.next;
   if (fit.warp.is_identity()) {
     bent_ = nullptr;
     standing_ = drawn_;
@@ -92,12 +92,12 @@ void BendingDrawing::take(const WarpFit& fit, const MemoryCloud& cloud) {
   bent_ = std::make_shared<const BentDrawing>(std::move(bent));
 }
 
-void BendingDrawing::bend(const MemoryCloud& cloud, const Point2<Map>& at) {
+void BendingDrawing::bend(const MemoryCloud& cloud, const Point2<Map>& at, const WarpPrior& told) {
   const double walls = DrawingFit::walls_seen(cloud);
   if (walls < next_walls_) return;
   next_walls_ = std::max(walls + kMoreWalls, kGrowth * walls);
-  take(fit_warp(drawn_.index(), cloud, start_, other_ways(drawn_.index(), cloud, start_, {at.x_m, at.y_m})),
-       cloud);
+  const auto others = other_ways(drawn_.index(), cloud, start_, {at.x_m, at.y_m});
+  take(fit_warp(drawn_.index(), cloud, start_, others, told), cloud);
 }
 
 void BendingDrawing::straighten() {

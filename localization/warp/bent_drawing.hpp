@@ -48,8 +48,8 @@ class BendingDrawing {
   [[nodiscard]] Transform2<Map, Base> on_drawing(const Transform2<Map, Base>& in_building) const;
 
   /// Bends to a memory that lies right, the vehicle being at `at` (the building's metres), where it has grown
-  /// enough since the last time. Takes tenths of a second.
-  void bend(const MemoryCloud& cloud, const Point2<Map>& at);
+  /// enough since the last time. Takes tenths of a second. `told`: as fit_warp's.
+  void bend(const MemoryCloud& cloud, const Point2<Map>& at, const WarpPrior& told);
   /// As drawn again: it was bent to a memory that lay elsewhere.
   void straighten();
   /// Of how exactly each of the two describes the memory.

@@ -16,7 +16,7 @@
 namespace madori::localization {
 namespace {
 
-constexpr int kRounds = 3;          ///< of association and least squares
+constexpr int kSettling = 2;        ///< rounds with the statistics learned in between
 constexpr double kLeastNats = 3.0;  ///< of evidence before a warp is believed: odds of 20 to 1
 constexpr double kFreedom = 3.0;    ///< of Student's t of the offsets: some walls are drawn quite wrong
 constexpr double kStretchM = 8.0;   ///< a longer wall has several offsets
@@ -514,14 +514,6 @@ WarpFit Explanation::result() const {
   return fit;
 }
 
-/// What the ends of further starts are worth, as logarithms of odds against what keeps the place as it is.
-std::vector<double> log_odds(const std::vector<Explanation>& ends, double nats_here) {
-  std::vector<double> odds;
-  for (const Explanation& end : ends)
-    odds.push_back(kTrust * (end.nats() - nats_here) + std::log(kNeighbours));
-  return odds;
-}
-
 }  // namespace
 
 double WallDeviation::offset_m() const {
@@ -531,52 +523,62 @@ double WallDeviation::offset_m() const {
 }
 
 WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const DrawingWarp& before,
-                 const std::vector<DrawingWarp>& further) {
+                 const std::vector<DrawingWarp>& further, const WarpPrior& told) {
   const WallSides sides(drawn.walls());
-  const auto explain = [&](const DrawingWarp& start, Shape shape, int rounds) {
+  const auto told_of = [&](const Explanation& end) { return told ? told(end.warp()) : 0.0; };
+  const auto explain = [&](const DrawingWarp& start, Shape shape) {
     Explanation explanation(sides, cloud, start, shape);
-    double doubt = 1.0;
-    for (int k = 0; k + 1 < rounds; ++k, doubt *= 0.5) explanation.round(doubt);
-    explanation.round(0.0);
-    explanation.learn_statistics();
+    for (const double doubt : {1.0, 0.5}) explanation.round(doubt);
+    // Each is compared by the statistics that it learned itself: by those of a drawing that seemed exact, a
+    // bend of a metre costs nine times what it does.
+    for (int k = 0; k < kSettling; ++k) {
+      explanation.round(0.0);
+      explanation.learn_statistics();
+    }
     return explanation;
   };
   if (cloud.empty() || drawn.walls().empty()) {
     WarpFit none;
-    none.warp = before;
+    none.warp = none.next = before;
     none.walls.resize(drawn.walls().size());
     return none;
   }
-  Explanation field = explain(before, Shape::Field, kRounds);
+  Explanation field = explain(before, Shape::Field);
   field.try_ranges();
   const Explanation whole =
-      explain(DrawingWarp(before.similarity(), {}, before.statistics()), Shape::Similarity, kRounds);
-  const Explanation identity = explain(DrawingWarp({}, {}, before.statistics()), Shape::Identity, 2);
-  const auto warp_of = [&](const Explanation& end, const Explanation& bent) {
-    WarpField shape = bent.warp().field();
-    if (&end != &bent) std::fill(shape.control_m.begin(), shape.control_m.end(), 0.0);
-    return DrawingWarp(end.warp().similarity(), std::move(shape), bent.warp().statistics());
+      explain(DrawingWarp(before.similarity(), {}, before.statistics()), Shape::Similarity);
+  const Explanation identity = explain(DrawingWarp({}, {}, before.statistics()), Shape::Identity);
+  const auto warp_of = [&](const Explanation& end) {
+    WarpField shape = field.warp().field();
+    if (&end != &field) std::fill(shape.control_m.begin(), shape.control_m.end(), 0.0);
+    return DrawingWarp(end.warp().similarity(), std::move(shape), field.warp().statistics());
   };
-  const double gain = std::max(whole.nats(), field.nats()) - identity.nats();
-  const Explanation& here = gain < kLeastNats ? identity : whole.nats() > field.nats() ? whole : field;
+  const Explanation& bent = whole.nats() + told_of(whole) > field.nats() + told_of(field) ? whole : field;
+  const double gain = bent.nats() + told_of(bent) - identity.nats() - told_of(identity);
+  const Explanation& here = gain < kLeastNats ? identity : bent;
   std::vector<Explanation> elsewhere;
   for (const DrawingWarp& start : further) {
-    Explanation end = explain(start, Shape::Field, kRounds);
+    Explanation end = explain(start, Shape::Field);
     // The present one was fitted again and again while the memory grew: a better one goes on before they
     // compare.
     const bool better = end.nats() > here.nats();
-    elsewhere.push_back(better ? explain(end.warp(), Shape::Field, kRounds) : std::move(end));
+    elsewhere.push_back(better ? explain(end.warp(), Shape::Field) : std::move(end));
   }
-  const std::vector<double> odds = log_odds(elsewhere, here.nats());
+  // What the ends are worth, as logarithms of odds against what keeps the place as it is.
+  std::vector<double> odds;
+  for (const Explanation& end : elsewhere)
+    odds.push_back(kTrust * (end.nats() - here.nats()) + std::log(kNeighbours) + told_of(end) -
+                   told_of(here));
   const auto likeliest = std::max_element(odds.begin(), odds.end());
   const bool stays = likeliest == odds.end() || *likeliest < 0.0;
   const auto taken = static_cast<std::size_t>(likeliest - odds.begin());
   if (!stays) elsewhere[taken].try_ranges();
   const double log_taken = stays ? 0.0 : *likeliest;
   WarpFit fit = stays ? here.result() : elsewhere[taken].result();
-  fit.warp = stays ? warp_of(here, field) : elsewhere[taken].warp();
+  fit.warp = stays ? warp_of(here) : elsewhere[taken].warp();
+  fit.next = stays ? field.warp() : fit.warp;
   fit.evidence_nats = stays ? gain : elsewhere[taken].nats() - identity.nats();
-  if (!stays) fit.others.push_back({warp_of(here, field), std::exp(-log_taken)});
+  if (!stays) fit.others.push_back({warp_of(here), std::exp(-log_taken)});
   for (std::size_t i = 0; i < elsewhere.size(); ++i)
     if (stays || i != taken) fit.others.push_back({elsewhere[i].warp(), std::exp(odds[i] - log_taken)});
   return fit;
@@ -591,7 +593,7 @@ WarpFit fit_warp_from_start(const WallIndex& drawn, const MemoryCloud& cloud) {
     MemoryCloud seen;
     std::copy_if(cloud.begin(), cloud.end(), std::back_inserter(seen),
                  [&](const CloudSurface& s) { return s.keyframe <= until; });
-    fit = fit_warp(drawn, seen, fit.warp);
+    fit = fit_warp(drawn, seen, fit.next);
   }
   return fit;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "localization/drawing_fit/memory_cloud.hpp"
@@ -36,6 +37,7 @@ struct OtherWay {
 
 struct WarpFit {
   DrawingWarp warp;
+  DrawingWarp next;  ///< where the next fit begins: the likeliest field, also where it is not believed
   std::vector<WallDeviation> walls;  ///< one a drawn wall, in their order
   double residual_m = 0.0;           ///< error of the drawing after the warp: walls and their pieces together
   double evidence_nats = 0.0;        ///< for a warp against the drawing as it is; below zero it is identity
@@ -43,16 +45,20 @@ struct WarpFit {
   std::vector<OtherWay> others;      ///< what further starts led to
 };
 
+/// What is known of a warp beside what was seen, as the log of a probability but for a constant.
+using WarpPrior = std::function<double(const DrawingWarp&)>;
+
 /// Where the drawn walls really stand, from the surfaces of a memory in the Building frame (typed Map until
 /// the memory is). Least squares over the normal distances of surfaces from the warped walls, each side of a
 /// wall with an offset of its own (a random effect, Student's t), with a Gaussian field of Matern covariance
 /// as the prior of the displacement (Lindgren, Rue, Lindstroem 2011, eq. (2): a sparse precision); surfaces
 /// are drawn walls or clutter (a mixture). Amplitudes are learned by empirical Bayes; the warp is identity
 /// unless the marginal likelihood says otherwise. `before` is where the association starts: call it as the
-/// memory grows. Least squares end at the nearest optimum: `further` starts, in which some of the walls are
-/// taken for their neighbours, end elsewhere, and the likeliest end is taken.
+/// memory grows, each time with WarpFit::next of the fit before. Least squares end at the nearest optimum:
+/// `further` starts, in which some of the walls are taken for their neighbours, end elsewhere, and the
+/// likeliest end is taken. `told` weighs the ends, too.
 [[nodiscard]] WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const DrawingWarp& before,
-                               const std::vector<DrawingWarp>& further = {});
+                               const std::vector<DrawingWarp>& further = {}, const WarpPrior& told = {});
 
 /// The same for a memory that was not followed while it grew: its keyframes a few at a time, as driven.
 [[nodiscard]] WarpFit fit_warp_from_start(const WallIndex& drawn, const MemoryCloud& cloud);

@@ -39,7 +39,7 @@ int main(int count, char** arguments) {
     const localization::WallIndex index(made.drawn);
     const auto grown = localization::fit_warp_from_start(index, cloud);
     const double start = processor_s();
-    const auto fit = localization::fit_warp(index, cloud, grown.warp);
+    const auto fit = localization::fit_warp(index, cloud, grown.next);
     const double again_ms = 1e3 * (processor_s() - start);
     std::vector<double> errors;
     std::vector<double> sigmas;

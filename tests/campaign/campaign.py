@@ -33,6 +33,7 @@ parser.add_argument("--short", action="store_true", help="ten of them, for ./tes
 parser.add_argument("--table", type=pathlib.Path, help="writes what was measured as a table")
 parser.add_argument("--keep", type=pathlib.Path, help="an empty folder for sites, logs and recordings, to look at afterwards")
 arguments = parser.parse_args()
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # under nohup `madori run` would inherit that it is ignored
 OFF_ROUTE_M = 0.3
 ASKS_AFTER_S = 30
 STATES = {"localizing", "driving", "detouring", "waiting", "paused", "emergency_stop", "fault", "idle", "manual"}

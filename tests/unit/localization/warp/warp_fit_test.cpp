@@ -47,6 +47,7 @@ TEST_P(WarpFitOfKind, AnExactDrawingIsIdentityInClutter) {
   EXPECT_LT(errors_m(building, fit.warp).back(), 0.001);
   EXPECT_TRUE(fit.warp.is_identity());
   EXPECT_LT(fit.evidence_nats, 0.0);
+  EXPECT_FALSE(fit.next.is_identity());  // the field goes on, believed or not
 }
 
 TEST_P(WarpFitOfKind, ABentDrawingIsFoundOut) {
@@ -100,6 +101,26 @@ TEST(WarpFit, AWallDrawnHalfAMetreOffIsToldAndBendsNothing) {
   const auto& [left, right] = fit.walls[moved].sides;
   EXPECT_LT((left.seen_m > right.seen_m ? left : right).sigma_m, 0.1);
   EXPECT_LT(errors_m(building, fit.warp).back(), 0.001);
+}
+
+/// What a person told of the place is part of what an explanation is worth, and so are the odds of the
+/// others.
+TEST(WarpFit, WhatWasToldWeighsTheEnds) {
+  BentBuildingOptions options;
+  options.amplitude_m = 0.6;
+  const BentBuilding building = test::bent_building(options);
+  const WallIndex index(building.drawn);
+  const MemoryCloud cloud = seen_on_lap(building, 0.05);
+  const DrawingWarp beside({1.0, 0.0, 0.8, 0.0}, {}, {});
+  const WarpFit alone = fit_warp(index, cloud, {}, {beside});
+  ASSERT_FALSE(alone.warp.is_identity());
+  const auto as_drawn = [](const DrawingWarp& warp) { return warp.is_identity() ? 0.0 : -1e4; };
+  const WarpFit told = fit_warp(index, cloud, {}, {beside}, as_drawn);
+  EXPECT_TRUE(told.warp.is_identity());
+  EXPECT_EQ(told.others.front().odds, 0.0);
+  const WarpFit indifferent = fit_warp(index, cloud, {}, {beside}, [](const DrawingWarp&) { return -7.0; });
+  EXPECT_EQ(indifferent.warp, alone.warp);
+  EXPECT_NEAR(indifferent.evidence_nats, alone.evidence_nats, 1e-9);
 }
 
 /// Racks and bays look like their neighbours, and a fit that follows a growing memory may take one for the
