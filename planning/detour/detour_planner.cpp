@@ -151,7 +151,11 @@ DetourAnswer plan_detour(const DetourRequest& request, const CheckOptions& ordin
   const CheckOptions check = with_margins(ordinary, request.squeeze);
   DetourAnswer answer = plan_within(request, with_room(check, options.room_m), options);
   if (!answer.path) answer = plan_within(request, check, options);
-  if (!answer.path) answer = manoeuvre_within(request, check, options.manoeuvre);
+  // A way along the very margins is refused in the next look: each shows an edge a little elsewhere.
+  for (const double share : {1.0, 0.5, 0.0}) {
+    if (answer.path) break;
+    answer = manoeuvre_within(request, with_room(check, share * options.room_m), options.manoeuvre);
+  }
   return answer;
 }
 

@@ -42,8 +42,8 @@ struct DetourOptions {
   double room_m = 0.08;  ///< beside the vehicle beyond the margins, where there is so much
 };
 
-/// First beside the route, then through the free space, with more room than the margins where there is; last
-/// by a manoeuvre of strokes forward and backward. Always ends: the search is bounded.
+/// First beside the route, then through the free space, last by a manoeuvre of strokes forward and backward;
+/// each with more room than the margins where there is. Always ends: the search is bounded.
 [[nodiscard]] DetourAnswer plan_detour(const DetourRequest& request, const CheckOptions& check,
                                        const DetourOptions& options);
 

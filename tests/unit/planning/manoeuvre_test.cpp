@@ -104,6 +104,32 @@ TEST(Manoeuvre, IsTheLastResortOfADetour) {
   EXPECT_EQ(answer.path->points.back().position, back.points.back().position);
 }
 
+/// Each look shows an edge a little elsewhere: a way along the very margins is refused in the next one.
+TEST(Manoeuvre, KeepsRoomForTheNextLookWhereThereIsRoom) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> off_m(-0.03, 0.03);
+  int found = 0, refused = 0;
+  for (const double y : {-0.25, -0.15, -0.05, 0.05, 0.15, 0.25}) {
+    const auto points = corridor(2.3);
+    const Path back = make_waypoints({{{2.0, y}}, {{-0.5, y}}}).value();
+    DetourRequest request{3, back, 0, {2.0, y, 0.0}, {}, points};
+    request.check.first_blocked = request.check.last_blocked = 0;
+    request.turn_free = false;
+    DetourOptions options;
+    options.free_space.max_checks = 0;  // what leads out is a manoeuvre
+    const auto answer = plan_detour(request, kCheck, options);
+    if (!answer.path) continue;
+    ++found;
+    for (int look = 0; look < 10; ++look) {
+      auto seen = points;
+      for (auto& p : seen) p.x_m += off_m(random), p.y_m += off_m(random);
+      refused += check_path(*answer.path, 0, 100.0, seen, {}, kCheck).blocked() ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(found, 6);
+  EXPECT_EQ(refused, 0);
+}
+
 /// Else the cycle refuses what the search finds, which then finds the same again.
 TEST(Manoeuvre, WhatIsFoundPassesTheCheckOfTheWay) {
   std::mt19937 random(15);
