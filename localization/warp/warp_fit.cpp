@@ -529,8 +529,8 @@ WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const Drawing
   const auto explain = [&](const DrawingWarp& start, Shape shape) {
     Explanation explanation(sides, cloud, start, shape);
     for (const double doubt : {1.0, 0.5}) explanation.round(doubt);
-    // Each is compared by the statistics that it learned itself: by those of a drawing that seemed exact, a
-    // bend of a metre costs nine times what it does.
+    // Each is compared by the statistics that it learned itself: by those of before, where the drawing seemed
+    // good, a bend of a metre costs several times what it does.
     for (int k = 0; k < kSettling; ++k) {
       explanation.round(0.0);
       explanation.learn_statistics();
