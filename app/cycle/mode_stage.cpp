@@ -108,7 +108,8 @@ bool is_drive_late(const CycleState& state, Stamp now, const CycleConfig& config
 }
 
 bool are_wheels_untold(const CycleState& state, Stamp now, const CycleConfig& config) {
-  return !state.gap && is_silent(state.odometry.reading().stamp, now, config.drive_silent_s);
+  return state.drive_heard && !state.gap &&
+         is_silent(state.odometry.reading().stamp, now, config.drive_silent_s);
 }
 
 bool may_drive(LocalizationState state) {

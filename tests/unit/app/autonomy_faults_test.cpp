@@ -157,6 +157,15 @@ TEST(AutonomyCycle, AStatusThatTellsNothingOfTheWheelsIsNoSignOfLife) {
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
 }
 
+/// Its cable is not plugged in, or the device named is not there.
+TEST(AutonomyCycle, ADriveThatNeverSpokeIsNotSaidToAnswer) {
+  auto v = corridor_vehicle();
+  v->drive_silent = true;
+  v->each_step = [&] { EXPECT_NE(v->state().standstill.cause, notice(Cause::WheelsUntold)); };
+  v->run_until([&] { return false; }, 1.0);
+  EXPECT_EQ(v->state().standstill.cause, notice(Cause::DriveSilent));
+}
+
 /// Its motors are switched off at a switch of their own.
 TEST(AutonomyCycle, ADriveThatStaysIdleIsNamedAndGoesOn) {
   auto v = vehicle_at_speed();
