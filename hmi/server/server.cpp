@@ -49,17 +49,17 @@ void Server::Impl::listen() {
   raise_descriptor_limit();
   const auto& options = parts.options;
   const std::string where = options.host + ":" + std::to_string(options.port);
+  const Error not_here(where, "is no address of this machine",
+                       "give one like 127.0.0.1:8080 or 0.0.0.0:8080");
   boost::system::error_code error;
   const auto address =
       asio::ip::make_address(options.host == "localhost" ? "127.0.0.1" : options.host, error);
-  if (error)
-    throw Error(where, "is no address of this machine", "give one like 127.0.0.1:8080 or 0.0.0.0:8080");
+  if (error) throw not_here;
   const tcp::endpoint endpoint(address, options.port);
   acceptor.open(endpoint.protocol());
   acceptor.set_option(tcp::acceptor::reuse_address(true));
   acceptor.bind(endpoint, error);
-  if (error == boost::system::errc::address_not_available)
-    throw Error(where, "is no address of this machine", "give one like 127.0.0.1:8080 or 0.0.0.0:8080");
+  if (error == boost::system::errc::address_not_available) throw not_here;
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error)
     throw Error(where, "cannot be served: " + error.message(), "choose another port with --hmi HOST:PORT");

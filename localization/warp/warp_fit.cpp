@@ -514,6 +514,25 @@ WarpFit Explanation::result() const {
   return fit;
 }
 
+/// What a start led to, and what that is worth by what is seen and by what was told.
+struct End {
+  Explanation way;
+  double nats = 0.0;
+  double told = 0.0;
+};
+
+/// Association and statistics by turns. Each end is compared by the statistics that it learned itself: by
+/// those of before, where the drawing seemed good, a bend of a metre costs several times what it does.
+End settled(Explanation way, const WarpPrior& told) {
+  for (const double doubt : {1.0, 0.5}) way.round(doubt);
+  for (int k = 0; k < kSettling; ++k) {
+    way.round(0.0);
+    way.learn_statistics();
+  }
+  const double nats = way.nats(), log_told = told ? told(way.warp()) : 0.0;
+  return {std::move(way), nats, log_told};
+}
+
 }  // namespace
 
 double WallDeviation::offset_m() const {
@@ -525,17 +544,8 @@ double WallDeviation::offset_m() const {
 WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const DrawingWarp& before,
                  const std::vector<DrawingWarp>& further, const WarpPrior& told) {
   const WallSides sides(drawn.walls());
-  const auto told_of = [&](const Explanation& end) { return told ? told(end.warp()) : 0.0; };
   const auto explain = [&](const DrawingWarp& start, Shape shape) {
-    Explanation explanation(sides, cloud, start, shape);
-    for (const double doubt : {1.0, 0.5}) explanation.round(doubt);
-    // Each is compared by the statistics that it learned itself: by those of before, where the drawing seemed
-    // good, a bend of a metre costs several times what it does.
-    for (int k = 0; k < kSettling; ++k) {
-      explanation.round(0.0);
-      explanation.learn_statistics();
-    }
-    return explanation;
+    return settled(Explanation(sides, cloud, start, shape), told);
   };
   if (cloud.empty() || drawn.walls().empty()) {
     WarpFit none;
@@ -543,44 +553,40 @@ WarpFit fit_warp(const WallIndex& drawn, const MemoryCloud& cloud, const Drawing
     none.walls.resize(drawn.walls().size());
     return none;
   }
-  Explanation field = explain(before, Shape::Field);
-  field.try_ranges();
-  const Explanation whole =
-      explain(DrawingWarp(before.similarity(), {}, before.statistics()), Shape::Similarity);
-  const Explanation identity = explain(DrawingWarp({}, {}, before.statistics()), Shape::Identity);
-  const auto warp_of = [&](const Explanation& end) {
-    WarpField shape = field.warp().field();
+  End field = explain(before, Shape::Field);
+  field.way.try_ranges();
+  const End whole = explain(DrawingWarp(before.similarity(), {}, before.statistics()), Shape::Similarity);
+  const End identity = explain(DrawingWarp({}, {}, before.statistics()), Shape::Identity);
+  const auto warp_of = [&](const End& end) {
+    WarpField shape = field.way.warp().field();
     if (&end != &field) std::fill(shape.control_m.begin(), shape.control_m.end(), 0.0);
-    return DrawingWarp(end.warp().similarity(), std::move(shape), field.warp().statistics());
+    return DrawingWarp(end.way.warp().similarity(), std::move(shape), field.way.warp().statistics());
   };
-  const Explanation& bent = whole.nats() + told_of(whole) > field.nats() + told_of(field) ? whole : field;
-  const double gain = bent.nats() + told_of(bent) - identity.nats() - told_of(identity);
-  const Explanation& here = gain < kLeastNats ? identity : bent;
-  std::vector<Explanation> elsewhere;
+  const End& bent = whole.nats + whole.told > field.nats + field.told ? whole : field;
+  const double gain = bent.nats + bent.told - identity.nats - identity.told;
+  const End& here = gain < kLeastNats ? identity : bent;
+  std::vector<End> elsewhere;
+  std::vector<double> odds;  // their logarithms, against what keeps the place as it is
   for (const DrawingWarp& start : further) {
-    Explanation end = explain(start, Shape::Field);
+    End first = explain(start, Shape::Field);
     // The present one was fitted again and again while the memory grew: a better one goes on before they
     // compare.
-    const bool better = end.nats() > here.nats();
-    elsewhere.push_back(better ? explain(end.warp(), Shape::Field) : std::move(end));
+    elsewhere.push_back(first.nats > here.nats ? explain(first.way.warp(), Shape::Field) : std::move(first));
+    const End& end = elsewhere.back();
+    odds.push_back(kTrust * (end.nats - here.nats) + std::log(kNeighbours) + end.told - here.told);
   }
-  // What the ends are worth, as logarithms of odds against what keeps the place as it is.
-  std::vector<double> odds;
-  for (const Explanation& end : elsewhere)
-    odds.push_back(kTrust * (end.nats() - here.nats()) + std::log(kNeighbours) + told_of(end) -
-                   told_of(here));
   const auto likeliest = std::max_element(odds.begin(), odds.end());
   const bool stays = likeliest == odds.end() || *likeliest < 0.0;
   const auto taken = static_cast<std::size_t>(likeliest - odds.begin());
-  if (!stays) elsewhere[taken].try_ranges();
+  if (!stays) elsewhere[taken].way.try_ranges();
   const double log_taken = stays ? 0.0 : *likeliest;
-  WarpFit fit = stays ? here.result() : elsewhere[taken].result();
-  fit.warp = stays ? warp_of(here) : elsewhere[taken].warp();
-  fit.next = stays ? field.warp() : fit.warp;
-  fit.evidence_nats = stays ? gain : elsewhere[taken].nats() - identity.nats();
+  WarpFit fit = stays ? here.way.result() : elsewhere[taken].way.result();
+  fit.warp = stays ? warp_of(here) : elsewhere[taken].way.warp();
+  fit.next = stays ? field.way.warp() : fit.warp;
+  fit.evidence_nats = stays ? gain : elsewhere[taken].nats - identity.nats;
   if (!stays) fit.others.push_back({warp_of(here), std::exp(-log_taken)});
   for (std::size_t i = 0; i < elsewhere.size(); ++i)
-    if (stays || i != taken) fit.others.push_back({elsewhere[i].warp(), std::exp(odds[i] - log_taken)});
+    if (stays || i != taken) fit.others.push_back({elsewhere[i].way.warp(), std::exp(odds[i] - log_taken)});
   return fit;
 }
 

@@ -124,13 +124,17 @@ Column come_to(double x_m, Stamp stamp) {
   return c;
 }
 
-/// One that goes along x, seen five times a second.
-std::vector<Mover<Odom>> at_speed(double speed_mps) {
-  MovingObjects objects;
+/// One goes along x from the first second on, seen five times a second.
+void walk(MovingObjects& objects, double speed_mps) {
   for (int i = 0; i < 6; ++i) {
     const Stamp stamp = stamp_from_seconds(1.0 + 0.2 * i);
     objects.update({come_to(0.2 * speed_mps * i, stamp)}, stamp);
   }
+}
+
+std::vector<Mover<Odom>> at_speed(double speed_mps) {
+  MovingObjects objects;
+  walk(objects, speed_mps);
   return objects.movers();
 }
 
@@ -147,15 +151,10 @@ TEST(MovingObjects, WhatIsTooSlowIsMeasuredAsIfItStood) {
 
 TEST(MovingObjects, WhoComesNextInheritsNothingOfWhoLeft) {
   MovingObjects objects;
-  int i = 0;
-  const auto next = [&] { return stamp_from_seconds(1.0 + 0.2 * i++); };
+  walk(objects, 1.2);
+  objects.update({}, stamp_from_seconds(2.2));
   for (int k = 0; k < 6; ++k) {
-    const Stamp stamp = next();
-    objects.update({come_to(0.24 * k, stamp)}, stamp);
-  }
-  objects.update({}, next());
-  for (int k = 0; k < 6; ++k) {
-    const Stamp stamp = next();
+    const Stamp stamp = stamp_from_seconds(2.4 + 0.2 * k);
     Column low = come_to(5.0, stamp);
     low.high_m = 0.4F;
     objects.update({low}, stamp);

@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { api } from "../../api";
 import type { MountingRow, SensorInfo } from "../../api_types";
+import { figure } from "../../figures";
 import { noticeText, useText } from "../../i18n";
 import type { TextKey } from "../../i18n/en";
 import { usePolled } from "../../store";
@@ -26,8 +27,8 @@ function Row({ row }: { row: MountingRow }) {
           {places.map(([key, digits, unit]) => (
             <tr key={key}>
               <th>{t(`mount.${key}`)}</th>
-              <td>{row.typed[key].toFixed(digits)} {unit}</td>
-              <td>{isKnown(row, key) ? `${row.found[key].toFixed(digits)} ${unit}` : t("mounting.unknown")}</td>
+              <td>{figure(row.typed[key], digits)} {unit}</td>
+              <td>{isKnown(row, key) ? `${figure(row.found[key], digits)} ${unit}` : t("mounting.unknown")}</td>
               <td>{isKnown(row, key) && key !== "z_m" && `± ${key === "yaw_deg" ? row.sigma_deg.toFixed(2) : row.sigma_m.toFixed(3)} ${unit}`}</td>
             </tr>
           ))}
