@@ -29,11 +29,16 @@ void Localizer::begin_anew(const std::optional<StartPrior>& told, bool carried) 
   }
   map_.evidence = {};
   map_.evidence.has_drawing = map_.drawing.has_value();
-  map_.told = told;
+  map_.told = map_.start = told;
+  if (told && map_.drawing) {
+    const BendingDrawing& walls = map_.drawing->walls;
+    map_.start->map_from_base = walls.in_building(told->map_from_base);
+    if (told->former) map_.start->former->map_from_base = walls.in_building(told->former->map_from_base);
+  }
   map_.placed = told.has_value();
   map_.next_survey_walls = 0.0;
   map_.unconfirmed_size = 0;
-  if (told) anchor_ = told->map_from_base;
+  if (told) anchor_ = map_.start->map_from_base;
   const StartPrior sigma = told.value_or(StartPrior{{}, 1e2, kPi});
   covariance_ = Eigen::Vector3d(sigma.sigma_m * sigma.sigma_m, sigma.sigma_m * sigma.sigma_m,
                                 sigma.sigma_rad * sigma.sigma_rad)
@@ -45,9 +50,9 @@ void Localizer::begin_anew(const std::optional<StartPrior>& told, bool carried) 
 }
 
 void Localizer::set_pose(const Transform2<Map, Base>& map_from_base, const PoseSigma& sigma) {
-  StartPrior told{map_.drawing ? map_.drawing->walls.in_building(map_from_base) : map_from_base,
-                  sigma.position_m, sigma.yaw_rad};
-  if (map_.drawing && started_) told.former = {anchor_ * since_scan_.motion, map_.evidence.here};
+  StartPrior told{map_from_base, sigma.position_m, sigma.yaw_rad};
+  if (map_.drawing && started_)
+    told.former = {map_.drawing->walls.on_drawing(anchor_ * since_scan_.motion), map_.evidence.here};
   begin_anew(told);
 }
 
@@ -104,7 +109,7 @@ ScanMatch Localizer::match(const SurfaceScan& scan, const OdometryStep& step) co
 
 void Localizer::recall(Memory memory) {
   if (started_ || memory.empty()) return;
-  if (map_.told)
+  if (map_.start)
     map_.memory = std::move(memory);
   else if (map_.drawing)
     map_.drawing->set_earlier(std::make_shared<const Memory>(std::move(memory))),
@@ -120,7 +125,8 @@ void Localizer::start(const SurfaceScan& scan) {
   if (!track_.empty() && anchor_stamp_ < scan.stamp) {
     const Transform2<Base, Base> driven = track_.between(anchor_stamp_, scan.stamp, model_).motion;
     anchor_ = anchor_ * driven;
-    if (map_.told) map_.told->carry(driven);
+    for (auto* start : {&map_.told, &map_.start})
+      if (*start) (*start)->carry(driven);
   }
   anchor_stamp_ = scan.stamp;
   agreement_.begin(scan.stamp);
@@ -130,7 +136,9 @@ void Localizer::start(const SurfaceScan& scan) {
     recalled_ = place.has_value();
     if (place) {
       anchor_ = *place;
-      map_.told = StartPrior{map_.memory.poses().front(), options_.tie_m, options_.tie_rad};
+      map_.start = StartPrior{map_.memory.poses().front(), options_.tie_m, options_.tie_rad};
+      map_.told = map_.start;
+      if (map_.drawing) map_.told->map_from_base = map_.drawing->walls.on_drawing(map_.start->map_from_base);
       way_m = options_.memory.break_open_m;  // unknown; the old keyframes are not recent
     } else {
       map_.memory = Memory(options_.memory);

@@ -82,7 +82,7 @@ bool MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
   std::vector<Transform2<Map, Base>> recognised;
   if (everywhere && drawing->known)
     recognised = drawing->known->crossings.where(*memory.keyframes().back().scan);
-  drawing->belief.weigh(drawing->to_find_by(), memory, cloud, told, memory.poses().back(), everywhere,
+  drawing->belief.weigh(drawing->to_find_by(), memory, cloud, start, memory.poses().back(), everywhere,
                         recognised);
   if (everywhere) {
     evidence.looked = true;
@@ -108,7 +108,7 @@ bool MapState::weigh_places(const MemoryCloud& cloud, const LocalizerOptions& op
     drawing->set_earlier(nullptr);
   }
   if (!placed || leaves) move(best->correction);
-  placed = placed || clear || told.has_value();
+  placed = placed || clear || start.has_value();
   return false;
 }
 
@@ -120,7 +120,7 @@ void MapState::settle(MemoryCloud& cloud, const LocalizerOptions& options) {
   const Transform2<Map, Base>& first = memory.poses().front();
   const double area_m2 = drawing->belief.area_m2();
   const double told_so =
-      told ? log_prior(*told, found.correction * first, area_m2) - log_prior(*told, first, area_m2) : 0.0;
+      start ? log_prior(*start, found.correction * first, area_m2) - log_prior(*start, first, area_m2) : 0.0;
   const Transform2<Map, Base>& at = memory.poses().back();
   const bool less_likely =
       drawing->belief.probability_near(at, found.correction * at) < drawing->belief.probability_here(at);
@@ -142,9 +142,9 @@ void MapState::lay_on_drawing(MemoryCloud& cloud, const LocalizerOptions& option
       drawing->walls.drawn().pulls(cloud, memory.poses(), drawing->walls.shared_error());
   // What was told holds the memory by as much as it is believed where the memory lies.
   const Transform2<Map, Base>& first = memory.poses().front();
-  const double as_told = told ? prior_holds(*told, first, drawing->belief.area_m2()) : 0.0;
+  const double as_told = start ? prior_holds(*start, first, drawing->belief.area_m2()) : 0.0;
   const StartPrior placed_here{first, options.tie_m, options.tie_rad};
-  if (told) unary.push_back({0, told->map_from_base, as_told * told->information()});
+  if (start) unary.push_back({0, start->map_from_base, as_told * start->information()});
   unary.push_back({0, first, (1.0 - as_told) * placed_here.information()});
   memory.optimise(unary);
   // Only now: what has drifted is pulled back by what was known, before the drawing is bent to it.

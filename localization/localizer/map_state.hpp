@@ -31,7 +31,8 @@ struct OnDrawing {
 struct MapState {
   Memory memory;
   std::optional<OnDrawing> drawing;  ///< absent: mapping without a drawing
-  std::optional<StartPrior> told;    ///< by whoever gave the start pose; absent: nobody did
+  std::optional<StartPrior> told;    ///< by whoever gave the start pose, on the drawing; absent: nobody did
+  std::optional<StartPrior> start;   ///< ... where that stood in the building when the memory began
   bool placed = false;               ///< the memory lies where it is believed to lie
   HealthEvidence evidence;
   std::size_t unconfirmed_size = 0;  ///< of the memory when it was last moved to another place

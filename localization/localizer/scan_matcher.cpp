@@ -74,7 +74,7 @@ ScanMatch match_scan(const SurfaceScan& scan, const Pose& from, const OdometrySt
 
 std::optional<Pose> place_in_memory(const SurfaceScan& scan, const MapState& map,
                                     const LocalizerOptions& options) {
-  const StartPrior start = *map.told;  // recalled only where a start was given
+  const StartPrior start = *map.start;  // recalled only where a start was given
   const LocalMap& whole = map.memory.whole_map(start.map_from_base.translation());
   const SearchWindow window{2.0 * start.sigma_m, 2.0 * start.sigma_rad, start.sigma_m, start.sigma_rad};
   const MatchResult found =

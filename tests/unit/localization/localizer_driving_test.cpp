@@ -292,6 +292,27 @@ TEST(LocalizerDriving, APlaceThatAPersonGivesIsCorrectedByWhatIsSeen) {
   EXPECT_LT(off_m(e.map_from_base, moments.back().truth), 0.05);
 }
 
+/// What the drawing was bent to is forgotten where the place is not known; the tap is not of the bent one.
+TEST(LocalizerDriving, APlaceThatAPersonGivesIsOneOfTheDrawing) {
+  const mapping::Walls walls = test::factory_floor();
+  mapping::Walls drawing = walls;
+  for (mapping::Wall& wall : drawing)
+    for (Point2<Map>* end : {&wall.segment.a, &wall.segment.b}) end->x_m *= 1.02;
+  const auto moments = drive(walls, kWay, ten_hertz(), 3);
+  const Pose& start = moments.front().truth;
+  Localizer localizer(drawing, StartPrior{{1.02 * start.x_m(), start.y_m(), start.yaw_rad()}},
+                      driving_options());
+  for (std::size_t i = 0; i + 1 < moments.size(); ++i) (void)take(localizer, moments[i]);
+  ASSERT_TRUE(localizer.bent());
+  const Pose place(18.0, 12.0, 1.0);
+  ASSERT_GT(off_m(localizer.bent()->in_building(place), place), 0.2);
+  localizer.search_anew();
+  (void)take(localizer, moments.back());
+  localizer.set_pose(place, {});
+  EXPECT_FALSE(localizer.bent());
+  EXPECT_LT(off_m(localizer.on_odometry(moments.back().odometry).map_from_base, place), 1e-6);
+}
+
 TEST(LocalizerDriving, APlaceThatAPersonGaveWronglyIsDoubtedSoonAndTheRightOneNamed) {
   const mapping::Walls walls = test::laboratory_hall();
   const auto moments = drive(walls, {{1.5, 1.2}, {16.0, 1.2}, {16.0, 8.0}}, ten_hertz(), 8);
