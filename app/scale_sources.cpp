@@ -66,6 +66,8 @@ ScaleFindings find_scale(const ScaleInputs& inputs, const mapping::Site& site) {
 }
 
 json to_json(const ScaleEstimate& e) {
+  json notes = json::array();
+  for (const auto& note : e.notes) notes.push_back(note.text);
   json out{{"method", e.method},
            {"m_per_px", e.m_per_px},
            {"relative_uncertainty", e.relative_uncertainty},
@@ -79,7 +81,7 @@ json to_json(const ScaleEstimate& e) {
            {"stretch", e.stretch ? json(*e.stretch) : json(nullptr)},
            {"verdict", mapping::to_string(e.verdict)},
            {"reason", e.reason},
-           {"notes", e.notes}};
+           {"notes", notes}};
   if (e.georeference)
     out["georeference"] = {{"latitude_deg", e.georeference->latitude_deg},
                            {"longitude_deg", e.georeference->longitude_deg},
@@ -102,7 +104,7 @@ std::string describe(const ScaleEstimate& e) {
     text += fmt::format("  lower left corner at {:.7f}, {:.7f}; x axis {:.2f} deg north of east\n",
                         e.georeference->latitude_deg, e.georeference->longitude_deg,
                         e.georeference->enu_from_map_yaw_deg);
-  for (const auto& note : e.notes) text += "  note: " + note + '\n';
+  for (const auto& note : e.notes) text += "  note: " + note.text + '\n';
   return text + "  " + mapping::to_string(e.verdict) + ": " + e.reason + '\n';
 }
 

@@ -126,8 +126,11 @@ mapping::ScaleEstimate scale_of(const SelfCalibration& found, const mapping::Sca
   e.residuals_m = {found.wall_sigma_m};
   if (found.stretch_chi2() > kSignificantStretch) {
     e.stretch = (1.0 + found.strain[1]) / (1.0 + found.strain[0]) - 1.0;
-    e.notes.push_back("one scale for both directions is applied: " + describe(found));
-    e.notes.back().erase(e.notes.back().find('\n'));
+    const std::string found_so = describe(found);
+    e.notes.push_back(
+        {"scale-one-for-both",
+         {},
+         "one scale for both directions is applied: " + found_so.substr(0, found_so.find('\n'))});
   }
   mapping::judge(e);
   if (e.verdict != mapping::Verdict::Refused && e.relative_uncertainty > kCertainEnough) {

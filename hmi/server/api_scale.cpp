@@ -101,8 +101,8 @@ json to_wire(const mapping::ScaleChoice& choice, const std::optional<mapping::Ov
   json notes = json::array();
   std::string text = best.reason;
   for (const auto& note : best.notes) {
-    notes.push_back(to_wire(Notice{"", {}, note}));
-    text += (text.empty() ? "" : ". ") + note;
+    notes.push_back(to_wire(Notice{note.code, note.values, note.text}));
+    text += (text.empty() ? "" : ". ") + note.text;
   }
   json georeference = nullptr;
   if (const auto& g = best.georeference)

@@ -68,10 +68,13 @@ void find_stretch(const Points2N& from, const Points2N& to, const Similarity& fi
     return;
   e.stretch = found.stretch;
   e.outlier.reset();
+  const std::string percent = fmt::format("{:.2f}", 100.0 * std::abs(found.stretch));
   e.notes.push_back(
-      fmt::format("the drawing is stretched: its scale along u is {:.2f} % {} than along v (photocopies do "
-                  "this); scan it again, or live with half of that as an error",
-                  100.0 * std::abs(found.stretch), found.stretch > 0.0 ? "larger" : "smaller"));
+      {"scale-stretched",
+       {{"percent", percent}},
+       fmt::format("the drawing is stretched: its scale along u is {} % {} than along v (photocopies do "
+                   "this); scan it again, or live with half of that as an error",
+                   percent, found.stretch > 0.0 ? "larger" : "smaller")});
 }
 
 /// Across the line that lies nearest to all of them they scatter no more than their clicks do.
@@ -86,9 +89,10 @@ bool lie_on_a_line(const Points2N& points) {
 void find_faults(const Points2N& from, const Points2N& to, const Similarity& fit, ScaleEstimate& e) {
   const bool line = lie_on_a_line(from);
   if (line)
-    e.notes.emplace_back(
-        "the points lie on one line, which shows neither a mirrored nor a stretched drawing; give one far "
-        "beside it");
+    e.notes.push_back({"scale-on-a-line",
+                       {},
+                       "the points lie on one line, which shows neither a mirrored nor a stretched drawing; "
+                       "give one far beside it"});
   e.mirrored = !line && kClearly * error_of(flipped(from), to) < error_of(from, to);
   if (e.mirrored) return;
   e.outlier = find_outlier(from, to, fit.scale);
@@ -169,7 +173,8 @@ ScaleEstimate fit_control_points(const std::vector<ControlPoint>& points, int he
     e.held = {fit.scale * middle.x(), fit.scale * (height_px + middle.y())};
   }
   if (!e.verified)
-    e.notes.push_back("two points fit always: nothing verifies them; give a third and a fourth");
+    e.notes.push_back(
+        {"scale-two-points", {}, "two points fit always: nothing verifies them; give a third and a fourth"});
   judge(e);
   return e;
 }

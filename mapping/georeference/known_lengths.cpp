@@ -65,10 +65,14 @@ std::optional<std::size_t> find_outlier(const std::vector<KnownLength>& lengths)
 
 void explain_disagreement(const std::vector<KnownLength>& lengths, double relative, ScaleEstimate& e) {
   if (relative < kDisagreement || e.outlier) return;
-  e.notes.push_back(
-      lengths.size() == 2
-          ? "the two lengths disagree; of two it cannot be told which one is wrong: measure a third"
-          : "the lengths disagree, and no single one explains it: measure more of them");
+  if (lengths.size() == 2)
+    e.notes.push_back(
+        {"scale-two-lengths",
+         {},
+         "the two lengths disagree; of two it cannot be told which one is wrong: measure a third"});
+  else
+    e.notes.push_back(
+        {"scale-lengths", {}, "the lengths disagree, and no single one explains it: measure more of them"});
 }
 
 }  // namespace

@@ -101,9 +101,14 @@ ScaleEstimate fit_overlay(const Overlay& o, int width_px, int height_px) {
                     o.north_m, o.u.value_or(width_px / 2.0), o.v.value_or(height_px / 2.0));
   }
   const TileSides sides = ellipsoid_tile_sides(o.place, o.zoom);
-  e.notes.push_back(fmt::format("a tile is {:.2f} m here; on the ellipsoid {:.2f} m east, {:.2f} m north",
-                                side, sides.east_m, sides.north_m));
-  e.notes.emplace_back("laid over a photograph by eye: check it with a measured length (--known)");
+  const auto metres = [](double m) { return fmt::format("{:.2f}", m); };
+  e.notes.push_back(
+      {"scale-tile",
+       {{"tile", metres(side)}, {"east", metres(sides.east_m)}, {"north", metres(sides.north_m)}},
+       fmt::format("a tile is {:.2f} m here; on the ellipsoid {:.2f} m east, {:.2f} m north", side,
+                   sides.east_m, sides.north_m)});
+  e.notes.push_back(
+      {"scale-by-eye", {}, "laid over a photograph by eye: check it with a measured length (--known)"});
   judge(e);
   return e;
 }

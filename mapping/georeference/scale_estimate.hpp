@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,13 @@ inline constexpr double kClickPx = 1.0;  ///< a point of a drawing is clicked to
 
 enum class Verdict { Good, Usable, Refused };
 [[nodiscard]] const char* to_string(Verdict verdict);
+
+/// What else an operator should know. The panel's catalogues know it by its code, `text` is English.
+struct ScaleNote {
+  std::string code;
+  std::map<std::string, std::string> values;  ///< what a catalogue's {placeholders} stand for
+  std::string text;
+};
 
 /// One way to the scale of a drawing, how well it fits, and what to think of it.
 struct ScaleEstimate {
@@ -32,8 +40,8 @@ struct ScaleEstimate {
   std::optional<GeoreferenceRecord> georeference;
   Point2<Map> held;  ///< what the georeference laid on its place: at another scale it stays there
   Verdict verdict = Verdict::Refused;
-  std::string reason;              ///< of the verdict, in words
-  std::vector<std::string> notes;  ///< what else the operator should know
+  std::string reason;  ///< of the verdict, in words
+  std::vector<ScaleNote> notes;
 };
 
 /// Sets verdict and reason from what was found: refused when mirrored, contradicted by an outlier or less

@@ -49,7 +49,7 @@ TEST(KnownLengths, OfTwoItCannotTellWhichIsWrong) {
   const ScaleEstimate e = fit_known_lengths(lengths);
   EXPECT_FALSE(e.outlier);
   EXPECT_EQ(e.verdict, Verdict::Refused);
-  EXPECT_THAT(e.notes, testing::Contains(HasSubstr("cannot be told")));
+  EXPECT_THAT(e.notes, testing::Contains(testing::Field(&ScaleNote::text, HasSubstr("cannot be told"))));
 }
 
 TEST(KnownLengths, OneIsUsableAndUnverified) {
@@ -156,7 +156,7 @@ TEST(ControlPoints, OnOneLineShowNeitherStretchNorMirror) {
           {u + click(engine), 1400.0 - u + click(engine), place_of(truth, {u * 0.05, u * 0.05})});
     const ScaleEstimate e = fit_control_points(points, 1400);
     EXPECT_FALSE(e.stretch || e.mirrored) << round;
-    EXPECT_THAT(e.notes, testing::ElementsAre(HasSubstr("on one line")));
+    EXPECT_THAT(e.notes, testing::ElementsAre(testing::Field(&ScaleNote::text, HasSubstr("on one line"))));
   }
 }
 
