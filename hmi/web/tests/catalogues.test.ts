@@ -88,6 +88,25 @@ describe("the catalogues", () => {
     }
   });
 
+  const buttons = ["command.start", "command.pause", "command.resume", "command.stop", "command.confirm", "command.go-on"] as const;
+
+  it("give the commands of the vehicle names that no other button of a page has", () => {
+    for (const texts of [en, de, ja]) {
+      const names = [...buttons, "setup.next" as const, "setup.save_next" as const].map((key) => texts[key].toLowerCase());
+      expect(new Set(names).size, names.join(", ")).toBe(names.length);
+    }
+  });
+
+  it("call a button by its own name where they tell a person to press it", () => {
+    let told = 0;
+    for (const [key, text] of Object.entries(en))
+      for (const button of buttons.filter((one) => new RegExp(`press ${en[one]}\\b`, "i").test(text))) {
+        ++told;
+        for (const texts of [de, ja]) expect(texts[key as keyof typeof en], key).toContain(texts[button]);
+      }
+    expect(told).toBeGreaterThan(8);
+  });
+
   it("know everything that the vehicle can say by a code", () => {
     const said = saidByTheVehicle();
     for (const kind of ["cause", "remedy", "finding", "reason", "error"]) expect(said.filter((key) => key.startsWith(`${kind}.`)).length, kind).toBeGreaterThan(10);

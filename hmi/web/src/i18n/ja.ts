@@ -498,7 +498,7 @@ export const ja: Record<TextKey, string> = {
   "remedy.look-and-go-on": "開いていることを確かめて「先へ進む」を押してください",
   "remedy.uncover-lidar": "ライダーを拭き、覆っている物を取り除き、通信ケーブルを確認してください",
   "remedy.look-at-wheel": "車輪の引っかかりを取り除くか、モーターまたはエンコーダーを修理してから、確認を押してください",
-  "remedy.go-on": "自動で続きます（「再開」でも続きます）",
+  "remedy.go-on": "自動で続きます（「先へ進む」を押しても続きます）",
   "remedy.by-itself": "自動で続きます",
   "remedy.clear-or-draw": "道を空けるか、経路を描いてください",
   "remedy.clear-around": "車両の周りを空けてください",
