@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { placeAgain } from "../src/map/chosen_place";
 import { fromLatLon, overlayNumbers, tileMiddle, tileResolution, toLatLon } from "../src/map/mercator";
 import { about, angleOf, apply, compose, fromFingers, identity, inverse, scaleOf, type Similarity } from "../src/map/similarity";
 import { corners, snapTo, withMiddles } from "../src/map/snap";
@@ -26,6 +27,24 @@ describe("similarities", () => {
     const rigid = fromFingers([[0, 0], [2, 0]], [[5, 5], [5, 9]], true);
     expect(scaleOf(rigid)).toBeCloseTo(1);
     close(apply(rigid, [1, 0]), [5, 7]);
+  });
+});
+
+describe("a chosen place", () => {
+  const here = { x: 54.6, y: 19.9, yaw: 0.65 };
+  const aside = { x: 54.6, y: 23.6, yaw: 0.65 };
+  const turned = { x: 7.6, y: 25.9, yaw: -2.5 };
+  it("stays chosen where its rank changes", () => {
+    expect(placeAgain(here, [turned, here, aside], [turned, aside, { ...here, y: 20 }])).toBe(2);
+    expect(placeAgain(aside, [turned, here, aside], [aside, turned, here])).toBe(0);
+  });
+  it("is not another one where it is not ranked any more", () => {
+    expect(placeAgain(here, [turned, here, aside], [turned, aside])).toBe(-1);
+    expect(placeAgain(here, [here], [])).toBe(-1);
+  });
+  it("at one point is told by where it looks", () => {
+    const back = { ...here, yaw: here.yaw + Math.PI };
+    expect(placeAgain(here, [here, back], [back, { ...here, yaw: here.yaw - 2 * Math.PI }])).toBe(1);
   });
 });
 

@@ -5,13 +5,14 @@ import { api } from "../api";
 import type { Hypothesis, Locate, Site } from "../api_types";
 import { live } from "../live/live_socket";
 import { usePolled } from "../store";
+import { placeAgain, type Pose } from "./chosen_place";
 import { fitAt, piecesOf, type Fit } from "./contradictions";
 import { dragOn } from "./drag_gesture";
 import type { FactoryMap } from "./factory_map";
 import type { XY } from "./geometry";
 import { angleOf, apply, type Similarity } from "./similarity";
 
-export type Pose = Pick<Hypothesis, "x" | "y" | "yaw">;
+export type { Pose };
 
 const kHandle_px = 110;
 const kFit_ms = 250;
@@ -26,6 +27,7 @@ export interface Placing {
   age_s: number;
   refresh: () => void;
   places: readonly Hypothesis[];
+  /** of `places`; -1: what was chosen is not among them any more */
   chosen: number;
   choose: (index: number) => void;
   /** dragged by a finger; null: the chosen place */
@@ -38,16 +40,35 @@ export interface Placing {
   attach: (map: FactoryMap) => () => void;
 }
 
+/** The place that a person chose stays chosen where its rank changes; before, and once none is ranked, it is the first. */
+function useChosen(places: readonly Hypothesis[]): { chosen: number; at: Pose | null; choose: (index: number) => void } {
+  const held = useRef<{ pose: Pose; among: readonly Hypothesis[] } | null>(null);
+  const [, drawAnew] = useState({});
+  let chosen = 0;
+  if (places.length === 0) held.current = null;
+  else if (held.current) {
+    const { pose, among } = held.current;
+    chosen = placeAgain(pose, among, places);
+    held.current = { pose: places[chosen] ?? pose, among: places };
+  }
+  const choose = (index: number) => {
+    const pose = places[index];
+    held.current = pose ? { pose, among: places } : null;
+    drawAnew({});
+  };
+  return { chosen, at: held.current?.pose ?? places[0] ?? null, choose };
+}
+
 /** Ranked places and a scan that a finger can lay onto the walls: what the Drive page's card and the last step of Set up share. */
 export function usePlacing(site: Site, walls: readonly number[][], shown: boolean): Placing {
   const { value: locate, refresh, age_s } = usePolled(api.locate, 1000, shown);
-  const [chosen, choose] = useState(0);
   const [byHand, setByHand] = useState<Pose | null>(null);
   const [fit, setFit] = useState<Fit | null>(null);
   const map = useRef<FactoryMap | null>(null);
   const pieces = useMemo(() => piecesOf(walls), [walls]);
   const places = locate?.hypotheses ?? [];
-  const pose = byHand ?? places[chosen] ?? places[0] ?? null;
+  const { chosen, at, choose } = useChosen(places);
+  const pose = byHand ?? at;
   const now = useRef({ byHand, pose, shown });
   now.current = { byHand, pose, shown };
   useEffect(() => {
