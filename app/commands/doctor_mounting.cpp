@@ -39,13 +39,13 @@ Measured from_log(const std::string& run, const mapping::Site& site, const Cycle
 
 /// Nothing moves before a person has looked.
 void ask_person() {
-  std::puts(
+  std::fputs(
       "The vehicle drives a metre forward, turns once around and drives back, slowly; the lidars watch, "
       "laid\n"
       "by the mountings as typed. Keep a metre free before it and the space to turn, and a hand at the\n"
-      "emergency stop.");
-  std::printf("Type yes to begin: ");
-  std::fflush(stdout);
+      "emergency stop.\n"
+      "Type yes to begin: ",
+      stderr);
   std::string answer;
   if (!std::getline(std::cin, answer) || answer != "yes")
     throw Error("doctor", "nothing was measured", "type yes, or give --yes");
@@ -68,9 +68,10 @@ Measured from_drive(const std::string& folder, const mapping::Site& site, const 
         if (interrupted) run.stop();
         link.send(run.tick(input));
         const int tenths = static_cast<int>(10.0 * run.view().progress);
-        if (tenths > told) std::printf("%d %% driven\n", 10 * (told = tenths)), std::fflush(stdout);
+        if (tenths > told) std::fprintf(stderr, "%d %% driven\n", 10 * (told = tenths));
       },
-      never, {.done = over, .told = [](const std::string& text) { std::puts(text.c_str()); }});
+      never,
+      {.done = over, .told = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }});
   const MountingView view = run.view();
   if (view.state == State::Stopped) throw Error("the measurement was given up", view.notice.text, "");
   return {view.found, view.findings};

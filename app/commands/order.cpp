@@ -85,6 +85,17 @@ void print_order(const Order& order) {
   std::printf("%s%s\n", order.note.empty() ? "" : "  ", order.note.c_str());
 }
 
+/// One that has ended otherwise was not cancelled, and that is said.
+void cancel(OrderStore& store, const OrderArguments& arguments, Stamp now) {
+  store.close(arguments.cancel, OrderState::Cancelled, "cancelled by the operator", now);
+  const auto order = store.find(arguments.cancel);
+  const std::string number = std::to_string(arguments.cancel);
+  if (!order) throw Error(arguments.site, "holds no order " + number, "madori order DIR --list");
+  if (order->state != OrderState::Cancelled)
+    throw Error("order " + number, std::string("has ended already: ") + to_string(order->state),
+                "madori order DIR --list");
+}
+
 void run(const OrderArguments& arguments) {
   expect_json(arguments.json_file);
   const fs::path folder(arguments.site);
@@ -95,6 +106,7 @@ void run(const OrderArguments& arguments) {
   OrderStore store(folder / "madori.db");
   const Stamp now = time_of_day();
   store.keep_stations(node_ids(routes), now);
+  if (arguments.cancel > 0) cancel(store, arguments, now);
   nlohmann::json result;
   if (!arguments.to.empty()) {
     std::vector<OrderStop> stops;
@@ -102,12 +114,6 @@ void run(const OrderArguments& arguments) {
     const auto id = store.add(stops, arguments.repeat, now);
     result["added"] = id;
     if (arguments.json_file != "-") std::printf("order %lld is queued\n", static_cast<long long>(id));
-  }
-  if (arguments.cancel > 0) {
-    if (!store.find(arguments.cancel))
-      throw Error(arguments.site, "holds no order " + std::to_string(arguments.cancel),
-                  "madori order DIR --list");
-    store.close(arguments.cancel, OrderState::Cancelled, "cancelled by the operator", now);
   }
   result["orders"] = nlohmann::json::array();
   for (const Order& order : store.list(!arguments.list)) {

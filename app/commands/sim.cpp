@@ -43,7 +43,7 @@ simulation::FactorySetup setup_of(const SimArguments& arguments) {
   return setup;
 }
 
-void print_devices(const simulation::Factory& factory, const simulation::DeviceHub& hub,
+void print_devices(std::FILE* out, const simulation::Factory& factory, const simulation::DeviceHub& hub,
                    std::uint16_t truth_port) {
   const auto addresses = hub.addresses();
   for (std::size_t i = 0; i < addresses.size(); ++i) {
@@ -52,11 +52,11 @@ void print_devices(const simulation::Factory& factory, const simulation::DeviceH
     const std::string dialect = cola == sensor.settings.end() ? "" : " (CoLa " + cola->second + ")";
     const char* link = sensor.type == "vlp16" ? "udp" : sensor.type == "s300" ? "pty" : "tcp";
     if (!addresses[i].empty())
-      std::printf("%-6s %-4s %s%s\n", sensor.type.c_str(), link, addresses[i].c_str(), dialect.c_str());
+      std::fprintf(out, "%-6s %-4s %s%s\n", sensor.type.c_str(), link, addresses[i].c_str(), dialect.c_str());
   }
-  std::printf("drive  pty  %s\n", hub.drive_link().c_str());
-  std::printf("truth  ws   ws://127.0.0.1:%u\n", truth_port);
-  std::fflush(stdout);
+  std::fprintf(out, "drive  pty  %s\n", hub.drive_link().c_str());
+  std::fprintf(out, "truth  ws   ws://127.0.0.1:%u\n", truth_port);
+  std::fflush(out);
 }
 
 nlohmann::json summary(const simulation::Factory& factory, const simulation::LiveReport& report,
@@ -112,8 +112,9 @@ void simulate(SimArguments arguments) {
   std::optional<CameraStream> camera;
   if (arguments.camera_port)
     camera.emplace(*arguments.camera_port, [&factory] { return to_jpeg(simulation::take_picture(factory)); });
-  if (camera) std::printf("camera http %s\n", camera->url().c_str());
-  print_devices(factory, hub, truth.port());
+  std::FILE* out = arguments.json_file == "-" ? stderr : stdout;  // stdout then holds the summary alone
+  if (camera) std::fprintf(out, "camera http %s\n", camera->url().c_str());
+  print_devices(out, factory, hub, truth.port());
   const std::atomic<bool>& interrupted = interrupted_by({SIGINT, SIGTERM});
   const auto report =
       run_live(factory, hub, truth, arguments.live, interrupted, [&](const simulation::GroundTruth& t) {

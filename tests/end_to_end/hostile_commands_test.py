@@ -3,10 +3,12 @@ asked to do without a trace elsewhere. Usage: hostile_commands_test.py MADORI DA
 
 import fcntl
 import hashlib
+import json
 import os
 import pathlib
 import shutil
 import signal
+import sqlite3
 import stat
 import subprocess
 import sys
@@ -95,6 +97,29 @@ class Commands(unittest.TestCase):
                 answer = subprocess.run([MADORI, *map(str, words)], stdout=full, stderr=subprocess.PIPE, text=True)
             self.assertEqual(answer.returncode, 1, words)
             self.assertIn("standard output", answer.stderr)
+
+    def test_an_order_that_was_delivered_is_not_said_to_be_cancelled(self):
+        for _ in range(2):
+            self.assertEqual(madori("order", self.site, "--to", "13").returncode, 0)
+        with sqlite3.connect(self.site / "madori.db") as database:
+            database.execute("UPDATE orders SET state = 'done' WHERE id = 1")
+        database.close()
+        self.refused(madori("order", self.site, "--cancel", 1), "order 1", "done")
+        self.refused(madori("order", self.site, "--to", "13", "--cancel", 9), "no order 9")
+        self.assertEqual(madori("order", self.site, "--cancel", 2).returncode, 0)
+        self.assertEqual(madori("order", self.site, "--cancel", 2).returncode, 0)  # what was asked for is so
+        self.assertEqual(madori("order", self.site).stdout, "")  # a refused call has queued nothing
+        (self.site / "madori.db").unlink()
+
+    def test_json_on_the_standard_output_is_json_alone(self):
+        scenario = self.here / "empty.yaml"
+        shutil.copy(DATA / "scenarios" / "empty.yaml", scenario)
+        for words in (("route", self.site, "--check"), ("versions", self.site), ("order", self.site), ("scale", self.site, "--known=10,10,300,10=15"),
+                      ("sim", self.site, "--scenario", scenario, "--duration", 0.1, "--lidar-port", 9, "--camera-port", 0)):
+            answer = madori(*words, "--json", "-")
+            self.assertEqual(answer.returncode, 0, answer.stderr)
+            json.loads(answer.stdout)
+        (self.site / "madori.db").unlink()
 
     def test_an_order_whose_answer_nobody_reads_is_said_to_be_queued(self):
         reader, writer = os.pipe()
