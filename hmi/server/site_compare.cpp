@@ -21,6 +21,7 @@ Pieces version_walls(const fs::path& site, const mapping::SiteVersion& version) 
   Pieces walls;
   const auto found = version.files.find("walls.csv");
   if (found == version.files.end()) return walls;
+  (void)mapping::version_file(site, version, "walls.csv");  // throws where it is damaged
   for (const auto& wall : mapping::load_walls(site / "versions/objects" / found->second))
     walls.push_back(wall.segment);
   return walls;

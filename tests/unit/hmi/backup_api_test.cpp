@@ -60,6 +60,16 @@ TEST_F(BackupApiTest, ABackupIsRestoredAndNoVersionIsLost) {
   EXPECT_EQ(sentences(), (std::vector<std::string>{"drawing, walls", "walls", "backup restored"}));
 }
 
+TEST_F(BackupApiTest, ADamagedVersionIsNotCompared) {
+  erase_walls(1);
+  EXPECT_EQ(get("/api/site/versions/1/against/2")["gone"].size(), 1U);
+  const std::string walls = mapping::site_version(site(), 2).files.at("walls.csv");
+  mapping::write_new_file(site() / "versions/objects" / walls, "x1_m,y1_m,x2_m,y2_m\n0,0,1,0\n");
+  const auto refused = call("GET", "/api/site/versions/1/against/2", "");
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_NE(refused.body.find("version 2 lost its walls.csv, or it is damaged"), std::string::npos);
+}
+
 TEST_F(BackupApiTest, WhatIsNoBackupChangesNothing) {
   const std::string backup = call("GET", "/api/site/download").body;
   const json site_before = get("/api/site/walls");
