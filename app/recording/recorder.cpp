@@ -1,6 +1,7 @@
 #include "app/recording/recorder.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cctype>
@@ -139,15 +140,30 @@ void Recorder::remember(const std::vector<sensors::RawPacket>& packets) {
   while (newest_.size() > kRevolutionPackets) newest_.pop_front();
 }
 
+/// Where older bags cannot be linked or removed the recording goes on all the same.
 void Recorder::end_segment() {
   bag_->close();
   bag_.reset();
-  if (std::exchange(keep_, false)) {
-    keep(bag_name(number_));
-    if (number_ > 0) keep(bag_name(number_ - 1));
+  try {
+    tidy(number_++);
+  } catch (const std::exception& e) {
+    tell(e.what());
   }
-  ++number_;
+}
+
+void Recorder::tidy(int ended) {
+  if (std::exchange(keep_, false)) {
+    keep(bag_name(ended));
+    if (ended > 0) keep(bag_name(ended - 1));
+  }
   make_room(folder_, options_.room);
+}
+
+void Recorder::tell(const std::string& problem) {
+  if (problem == problem_) return;  // nobody else writes it
+  spdlog::warn("recording: {}", problem);
+  const std::scoped_lock lock(mutex_);
+  problem_ = problem;
 }
 
 void Recorder::keep(const fs::path& bag) const {
@@ -208,27 +224,24 @@ void Recorder::run(const std::stop_token& stop) {
   while (wake_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
     const auto batch = std::exchange(waiting_, {});
     lock.unlock();
-    std::string problem;
     std::uint64_t failed = 0;
     for (const Record& record : batch) {
       try {
         if (!write(record)) ++failed;
       } catch (const std::exception& e) {
-        problem = e.what();
+        tell(e.what());
         ++failed;
         give_up_segment();
       }
     }
     lock.lock();
     lost_ += failed;
-    if (!problem.empty()) problem_ = problem;
   }
   lock.unlock();
   try {
     if (bag_) end_segment();
   } catch (const std::exception& e) {
-    const std::scoped_lock relock(mutex_);
-    problem_ = e.what();
+    tell(e.what());
   }
   bag_.reset();
 }

@@ -65,7 +65,7 @@ class Recorder {
   void add(const CycleInput& input, const CycleOutput& output, const CycleState& state);
   /// Steps that were lost because the disk was too slow or failed.
   [[nodiscard]] std::uint64_t lost() const;
-  /// The disk's last complaint; empty when there is none.
+  /// The disk's last complaint, which is logged too; empty when there is none.
   [[nodiscard]] std::string problem() const;
 
  private:
@@ -88,6 +88,8 @@ class Recorder {
   void remember(const std::vector<sensors::RawPacket>& packets);
   void begin_segment(Stamp at);
   void end_segment();
+  void tidy(int ended);
+  void tell(const std::string& problem);
   void keep(const std::filesystem::path& bag) const;
   [[nodiscard]] std::filesystem::path bag_name(int number) const;
 
