@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/recording/bag_room.hpp"
 #include "app/recording/input_text.hpp"
 #include "app/recording/recorder.hpp"
 #include "app/recording/state_bytes.hpp"
@@ -27,17 +28,9 @@ std::vector<fs::path> bags_of(const fs::path& run) {
   if (fs::is_directory(run))
     for (const auto& entry : fs::directory_iterator(run))
       if (entry.path().extension() == ".bag") bags.push_back(entry.path());
-  std::sort(bags.begin(), bags.end());
+  std::ranges::sort(bags, {}, [](const fs::path& bag) { return std::pair(bag_number(bag), bag); });
   if (bags.empty()) throw Error(run.string(), "holds no bag", "name a folder below SITE/runs");
   return bags;
-}
-
-/// The number in NNN.bag; -1 for other names.
-int number_of(const fs::path& bag) {
-  const std::string stem = bag.stem().string();
-  const bool digits =
-      !stem.empty() && stem.size() < 9 && stem.find_first_not_of("0123456789") == std::string::npos;
-  return digits ? std::stoi(stem) : -1;
 }
 
 std::vector<std::string> replayed_topics(const CycleConfig& config) {
@@ -222,8 +215,8 @@ void play(const fs::path& run, const CycleConfig& config, Player& player) {
   };
   int expected = 0;
   for (const fs::path& bag : bags_of(run)) {
-    if (number_of(bag) != expected) player.begin_anew();
-    expected = number_of(bag) + 1;
+    if (bag_number(bag) != expected) player.begin_anew();
+    expected = bag_number(bag) + 1;
     try {
       bridge::Input input(bag.string());
       input.choose(replayed_topics(config));

@@ -2,12 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <future>
 #include <memory>
 #include <utility>
 
-#include "app/iso_time.hpp"
 #include "app/learned/kept_memory.hpp"
 #include "app/lidars.hpp"
 #include "app/panel/panel.hpp"
@@ -26,13 +24,6 @@
 namespace madori::app {
 namespace {
 
-/// The name of a run's folder: the time at which it began, without colons.
-std::string run_name() {
-  std::string name = iso_time_utc();
-  std::replace(name.begin(), name.end(), ':', '-');
-  return name;
-}
-
 /// The recording of each run, and the panel that looks on.
 class Onlookers {
  public:
@@ -42,7 +33,7 @@ class Onlookers {
   void begin(TransportRun& run, const std::string& memory, Panel* panel) {
     end();
     if (options_.record) {
-      folder_ = options_.site / "runs" / run_name();
+      folder_ = new_run(options_.site / "runs");
       RecorderOptions recording;
       recording.lidars = run.config().lidars;
       recorder_ = std::make_unique<Recorder>(folder_, recording);

@@ -210,6 +210,68 @@ TEST(Recording, AllRunsShareTheLimitAndTheOldestGo) {
   EXPECT_EQ(files_below(runs), (Names{"c", "c/001.bag", "c/002.bag", "notes.txt"})) << "the disk is full";
 }
 
+/// 999.bag was written before the time of day was set back by hours, and a run before by a clock ahead of it.
+TEST(Recording, WhatIsRecordedNowIsTheNewestWhateverTheClockSaid) {
+  const test::TemporaryFolder folder;
+  const fs::path runs = folder.path() / "runs", now = runs / "now";
+  const auto write = [&](const fs::path& bag, int hours) {
+    fs::create_directories(bag.parent_path());
+    folder.write(bag, "0123456789");
+    fs::last_write_time(bag, fs::file_time_type::clock::now() + std::chrono::hours(hours));
+  };
+  write(runs / "before" / "000.bag", 20);
+  write(runs / "before" / "stops" / "000.bag", 20);
+  for (const fs::path& of : {now, now / "stops"}) {
+    write(of / "998.bag.active", 9);
+    write(of / "999.bag", 10);
+    write(of / "1000.bag", 1);
+    write(of / "1001.bag", 2);
+  }
+  make_room(now, {20, 30, 0});
+  EXPECT_EQ(files_below(runs),
+            (std::vector<std::string>{"now", "now/1000.bag", "now/1001.bag", "now/stops",
+                                      "now/stops/1000.bag", "now/stops/1001.bag", "now/stops/999.bag"}));
+}
+
+TEST(Recording, ARunWithoutBagsLeavesNothing) {
+  const test::TemporaryFolder folder;
+  lay_out_runs(folder);
+  for (const char* run : {"a", "b", "c"})
+    folder.write(std::string("runs/") + run + "/memory.bin", "what it began with");
+  folder.write("runs/b/000.bag.active", "x");
+  make_room(folder.path() / "runs/c", {31, 0, 0});
+  EXPECT_EQ(files_below(folder.path() / "runs"),
+            (std::vector<std::string>{"b", "b/000.bag.active", "b/memory.bin", "c", "c/000.bag", "c/001.bag",
+                                      "c/002.bag", "c/memory.bin", "notes.txt"}));
+}
+
+TEST(Recording, TwoRunsOfTheSameSecondHaveTwoFolders) {
+  const test::TemporaryFolder folder;
+  std::vector<fs::path> runs;
+  for (int i = 0; i < 4; ++i) {
+    runs.push_back(new_run(folder.path()));
+    EXPECT_FALSE(fs::exists(runs.back())) << "another run's bags would be overwritten";
+    fs::create_directories(runs.back());
+  }
+  EXPECT_TRUE(std::is_sorted(runs.begin(), runs.end())) << "the panel lists them by their names";
+}
+
+/// Nothing can be kept around a stop, and among the runs lies what is no bag: no step is lost for that.
+TEST(Recording, WhatCannotBeTidiedCostsNoSteps) {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder.path() / "runs/earlier/unpacked.bag");
+  fs::create_directories(folder.path() / "runs/now");
+  folder.write("runs/now/stops", "a file where a folder is to be");
+  RecorderOptions options;
+  options.max_waiting = 1'000'000;
+  options.segment_s = 1.0;
+  record_run(folder.path() / "runs/now", options);
+  const auto result = replay(folder.path() / "runs/now", config(), std::make_unique<WheelPose>());
+  EXPECT_FALSE(result.recorded_poses) << "no bag is missing";
+  EXPECT_EQ(result.different, 0U) << "first at step " << result.first_different;
+  EXPECT_GT(result.steps, 500U);
+}
+
 TEST(Recording, AFolderThatIsGoneIsSaid) {
   const test::TemporaryFolder folder;
   EXPECT_THROW(make_room(folder.path() / "runs/c", {50, 20, 0}), Error);
@@ -223,6 +285,31 @@ TEST(Recording, OutsideOfAFolderOfRunsNothingElseIsTouched) {
   make_room(folder.path() / "run", {0, 0, std::numeric_limits<std::uintmax_t>::max()});
   EXPECT_TRUE(fs::exists(folder.path() / "other.bag"));
   EXPECT_TRUE(fs::exists(folder.path() / "run/000.bag"));
+}
+
+/// After 8 h a number has four digits.
+TEST(Recording, AThousandBagsReplayInTheirOrder) {
+  const test::TemporaryFolder folder;
+  RecorderOptions options;
+  options.max_waiting = 1'000'000;
+  options.segment_s = 5.0;
+  const fs::path run = folder.path() / "run";
+  record_run(run, options);
+  fs::remove_all(run / "stops");
+  int bags = 0;
+  while (fs::exists(run / ("00" + std::to_string(bags) + ".bag"))) ++bags;
+  ASSERT_GT(bags, 4);
+  ASSERT_LT(bags, 10);
+  for (int i = 0; i < bags; ++i)
+    fs::rename(run / ("00" + std::to_string(i) + ".bag"), run / (std::to_string(998 + i) + ".bag"));
+  fs::remove(run / "998.bag");  // it had to make room
+  std::vector<Stamp> times;
+  look_at_inputs(run, config(), [&](const CycleInput& input) { times.push_back(input.now); });
+  EXPECT_GT(times.size(), 400U);
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  const auto result = replay(run, config(), std::make_unique<WheelPose>());
+  EXPECT_EQ(result.different, 0U) << "first at step " << result.first_different;
+  EXPECT_NEAR(result.recorded_s, to_seconds(times.back() - times.front()), 1e-9);
 }
 
 TEST(Recording, ACutOutReplaysBitForBit) {
