@@ -80,6 +80,20 @@ TEST_F(OrderDeskTest, AFolderThatIsGoneIsSaidAndTheVehicleStaysWithTheOrderThatI
   EXPECT_EQ(store.stops_done(), 1) << "what was reported meanwhile is not lost";
 }
 
+TEST_F(OrderDeskTest, WhatStoppedNothingEndsNoOrderThatBeginsLater) {
+  const auto folder = folder_.path() / "site", elsewhere = folder_.path() / "elsewhere";
+  std::filesystem::create_directory(folder);
+  OrderStore store(folder / "madori.db");
+  const auto id = store.add({{1}}, 1, now_);
+  OrderDesk desk(folder / "madori.db", {.lock_step = true, .poll_s = 0.0});
+  std::filesystem::rename(folder, elsewhere);
+  desk.cancel_running("stopped at the panel", now_);  // is written once the folder is back
+  std::filesystem::rename(elsewhere, folder);
+  const auto begun = tick_until(desk, is_running);
+  EXPECT_EQ(begun->id, id);
+  EXPECT_EQ(store.find(id)->state, OrderState::Running) << "the look that wrote the stop began none";
+}
+
 TEST_F(OrderDeskTest, ProgramsThatOpenItAtOnceWaitForOneAnother) {
   for (int round = 0; round < 40; ++round) {
     const auto file = folder_.path() / (std::to_string(round) + ".db");
