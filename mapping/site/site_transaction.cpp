@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -60,14 +61,24 @@ void require_site_name(const fs::path& site, const std::string& name) {
     throw Error(site.string(), "has no file of the name " + name, "choose another name");
 }
 
-/// What was committed must come to pass: a folder where a file is to be, or a file where its folder is to
-/// be, would stop it half way, and every command after it.
+/// Whether both are there on one disk: nothing is renamed from one to another.
+bool are_on_one_disk(const fs::path& a, const fs::path& b) {
+  struct stat one {};
+  struct stat other {};
+  return ::stat(a.c_str(), &one) == 0 && ::stat(b.c_str(), &other) == 0 && one.st_dev == other.st_dev;
+}
+
+/// What was committed must come to pass: a folder where a file is to be, or where its folder is to be a file
+/// or a link to nothing or to another disk, would stop it half way, and every command after it.
 void require_room_for(const fs::path& site, const std::string& name) {
   bool free = !fs::is_directory(site / name);
   for (fs::path part = fs::path(name).parent_path(); free && !part.empty(); part = part.parent_path())
-    free = !fs::exists(site / part) || fs::is_directory(site / part);
+    free = !fs::exists(fs::symlink_status(site / part)) ||
+           (fs::is_directory(site / part) && are_on_one_disk(site / part, site / kStaging));
   if (!free)
-    throw Error((site / name).string(), "cannot be written: a file or folder of the site is in its way",
+    throw Error((site / name).string(),
+                "cannot be written: a file or folder of the site is in its way, or its folder is a link to "
+                "another disk",
                 "move that away");
 }
 

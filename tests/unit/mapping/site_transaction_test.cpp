@@ -110,6 +110,30 @@ TEST(SiteTransaction, ANameThatLeavesTheSiteOrEndsALineOfItsJournalIsRefused) {
   EXPECT_EQ(file_content(beside), "untouched");
 }
 
+/// Likewise: a rename to another disk fails, and would at every later command.
+TEST(SiteTransaction, AFolderThatIsALinkToNothingOrToAnotherDiskIsToldWithTheSiteAsItWas) {
+  const test::TemporaryFolder folder;
+  const fs::path site = folder.path() / "site",
+                 other = "/dev/shm/madori-" + folder.path().filename().string();
+  fs::create_directories(site);
+  const bool is_other = fs::create_directory(other) && ::access(other.c_str(), W_OK) == 0;
+  for (const fs::path& to : {folder.path() / "unmounted", other}) {
+    if (to == other && !is_other) continue;
+    fs::create_symlink(to, site / "routes");
+    {
+      SiteTransaction change(site);
+      change.write("note.txt", "new");
+      change.write("routes/tree.csv", "ID,EDA\n0,0\n");
+      EXPECT_THROW(change.commit(), Error) << to;
+    }
+    EXPECT_FALSE(fs::exists(site / "note.txt")) << to;
+    EXPECT_FALSE(is_being_changed(site)) << to;
+    EXPECT_NO_THROW(recover_site(site)) << to;
+    fs::remove(site / "routes");
+  }
+  fs::remove_all(other);
+}
+
 /// Before the commit, not half way through it.
 TEST(SiteTransaction, WhatIsInTheWayOfAFileIsToldWithTheSiteAsItWas) {
   const test::TemporaryFolder folder;
