@@ -89,8 +89,7 @@ TEST_F(OrderDeskTest, WhatStoppedNothingEndsNoOrderThatBeginsLater) {
   std::filesystem::rename(folder, elsewhere);
   desk.cancel_running("stopped at the panel", now_);  // is written once the folder is back
   std::filesystem::rename(elsewhere, folder);
-  const auto begun = tick_until(desk, is_running);
-  EXPECT_EQ(begun->id, id);
+  for (int i = 0; i < 5; ++i) (void)desk.order(now_ += kTick, true);
   EXPECT_EQ(store.find(id)->state, OrderState::Running) << "the look that wrote the stop began none";
 }
 
