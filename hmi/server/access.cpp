@@ -145,9 +145,7 @@ void Access::set_pin(Role role, const std::string& pin) {
   hashes[role] = hash.data();
   std::string text;
   for (const auto& [r, h] : hashes) text += std::string(to_string(r)) + ' ' + h + '\n';
-  mapping::write_file_atomically(pin_file_, text);
-  std::filesystem::permissions(pin_file_,
-                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  mapping::write_file_atomically(pin_file_, text, mapping::Secrecy::OwnerOnly);
   hashes_ = std::move(hashes);
   std::erase_if(sessions_, [&](const auto& s) { return s.second.role == role; });
 }

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "core/result.hpp"
@@ -37,11 +38,16 @@ bool write_and_close(int descriptor, std::string_view content, bool sync) {
   return good;
 }
 
-/// Writes `path` anew; on failure it is removed and the Error names `file`.
+constexpr mode_t kForAll = 0644, kForOwner = 0600;
+
+/// Writes `path` anew; on failure it is removed and the Error names `file`. With these permissions, or those
+/// of a new file.
 void write_whole(const std::string& path, const std::filesystem::path& file, std::string_view content,
-                 bool sync) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+                 bool sync, std::optional<mode_t> mode = {}) {
+  const int descriptor =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode ? kForOwner : kForAll);
   if (descriptor < 0) fail(file, "cannot be written");
+  if (mode) (void)::fchmod(descriptor, *mode);
   errno = 0;
   if (write_and_close(descriptor, content, sync)) return;
   const int error = errno;
@@ -96,12 +102,16 @@ void write_file_atomically(const std::filesystem::path& file, std::span<const st
                         std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
 }
 
-void write_file_atomically(const std::filesystem::path& named, std::string_view content) {
+void write_file_atomically(const std::filesystem::path& named, std::string_view content, Secrecy secrecy) {
   struct stat there {};
-  if (::stat(named.c_str(), &there) == 0 && !S_ISREG(there.st_mode)) return write_into(named, content);
+  const bool exists = ::stat(named.c_str(), &there) == 0;
+  if (exists && !S_ISREG(there.st_mode)) return write_into(named, content);
+  std::optional<mode_t> mode;
+  if (exists) mode = there.st_mode & 0777U;
+  if (secrecy == Secrecy::OwnerOnly) mode = kForOwner;
   const std::filesystem::path file = end_of_links(named);
   const std::string temporary = temporary_of(file);
-  write_whole(temporary, named, content, true);
+  write_whole(temporary, named, content, true, mode);
   if (::rename(temporary.c_str(), file.c_str()) != 0) {
     const int error = errno;
     ::unlink(temporary.c_str());

@@ -10,9 +10,11 @@ namespace madori::mapping {
 
 /// Writes the whole file or leaves the old one: temporary file beside it, fsync, rename, fsync of the folder.
 /// A symbolic link stays: the file that it leads to is replaced. What is no regular file (a device, a pipe)
-/// is never replaced: it is written into. Throws Error (disk full, no permission) and leaves no temporary
-/// file.
-void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+/// is never replaced: it is written into. Who may read and write it may still; a secret is its owner's from
+/// its first byte on. Throws Error (disk full, no permission) and leaves no temporary file.
+enum class Secrecy { None, OwnerOnly };
+void write_file_atomically(const std::filesystem::path& file, std::string_view content,
+                           Secrecy secrecy = Secrecy::None);
 void write_file_atomically(const std::filesystem::path& file, std::span<const std::uint8_t> content);
 
 /// Throws the Error that write_file_atomically() would throw of a path that cannot be written; writes

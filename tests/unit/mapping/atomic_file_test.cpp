@@ -90,6 +90,22 @@ TEST_F(AtomicFile, ALinkStaysAndWhatItLeadsToIsReplaced) {
   EXPECT_EQ(file_content(at("far/later.json")), "made");
 }
 
+TEST_F(AtomicFile, WhoMayReadItMayStillAndASecretIsItsOwners) {
+  const auto mode = [](const fs::path& file) {
+    return static_cast<unsigned>(fs::status(file).permissions());
+  };
+  for (const unsigned before : {0600U, 0640U, 0664U}) {
+    folder_.write("file", "old");
+    fs::permissions(at("file"), static_cast<fs::perms>(before));
+    write_file_atomically(at("file"), std::string_view("new"));
+    EXPECT_EQ(mode(at("file")), before);
+    write_file_atomically(at("file"), std::string_view("secret"), Secrecy::OwnerOnly);
+    EXPECT_EQ(mode(at("file")), 0600U);
+  }
+  write_file_atomically(at("fresh"), std::string_view("secret"), Secrecy::OwnerOnly);
+  EXPECT_EQ(mode(at("fresh")), 0600U);
+}
+
 TEST_F(AtomicFile, AFolderIsRefusedAndNothingIsLeft) {
   fs::create_directory(at("folder"));
   EXPECT_THROW(write_file_atomically(at("folder"), std::string_view("x")), Error);
