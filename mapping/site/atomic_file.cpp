@@ -130,6 +130,7 @@ std::string file_content(const std::filesystem::path& file) {
   constexpr std::size_t kBlock = std::size_t{1} << 18U;
   std::ifstream stream(file, std::ios::binary);
   std::string content;
+  if (!stream && errno != ENOENT && errno != ENOTDIR) fail(file, "cannot be read");
   std::error_code unknown;
   const auto size = std::filesystem::file_size(file, unknown);
   if (!unknown) content.reserve(size + kBlock);
@@ -138,6 +139,7 @@ std::string file_content(const std::filesystem::path& file) {
     stream.read(content.data() + read, static_cast<std::streamsize>(kBlock));
     read += static_cast<std::size_t>(stream.gcount());
   }
+  if (stream.bad()) fail(file, "cannot be read");
   return content;
 }
 

@@ -24,7 +24,7 @@ void expect_writable(const std::filesystem::path& file);
 /// Writes a file that nobody reads yet; neither atomic nor synced. Throws Error as above, with nothing left.
 void write_new_file(const std::filesystem::path& file, std::string_view content);
 
-/// All bytes of a file; empty where it cannot be opened.
+/// All bytes of a file; empty where there is none. Throws Error where it cannot be read.
 [[nodiscard]] std::string file_content(const std::filesystem::path& file);
 
 }  // namespace madori::mapping

@@ -106,6 +106,14 @@ TEST_F(AtomicFile, WhoMayReadItMayStillAndASecretIsItsOwners) {
   EXPECT_EQ(mode(at("fresh")), 0600U);
 }
 
+TEST_F(AtomicFile, WhatCannotBeReadIsNotEmpty) {
+  EXPECT_EQ(file_content(at("absent")), "");
+  EXPECT_EQ(file_content(at("absent/below")), "");
+  EXPECT_THROW((void)file_content(folder_.path()), Error);
+  fs::create_symlink("itself", at("itself"));
+  EXPECT_THROW((void)file_content(at("itself")), Error);
+}
+
 TEST_F(AtomicFile, AFolderIsRefusedAndNothingIsLeft) {
   fs::create_directory(at("folder"));
   EXPECT_THROW(write_file_atomically(at("folder"), std::string_view("x")), Error);
