@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace madori::sensors {
 struct RawPacket {
   Stamp received{};
   std::vector<std::uint8_t> bytes;
+  std::size_t lidar = 0;  ///< whose: its place among the vehicle's
 
   friend bool operator==(const RawPacket&, const RawPacket&) = default;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <exception>
+#include <map>
 #include <utility>
 
 #include "app/recording/input_text.hpp"
@@ -42,10 +43,14 @@ CycleInput without_clouds(const CycleInput& in) {
   return input;
 }
 
-/// Packets are kept of one lidar, the spinning one.
-std::size_t packet_lidar(const std::vector<LidarModel>& lidars) {
-  const auto spinning = std::ranges::find(lidars, LidarKind::Spinning, &LidarModel::kind);
-  return spinning == lidars.end() ? 0 : static_cast<std::size_t>(spinning - lidars.begin());
+std::size_t spinning_before(const std::vector<LidarModel>& lidars, std::size_t lidar) {
+  const auto until = lidars.begin() + static_cast<std::ptrdiff_t>(std::min(lidar, lidars.size()));
+  return static_cast<std::size_t>(std::count_if(
+      lidars.begin(), until, [](const LidarModel& model) { return model.kind == LidarKind::Spinning; }));
+}
+
+std::string numbered(const char* topic, std::size_t number) {
+  return number == 0 ? topic : fmt::format("{}/{}", topic, number);
 }
 
 }  // namespace
@@ -58,7 +63,11 @@ std::string lidar_frame(const LidarModel& lidar) {
 }
 
 std::string scan_topic(std::size_t lidar) {
-  return lidar == 0 ? kScanTopic : std::string(kScanTopic) + "/" + std::to_string(lidar);
+  return numbered(kScanTopic, lidar);
+}
+
+std::string packet_topic(const char* topic, const std::vector<LidarModel>& lidars, std::size_t lidar) {
+  return numbered(topic, spinning_before(lidars, lidar));
 }
 
 Recorder::Recorder(fs::path folder, const RecorderOptions& options)
@@ -137,7 +146,8 @@ void Recorder::begin_segment(Stamp at) {
 
 void Recorder::remember(const std::vector<sensors::RawPacket>& packets) {
   newest_.insert(newest_.end(), packets.begin(), packets.end());
-  while (newest_.size() > kRevolutionPackets) newest_.pop_front();
+  const std::size_t spinning = spinning_before(options_.lidars, options_.lidars.size());
+  while (newest_.size() > kRevolutionPackets * std::max<std::size_t>(1, spinning)) newest_.pop_front();
 }
 
 /// Where older bags cannot be linked or removed the recording goes on all the same.
@@ -172,10 +182,16 @@ void Recorder::keep(const fs::path& bag) const {
   if (fs::exists(bag) && !fs::exists(kept)) fs::create_hard_link(bag, kept);
 }
 
+void Recorder::write_packets(const char* topic, const std::vector<sensors::RawPacket>& packets, Stamp at) {
+  std::map<std::size_t, std::vector<sensors::RawPacket>> by_lidar;
+  for (const sensors::RawPacket& packet : packets) by_lidar[packet.lidar].push_back(packet);
+  for (const auto& [lidar, some] : by_lidar)
+    bag_->write(packet_topic(topic, options_.lidars, lidar), some, lidar, at);
+}
+
 void Recorder::write_step(const Record& record) {
   const Stamp now = record.input.now;
-  if (!record.input.packets.empty())
-    bag_->write(kPacketTopic, record.input.packets, packet_lidar(options_.lidars), now);
+  write_packets(kPacketTopic, record.input.packets, now);
   if (record.thinned) bag_->write(kThinTopic, *record.thinned);
   for (const auto& cloud : record.input.clouds) bag_->write(kCloudTopic, cloud);
   for (const auto& scan : record.input.scans) bag_->write(scan_topic(scan.lidar), scan, now);
@@ -203,9 +219,7 @@ bool Recorder::write(const Record& record) {
   const Stamp after = record.input.now + Duration(1);  // before everything of the next step
   begin_segment(after);
   bag_->write(kStateTopic, record.state, after);
-  if (!newest_.empty())
-    bag_->write(kEarlierTopic, std::vector<sensors::RawPacket>(newest_.begin(), newest_.end()),
-                packet_lidar(options_.lidars), after);
+  write_packets(kEarlierTopic, {newest_.begin(), newest_.end()}, after);
   return kept;
 }
 

@@ -23,7 +23,7 @@ namespace madori::app {
 
 /// Topics of a recording. Those of /madori are std_msgs/String. Revolutions are recorded as the packets that
 /// they came in, a few of them thinned for the eye too; whole clouds only where a link knows no packets.
-inline constexpr const char* kPacketTopic = "/velodyne_packets";
+inline constexpr const char* kPacketTopic = "/velodyne_packets";  ///< /velodyne_packets/1 ... of further ones
 inline constexpr const char* kEarlierTopic =
     "/velodyne_packets_before";  ///< of the bag before, to begin with
 inline constexpr const char* kThinTopic = "/velodyne_points_thin";
@@ -41,6 +41,9 @@ inline constexpr const char* kEventTopic = "/madori/event";
 [[nodiscard]] std::string lidar_frame(const LidarModel& lidar);
 /// Of the lidar at that place among the vehicle's.
 [[nodiscard]] std::string scan_topic(std::size_t lidar);
+/// Of one of `lidars`: kPacketTopic or kEarlierTopic, with its number among those that spin.
+[[nodiscard]] std::string packet_topic(const char* topic, const std::vector<LidarModel>& lidars,
+                                       std::size_t lidar);
 
 struct RecorderOptions {
   std::vector<LidarModel> lidars{};  ///< the vehicle's, in the order in which scans and clouds name them
@@ -84,6 +87,7 @@ class Recorder {
   void run(const std::stop_token& stop);
   bool write(const Record& record);
   void write_step(const Record& record);
+  void write_packets(const char* topic, const std::vector<sensors::RawPacket>& packets, Stamp at);
   void give_up_segment();
   void remember(const std::vector<sensors::RawPacket>& packets);
   void begin_segment(Stamp at);

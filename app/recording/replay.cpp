@@ -34,9 +34,12 @@ std::vector<fs::path> bags_of(const fs::path& run) {
 }
 
 std::vector<std::string> replayed_topics(const CycleConfig& config) {
-  std::vector<std::string> topics{kPacketTopic, kEarlierTopic, kCloudTopic,
-                                  kStateTopic,  kInputTopic,   kCommandTopic};
-  for (std::size_t i = 0; i < config.lidars.size(); ++i) topics.push_back(scan_topic(i));
+  std::vector<std::string> topics{kCloudTopic, kStateTopic, kInputTopic, kCommandTopic};
+  for (std::size_t i = 0; i < config.lidars.size(); ++i) {
+    topics.push_back(scan_topic(i));
+    for (const char* topic : {kPacketTopic, kEarlierTopic})
+      topics.push_back(packet_topic(topic, config.lidars, i));
+  }
   return topics;
 }
 
@@ -71,9 +74,7 @@ class Player {
     state_ = CycleState(config_, std::make_unique<RecordedPose>(pose_));
     clouds_.clear();
     scans_.clear();
-    revolutions_.clear();
-    decoder_ = decoder();
-    assembled_any_ = false;
+    assemblies_ = assemblies();
     result_.recorded_poses = awaits_state_ = true;
   }
   void take_state(const std::string& bytes) {
@@ -85,14 +86,16 @@ class Player {
     for (std::size_t i = 0; i < config_.lidars.size(); ++i)
       if (topic == scan_topic(i)) scans_[i].push_back(scan.ranges);
   }
-  void take_packets(const std::vector<bridge::Packet>& packets) {
-    if (!decoder_) return;
-    for (const auto& packet : packets) decoder_->push(packet.bytes, Stamp(Duration(packet.received_ns)));
-    assembled_any_ = assembled_any_ || !packets.empty();
-  }
-  /// The packets before the first bag's: the revolution that was under way when it began.
-  void take_earlier(const std::vector<bridge::Packet>& packets) {
-    if (!assembled_any_) take_packets(packets);
+  /// Those of the bag before tell of the revolution that was under way when the first bag began.
+  void take_packets(const std::string& topic, const std::vector<bridge::Packet>& packets) {
+    for (auto& [lidar, assembly] : assemblies_) {
+      const bool earlier = topic == packet_topic(kEarlierTopic, config_.lidars, lidar);
+      if (!earlier && topic != packet_topic(kPacketTopic, config_.lidars, lidar)) continue;
+      if (earlier && assembly.begun) return;
+      for (const auto& packet : packets)
+        assembly.decoder->push(packet.bytes, Stamp(Duration(packet.received_ns)));
+      assembly.begun = assembly.begun || !packets.empty();
+    }
   }
   void take_cloud(const bridge::Cloud& message) {
     auto cloud = sensors::cloud_from_fields(message);
@@ -134,22 +137,30 @@ class Player {
   [[nodiscard]] const ReplayResult& result() const { return result_; }
 
  private:
-  /// Of the lidar whose packets are recorded as they came; null where there is none.
-  std::unique_ptr<sensors::LidarDecoder> decoder() {
-    for (const LidarModel& lidar : config_.lidars) {
-      const auto* row = sensors::find_lidar(lidar.type);
+  /// Of a lidar whose packets are recorded as they came.
+  struct Assembly {
+    std::unique_ptr<sensors::LidarDecoder> decoder;
+    std::deque<sensors::LidarSweep> revolutions;
+    bool begun = false;
+  };
+  std::map<std::size_t, Assembly> assemblies() {
+    std::map<std::size_t, Assembly> made;
+    for (std::size_t i = 0; i < config_.lidars.size(); ++i) {
+      const auto* row = sensors::find_lidar(config_.lidars[i].type);
       if (row == nullptr || !row->keeps_bytes) continue;
       sensors::LidarSettings settings;
-      settings.name = lidar.name;
-      settings.mounting = lidar.mounting;
-      return row->decoder(settings, [this](sensors::LidarSweep& s) { revolutions_.push_back(std::move(s)); });
+      settings.name = config_.lidars[i].name;
+      settings.mounting = config_.lidars[i].mounting;
+      made[i].decoder = row->decoder(settings, [this, i](sensors::LidarSweep& sweep) {
+        assemblies_[i].revolutions.push_back(std::move(sweep));
+      });
     }
-    return nullptr;
+    return made;
   }
   CycleInput next_input() {
     CycleInput input = input_from_text(input_);
     for (const RecordedCloud& recorded : clouds_of_text(input_)) {
-      input.clouds.push_back(recorded.firing_us ? assembled(*recorded.firing_us) : cloud());
+      input.clouds.push_back(recorded.firing_us ? assembled(recorded.lidar, *recorded.firing_us) : cloud());
       input.clouds.back().stamp = recorded.stamp;
       input.clouds.back().lidar = recorded.lidar;
     }
@@ -169,10 +180,11 @@ class Player {
     return next;
   }
   /// The revolution that began at this time of the lidar; those before it never reached the cycle.
-  PointCloud<Lidar> assembled(std::int64_t firing_us) {
-    while (!revolutions_.empty()) {
-      sensors::LidarSweep next = std::move(revolutions_.front());
-      revolutions_.pop_front();
+  PointCloud<Lidar> assembled(std::size_t lidar, std::int64_t firing_us) {
+    std::deque<sensors::LidarSweep>& revolutions = assemblies_[lidar].revolutions;
+    while (!revolutions.empty()) {
+      sensors::LidarSweep next = std::move(revolutions.front());
+      revolutions.pop_front();
       auto* cloud = std::get_if<PointCloud<Lidar>>(&next.seen);
       if (cloud != nullptr && next.device_us == firing_us) return std::move(*cloud);
     }
@@ -183,12 +195,10 @@ class Player {
   CycleState state_;
   std::deque<PointCloud<Lidar>> clouds_;
   std::map<std::size_t, std::deque<std::vector<float>>> scans_;  ///< ranges, by lidar
-  std::deque<sensors::LidarSweep> revolutions_;
-  std::unique_ptr<sensors::LidarDecoder> decoder_ = decoder();
+  std::map<std::size_t, Assembly> assemblies_ = assemblies();
   InputLook look_;
   PoseEstimate pose_;  ///< of the step at hand, where poses are those of the recording
   bool awaits_state_ = false;
-  bool assembled_any_ = false;
   Stamp begun_{};
   std::string input_;
   std::map<Stamp, std::string> recorded_;
@@ -205,8 +215,7 @@ void play(const fs::path& run, const CycleConfig& config, Player& player) {
   sinks.cloud = [&](const std::string&, const bridge::Cloud& cloud) { player.take_cloud(cloud); };
   sinks.scan = [&](const std::string& topic, const bridge::Scan& scan) { player.take_scan(topic, scan); };
   sinks.packets = [&](const std::string& topic, const std::vector<bridge::Packet>& packets) {
-    if (topic == kPacketTopic) player.take_packets(packets);
-    if (topic == kEarlierTopic) player.take_earlier(packets);
+    player.take_packets(topic, packets);
   };
   sinks.text = [&](const std::string& topic, const std::string& text) {
     if (topic == kStateTopic) player.take_state(text);

@@ -111,9 +111,9 @@ void SocketLink::take_sweep(std::size_t lidar, sensors::LidarSweep& sweep) {
   firings_us_.push_back(sweep.device_us);
 }
 
-void SocketLink::take_bytes(std::span<const std::uint8_t> bytes, Stamp received) {
+void SocketLink::take_bytes(std::size_t lidar, std::span<const std::uint8_t> bytes, Stamp received) {
   const std::scoped_lock lock(mutex_);
-  if (packets_.size() < kMostPackets) packets_.push_back({received, {bytes.begin(), bytes.end()}});
+  if (packets_.size() < kMostPackets) packets_.push_back({received, {bytes.begin(), bytes.end()}, lidar});
 }
 
 void SocketLink::set_sensors(const std::vector<mapping::SensorRecord>& sensors) {
@@ -136,9 +136,9 @@ void SocketLink::set_sensors(const std::vector<mapping::SensorRecord>& sensors) 
         [this, i, drives](sensors::LidarSweep& sweep) {
           if (drives) take_sweep(i, sweep);
         },
-        row.keeps_bytes
-            ? [this](std::span<const std::uint8_t> bytes, Stamp received) { take_bytes(bytes, received); }
-            : sensors::BytesTap());
+        row.keeps_bytes && drives ? [this, i](std::span<const std::uint8_t> bytes,
+                                              Stamp received) { take_bytes(i, bytes, received); }
+                                  : sensors::BytesTap());
     drivers_.push_back(std::move(lidar));
   }
   sensors_ = wanted;

@@ -53,7 +53,7 @@ class SocketLink final : public VehicleLink {
  private:
   struct OpenLidar;
   void take_sweep(std::size_t lidar, sensors::LidarSweep& sweep);
-  void take_bytes(std::span<const std::uint8_t> bytes, Stamp received);
+  void take_bytes(std::size_t lidar, std::span<const std::uint8_t> bytes, Stamp received);
 
   SocketOptions options_;
   WheelGeometry wheels_;

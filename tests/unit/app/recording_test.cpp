@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/mounting/mounting_log.hpp"
@@ -17,6 +19,8 @@
 #include "app/recording/replay.hpp"
 #include "core/result.hpp"
 #include "planning/route_graph/route_csv.hpp"
+#include "sensors/lidar/registry.hpp"
+#include "sensors/vlp16/encode.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/toy_vehicle.hpp"
 
@@ -123,6 +127,74 @@ TEST(Recording, HandsOutWhatReachedTheCycle) {
   const localization::WheelPath path(log.drive().wheels, config().odometry.wheels);
   EXPECT_NEAR(path.driven_m(), 12.0, 1.0) << "the wheels as the calibration of the mountings takes them";
   EXPECT_GT(log.drive().sweeps.size(), 40U);
+}
+
+/// Packets of a VLP-16 around which everything stands equally far away.
+class RoundRoom {
+ public:
+  explicit RoundRoom(std::uint16_t distance) : distance_(distance) {}
+  sensors::RawPacket next(std::size_t lidar, Stamp now) {
+    sensors::vlp16::DataPacket packet;
+    packet.time_us = static_cast<std::uint32_t>(time_us_);
+    time_us_ += sensors::vlp16::packet_us(packet.mode);
+    for (auto& block : packet.blocks) {
+      block.azimuth_cdeg = std::exchange(azimuth_cdeg_, (azimuth_cdeg_ + 40) % 36'000);
+      block.returns.fill({distance_, 7});
+    }
+    const auto bytes = encode(packet);
+    return {now, {bytes.begin(), bytes.end()}, lidar};
+  }
+
+ private:
+  std::uint16_t distance_;
+  std::uint16_t azimuth_cdeg_ = 0;
+  double time_us_ = 1e6;
+};
+
+TEST(Recording, EachOfTwoSpinningLidarsKeepsItsOwnPackets) {
+  const test::TemporaryFolder folder;
+  CycleConfig two = config();
+  two.lidars.front().type = "vlp16";
+  two.lidars.push_back(two.lidars.front());
+  two.lidars.back().name = "rear";
+  RecorderOptions options;
+  options.max_waiting = 1'000'000;
+  options.lidars = two.lidars;
+  std::vector<PointCloud<Lidar>> seen, back;
+  {
+    Recorder recorder(folder.path() / "run", options);
+    std::array<RoundRoom, 2> rooms{RoundRoom(1000), RoundRoom(2000)};
+    std::array<std::unique_ptr<sensors::LidarDecoder>, 2> decoders;
+    CycleInput input;
+    for (std::size_t i = 0; i < 2; ++i)
+      decoders[i] = sensors::find_lidar("vlp16")->decoder({}, [&input, i](sensors::LidarSweep& sweep) {
+        input.clouds.push_back(std::move(std::get<PointCloud<Lidar>>(sweep.seen)));
+        input.clouds.back().lidar = i;
+        input.firings_us.push_back(sweep.device_us);
+      });
+    const CycleState state(two, std::make_unique<WheelPose>());
+    for (int k = 0; k < 60; ++k) {
+      input = {};
+      input.now = stamp_from_seconds(1.7e9 + 0.01 * k);
+      for (int packet = 0; packet < 8; ++packet)
+        for (std::size_t i = 0; i < 2; ++i) {
+          input.packets.push_back(rooms[i].next(i, input.now));
+          decoders[i]->push(input.packets.back().bytes, input.now);
+        }
+      seen.insert(seen.end(), input.clouds.begin(), input.clouds.end());
+      recorder.add(input, {}, state);
+    }
+  }
+  look_at_inputs(folder.path() / "run", two, [&](const CycleInput& input) {
+    back.insert(back.end(), input.clouds.begin(), input.clouds.end());
+  });
+  ASSERT_GE(seen.size(), 8U);
+  ASSERT_EQ(back.size(), seen.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_EQ(back[i].lidar, seen[i].lidar);
+    ASSERT_EQ(back[i].points.size(), seen[i].points.size());
+    EXPECT_EQ(back[i].points.front().x_m, seen[i].points.front().x_m);
+  }
 }
 
 TEST(Recording, TheSizeLimitHoldsAndStopsAreKept) {
