@@ -177,6 +177,12 @@ struct MoverWatch {
   planning::OutOfSight out_of_sight;
 };
 
+/// How far beside where the wheels led it the vehicle finds itself.
+struct Elsewhere {
+  double metres = 0.0;
+  double degrees = 0.0;
+};
+
 /// How the odometry lay on the map at some moment: what was seen then stands there, however the odometry has
 /// drifted since.
 struct Anchor {
@@ -229,6 +235,10 @@ struct CycleState {
   Stamp begun{};             ///< of the first step: before, no device could be heard
   bool stopped = false;      ///< by a person at a panel, until the next Resume
   std::optional<std::int64_t> stopped_order;  ///< that ended with it
+  /// Where on the drawing the wheels' way lay when the place was last known; nothing since a person had the
+  /// vehicle in hand or told the place.
+  std::optional<Transform2<Map, Odom>> drawing_from_odom;
+  std::optional<Elsewhere> elsewhere;  ///< it finds itself, until a person has looked: the next Resume
   VelocityCommand jog;
   Stamp jog_heard{};
   std::optional<Stamp> jog_held;  ///< since when the guard leaves nothing of what is asked by hand

@@ -1,4 +1,8 @@
+#include <cmath>
+
 #include "app/cycle/stages.hpp"
+#include "core/angle.hpp"
+#include "localization/placement/placement.hpp"
 
 namespace madori::app {
 namespace {
@@ -33,11 +37,24 @@ void note_stop_word(CycleState& state, OperatorWord word) {
   if (word == OperatorWord::Resume) {
     state.stopped = false;
     state.stopped_order.reset();
+    state.elsewhere.reset();
   }
   if (!is_stop(word)) return;
   state.stopped = true;
   state.jog = {};
   if (word == OperatorWord::Stop && state.errand.target) state.stopped_order = state.errand.target->order;
+}
+
+/// Nobody lifts or turns a vehicle that is to drive by itself. One that finds its place again elsewhere than
+/// its wheels led it was carried all the same, has a lidar that was knocked, or is wrong.
+std::optional<Elsewhere> found_elsewhere(const CycleState& state) {
+  constexpr double kFarDeg = 20.0;
+  if (!state.drawing_from_odom) return std::nullopt;
+  const auto led = *state.drawing_from_odom * state.odometry.reading().odom_from_base;
+  const auto found = state.site->on_drawing(state.pose.map_from_base);
+  const Elsewhere by{distance_m(led.translation(), found.translation()),
+                     to_deg(std::abs(wrap_angle(found.yaw_rad() - led.yaw_rad())))};
+  return by.metres > localization::kAroundM || by.degrees > kFarDeg ? std::optional(by) : std::nullopt;
 }
 
 /// Applies events one by one and keeps what they did for the log.
@@ -137,6 +154,8 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
     if (event == ModeEvent::Confirmed && (stopped || fault || deaf)) continue;  // the cause is still there
     if (event == ModeEvent::Confirmed) state.disobedient.reset();
     note_stop_word(state, command.word);
+    if (command.word == OperatorWord::SetPose || command.word == OperatorWord::SearchPose)
+      state.drawing_from_odom.reset();
     if (is_stop(command.word)) mode.apply(ModeEvent::ManualOff);
     if (event) mode.apply(*event);
     if (command.word == OperatorWord::Jog) {
@@ -144,8 +163,16 @@ void change_mode(CycleState& state, const CycleInput& input, const CycleConfig& 
       state.jog_heard = input.now;
     }
   }
-  if (is_held(state.mode)) return;
+  if (is_held(state.mode)) return state.drawing_from_odom.reset();
   const bool sure = is_placed(state);
+  if (sure && state.mode == Mode::Localizing) state.elsewhere = found_elsewhere(state);
+  if (state.elsewhere) {
+    mode.apply(ModeEvent::Pause);
+    return;
+  }
+  if (sure)
+    state.drawing_from_odom =
+        state.site->on_drawing(state.pose.map_from_base) * state.odometry.reading().odom_from_base.inverse();
   mode.apply(sure ? ModeEvent::Localized : ModeEvent::Lost);
   if (state.mode == Mode::Idle && sure && state.errand.target && !state.way.path.empty())
     mode.apply(ModeEvent::OrderGiven);

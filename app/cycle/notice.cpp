@@ -8,8 +8,8 @@
 namespace madori::app {
 namespace {
 
-static_assert(kCauses.size() == static_cast<std::size_t>(Cause::DriveLate) + 1);
-static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::ClearOrGoOn) + 1);
+static_assert(kCauses.size() == static_cast<std::size_t>(Cause::FoundElsewhere) + 1);
+static_assert(kRemedies.size() == static_cast<std::size_t>(Remedy::LookAtPlaceAndResume) + 1);
 
 }  // namespace
 

@@ -70,6 +70,7 @@ enum class Cause : std::uint8_t {
   WheelsUntold,
   DriveIdle,
   DriveLate,
+  FoundElsewhere,
 };
 
 /// What a person can do about it.
@@ -104,6 +105,7 @@ enum class Remedy : std::uint8_t {
   CorrectMounting,
   LookAtPlace,
   ClearOrGoOn,
+  LookAtPlaceAndResume,
 };
 
 inline constexpr std::array kCauses{
@@ -161,6 +163,8 @@ inline constexpr std::array kCauses{
                    "the drive answers, but what it tells of its wheels is late or makes no sense"},
     CatalogueEntry{"drive-idle", "the drive answers, but does not start although it is told to"},
     CatalogueEntry{"drive-late", "commands reach the drive late, or its answers come late"},
+    CatalogueEntry{"found-elsewhere",
+                   "the vehicle finds itself {metres} m and {degrees} degrees from where its wheels led it"},
 };
 
 inline constexpr std::array kRemedies{
@@ -196,6 +200,10 @@ inline constexpr std::array kRemedies{
     CatalogueEntry{"look-at-place", "look whether it is, then press Go on; else show its place: Where am I?"},
     CatalogueEntry{"clear-or-go-on",
                    "clear it, then it goes on by itself; or press Go on to end the stop here"},
+    CatalogueEntry{
+        "look-at-place-and-resume",
+        "look whether it is there and its lidar sits fast, else show its place (Where am I?); then "
+        "press Resume"},
 };
 
 /// An event of the cycle, not the cause of a standstill.

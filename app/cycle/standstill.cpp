@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -72,6 +74,10 @@ Standstill why_unplaced(const CycleState& state, Stamp now) {
 /// Resume alone helps only where the place is known.
 Standstill why_paused(const CycleState& state, Stamp now) {
   if (state.lidar_heard && !may_drive(state.pose.health.state)) return why_unplaced(state, now);
+  if (state.elsewhere)
+    return {notice(Cause::FoundElsewhere, {{"metres", fmt::format("{:.1f}", state.elsewhere->metres)},
+                                           {"degrees", fmt::format("{:.0f}", state.elsewhere->degrees)}}),
+            notice(Remedy::LookAtPlaceAndResume), now};
   if (!state.stopped) return because(Cause::Paused, Remedy::Resume, now);
   if (!state.stopped_order) return because(Cause::Stopped, Remedy::LookAndResume, now);
   return {notice(Cause::StoppedOrder, {{"order", std::to_string(*state.stopped_order)}}),

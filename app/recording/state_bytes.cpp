@@ -134,9 +134,10 @@ template <class Bytes, class State>
 void each_of(Bytes& bytes, State& s) {
   auto& [mode, standstill, odometry, track, localization, site, pose, moved, sent, command_pose, obstacles,
          anchors, movers, drive, drive_heard, drive_clock, drive_us, drive_stopped, drive_faulty, drive_deaf,
-         drive_late, lidars_heard, lidar_heard, previous, gap, begun, stopped, stopped_order, jog, jog_heard,
-         jog_held, errand, way, progress, ahead, block, detour, trail, trail_at, effort, limits, wheels,
-         wheels_at, disobedient, unarmed_steps, mounting, lidars_missed, floor_unseen, bench] = s;
+         drive_late, lidars_heard, lidar_heard, previous, gap, begun, stopped, stopped_order,
+         drawing_from_odom, elsewhere, jog, jog_heard, jog_held, errand, way, progress, ahead, block, detour,
+         trail, trail_at, effort, limits, wheels, wheels_at, disobedient, unarmed_steps, mounting,
+         lidars_missed, floor_unseen, bench] = s;
   static_cast<void>(bench);                                    // nothing in it lasts
   static_cast<void>(command_pose);                             // each step anew
   static_cast<void>(standstill), static_cast<void>(jog_held);  // for people, each step anew
@@ -146,8 +147,8 @@ void each_of(Bytes& bytes, State& s) {
   bytes(sent.sent());
   each(bytes, mode, odometry, track, moved, anchors, drive, drive_heard, drive_clock, drive_us, drive_stopped,
        drive_faulty, drive_deaf, drive_late, lidars_heard, lidar_heard, previous, gap, begun, stopped,
-       stopped_order, jog, jog_heard, progress, ahead, trail, trail_at, effort, limits, wheels, wheels_at,
-       disobedient, unarmed_steps, mounting, lidars_missed, floor_unseen);
+       stopped_order, drawing_from_odom, elsewhere, jog, jog_heard, progress, ahead, trail, trail_at, effort,
+       limits, wheels, wheels_at, disobedient, unarmed_steps, mounting, lidars_missed, floor_unseen);
   each_of_errand(bytes, errand);
   each_of_way(bytes, way);
   each_of_block(bytes, block);

@@ -31,11 +31,13 @@ class TruePose : public app::PoseSource {
   std::optional<Transform2<Map, Base>> given;
   std::vector<PoseHypothesis> places;
   LocalizationState state = LocalizationState::Localized;
-  double place = 1.0;  ///< as LocalizationHealth says
+  double place = 1.0;             ///< as LocalizationHealth says
+  Transform2<Base, Base> beside;  ///< what it believes to stand at, in the true pose
 
  private:
   [[nodiscard]] PoseEstimate now(Stamp stamp) const {
-    PoseEstimate pose{stamp, vehicle_.pose(), Eigen::Matrix3d::Identity() * 1e-6, {state, "", place}};
+    PoseEstimate pose{
+        stamp, vehicle_.pose() * beside, Eigen::Matrix3d::Identity() * 1e-6, {state, "", place}};
     if (state != LocalizationState::Localized) pose.health.reason = "told so by the test";
     return pose;
   }

@@ -29,6 +29,7 @@ void BuildingOperator::look() {
   const bool asks = state.mode == Mode::EmergencyStop || state.mode == Mode::Fault;
   const bool unseen = state.mode == Mode::Waiting && (state.block.unseen || state.block.felt);
   if (state.mode == Mode::Paused && stood_s() > 1.0) {
+    if (state.elsewhere) help();
     say(OperatorWord::Resume);
   } else if (asks && stood_s() > kConfirmsAfterS) {
     pull_back();

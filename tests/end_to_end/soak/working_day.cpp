@@ -184,6 +184,7 @@ void WorkingDay::look_after(const Delivery& delivery) {
   const bool asks = state.mode == app::Mode::EmergencyStop || state.mode == app::Mode::Fault;
   if (state.mode == app::Mode::Paused && stood_s > 1.0) {
     run_->say({app::OperatorWord::Resume, {}, {}});
+    if (state.elsewhere) help(delivery, because, false);
     stands_since_ = factory_->now();
   } else if (asks && stood_s > kConfirmsAfterS) {
     if (pressed_) surprises_->carry_away(chance_, true);  // "free the vehicle, then confirm"

@@ -252,6 +252,48 @@ TEST(AutonomyCycle, LostMeansStandingAndLocalizedMeansGoingOn) {
   EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0));
 }
 
+/// Nobody carries a vehicle that drives: its lidar was knocked, or it is wrong. It turned with a lidar that
+/// was twisted by 90 degrees, and drove four metres off its route.
+TEST(AutonomyCycle, FoundElsewhereThanItsWheelsLedItAPersonLooksFirst) {
+  struct Case {
+    double x_m, yaw_rad;
+    bool asks;
+  };
+  for (const Case& c : {Case{0.3, 0.1, false}, {0.0, 1.57, true}, {1.5, 0.0, true}}) {
+    auto v = vehicle_at_speed();
+    v->pose->state = LocalizationState::Lost;
+    ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.01; }, 1.5));
+    v->pose->beside = {c.x_m, 0.0, c.yaw_rad};
+    v->pose->state = LocalizationState::Localized;
+    v->run_until([&] { return false; }, 0.2);
+    EXPECT_EQ(v->state().mode == Mode::Paused, c.asks) << c.x_m << " " << c.yaw_rad;
+    v->pose->beside = {};
+    if (c.asks) {
+      v->run_until([&] { return false; }, 3.0);
+      EXPECT_NEAR(v->rolling.speed().linear_mps, 0.0, 1e-6);
+      EXPECT_EQ(v->state().standstill.cause.code, entry(Cause::FoundElsewhere).code);
+      v->say(OperatorWord::Resume);
+    }
+    EXPECT_TRUE(v->run_until([&] { return v->delivered(); }, 60.0)) << v->state().standstill.cause.text;
+  }
+}
+
+/// Who carried it, or told it its place, knows.
+TEST(AutonomyCycle, WhoeverHadItInHandIsNotAskedWhereItStands) {
+  for (const bool told : {false, true}) {
+    auto v = vehicle_at_speed();
+    if (!told) v->say(OperatorWord::Pause);
+    v->pose->state = LocalizationState::Lost;
+    ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps < 0.01; }, 1.5));
+    v->pose->beside = {0.0, 0.0, 0.5};
+    v->say(told ? OperatorWord::SetPose : OperatorWord::Resume);
+    v->run_until([&] { return false; }, 0.2);
+    v->pose->state = LocalizationState::Localized;
+    v->run_until([&] { return false; }, 0.2);
+    EXPECT_NE(v->state().mode, Mode::Paused) << told;
+  }
+}
+
 TEST(AutonomyCycle, ADriveWhoseLinkOpensLateIsArmed) {
   auto v = corridor_vehicle();
   v->drive_silent = true;  // the port opens late: neither statuses nor commands pass

@@ -15,7 +15,7 @@ const standing = new Set(["waiting", "localizing"]);
 const stays = new Set(["loading", "unloading", "order-stop"]);
 /** remedies that ask for a button: the command bar offers that one, whatever the state */
 const goesOn = new Set(["go-on", "look-and-go-on", "look-at-place", "clear-or-go-on"]);
-const resumes = new Set(["resume", "manual-off", "look-and-resume"]);
+const resumes = new Set(["resume", "manual-off", "look-and-resume", "look-at-place-and-resume"]);
 export const asksGoOn = ({ cause, remedy }: Live): boolean => stays.has(cause.code) || goesOn.has(remedy.code);
 export const asksResume = ({ remedy }: Live): boolean => resumes.has(remedy.code);
 /** what is wanted, and no reason to look up */
