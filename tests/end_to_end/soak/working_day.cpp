@@ -115,10 +115,12 @@ Figures WorkingDay::work(const std::atomic<bool>& stop) {
 
 void WorkingDay::deliver(const Delivery& delivery) {
   ++figures_.asked;
+  carried_ = false;
   chance_ = chance_of(wishes_, plan_.number, wishes_.deliveries + 1 + delivery.number);
   if (delivery.kidnapping && delivery.kidnapping->while_idle) {
     surprises_->carry_away(chance_);
     witness_->kidnapped();
+    carried_ = true;
     wait(delivery.kidnapping->after_s);
   }
   kidnapping_due_ = delivery.kidnapping && !delivery.kidnapping->while_idle;
@@ -160,6 +162,7 @@ void WorkingDay::befall(const Delivery& delivery, Stamp began) {
     kidnapping_due_ = false;
     surprises_->carry_away(chance_);
     witness_->kidnapped();
+    carried_ = true;
   }
   if (!app::drives(state.mode) || ticks_ % 50 != 0) return;
   if (pallet_due_ && surprises_->put_pallet(state, chance_)) pallet_due_ = false, ++figures_.pallets;
@@ -184,7 +187,7 @@ void WorkingDay::look_after(const Delivery& delivery) {
   const bool asks = state.mode == app::Mode::EmergencyStop || state.mode == app::Mode::Fault;
   if (state.mode == app::Mode::Paused && stood_s > 1.0) {
     run_->say({app::OperatorWord::Resume, {}, {}});
-    if (state.elsewhere) help(delivery, because, false);
+    if (state.elsewhere && !carried_) help(delivery, because, false);
     stands_since_ = factory_->now();
   } else if (asks && stood_s > kConfirmsAfterS) {
     if (pressed_) surprises_->carry_away(chance_, true);  // "free the vehicle, then confirm"

@@ -75,6 +75,7 @@ class WorkingDay {
   double map_cpu_s_ = 0.0;
   simulation::Random chance_;
   bool kidnapping_due_ = false, pallet_due_ = false, person_due_ = false;
+  bool carried_ = false;  ///< by people, who know, in this delivery
   std::string stands_because_;
   Stamp stands_since_{};
   std::optional<std::pair<Stamp, Transform2<Map, Base>>> by_hand_;  ///< since when and from where

@@ -106,6 +106,7 @@ TEST(EventWords, EveryStandstillOfTheLogComesBackWithItsRemedy) {
                                                       {"faults", "4"},
                                                       {"percent", "64"},
                                                       {"metres", "0.9"},
+                                                      {"degrees", "90"},
                                                       {"name", "top"},
                                                       {"found", "1.2"},
                                                       {"typed", "0.9"},
