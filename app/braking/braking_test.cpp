@@ -89,6 +89,8 @@ BrakingTest::Words BrakingTest::begin(const CycleInput& input, const CycleState&
                                       const CycleConfig& config) {
   if (is_to_be_confirmed(state.mode)) return fail(BrakingTrouble::Ended);
   if (is_silent(state.lidar_heard, input.now, config.lidar_silent_s)) return fail(BrakingTrouble::NoLidar);
+  // It must not wait for what holds it now, a drive that is switched off: nobody would expect it then.
+  if (forbidding_rule(state, input, config)) return fail(BrakingTrouble::Ended);
   const double needs_m = braking_test_way_m(plan_.speed_mps, config);
   const double looked_at_m = config.field.reach_m - config.check.vehicle.front_m;
   const double free_m = std::min(free_straight_m(state, config, true), looked_at_m);
@@ -157,7 +159,7 @@ BrakingTest::Words BrakingTest::go_back(const CycleState& state, const CycleConf
 
 BrakingTest::Words BrakingTest::after_step(const CycleInput& input, const CycleState& state,
                                            const CycleConfig& config) {
-  if (phase_ == Phase::Ended || state.track.empty()) return {};
+  if (phase_ == Phase::Ended) return {};
   const auto stops = [](const OperatorCommand& c) { return event_of(c.word) == ModeEvent::Pause; };
   if (std::ranges::any_of(input.commands, stops)) return fail(BrakingTrouble::Ended);
   if (phase_ == Phase::Begins) return begin(input, state, config);

@@ -5,12 +5,14 @@
 namespace madori::app {
 
 hmi::Reply PanelVehicle::start_braking_test(bool loaded) {
+  const std::scoped_lock lock(begins_);
   const auto site = run_.braking_site();
   const auto view = run_.view();
   if (!site || !view) return not_drivable();
   if (is_to_be_confirmed(view->mode))
     return hmi::Reply::refused("confirm-first", "look around the vehicle and confirm first");
-  if (!run_.stands() || !braking_.start({site->top_speed_mps, BrakingDesk::kStops}, loaded))
+  if (auto moving = moves()) return *std::move(moving);
+  if (!braking_.start({site->top_speed_mps, BrakingDesk::kStops}, loaded))
     return hmi::Reply::refused("driving", "the vehicle is driving: pause it first");
   return hmi::Reply::done();
 }

@@ -110,8 +110,8 @@ hmi::Reply PanelVehicle::command(hmi::Command command) {
   const auto view = run_.view();
   const bool stop = command == hmi::Command::Stop || command == hmi::Command::Halt;
   if (is_measuring()) {
-    run_.stop_measuring();
     if (!stop && command != hmi::Command::Pause) return measuring();
+    run_.stop_measuring();
   }
   if (!view) return stop ? hmi::Reply::done() : not_drivable();  // the drive is not enabled then
   const bool starts = command == hmi::Command::Start || command == hmi::Command::Resume;
@@ -121,6 +121,7 @@ hmi::Reply PanelVehicle::command(hmi::Command command) {
     case hmi::Command::Start:
     case hmi::Command::Resume:
       if (is_to_be_confirmed(now)) return confirm_first();
+      if (braking_.view().running) return driving();
       if (jogging_.is_held(clock_now())) return driven_by_hand();
       if (now == Mode::Manual) run_.say({OperatorWord::ManualOff, {}, {}});
       run_.say({OperatorWord::Resume, {}, {}});
@@ -150,6 +151,7 @@ std::optional<hmi::Reply> PanelVehicle::no_jog(const std::optional<VehicleView>&
   if (is_measuring()) return measuring();
   if (!view) return not_drivable();
   if (is_to_be_confirmed(view->mode)) return confirm_first();
+  if (braking_.view().running) return driving();
   if (finishing_ || reads_drive(run_))
     return hmi::Reply::refused("mapping-busy",
                                "the drive so far is being looked at: wait until that is done");
@@ -207,12 +209,12 @@ void PanelVehicle::reload_site() {
 }
 
 hmi::Reply PanelVehicle::search_place() {
-  if (!run_.stands()) return driving();
+  if (auto moving = moves()) return *std::move(moving);
   return run_.say({OperatorWord::SearchPose, {}, {}}) ? hmi::Reply::done() : not_drivable();
 }
 
 hmi::Reply PanelVehicle::set_pose(const Transform2<Map, Base>& map_from_base) {
-  if (!run_.stands()) return driving();
+  if (auto moving = moves()) return *std::move(moving);
   // Nobody may be surprised by a vehicle that drives off because its place was said: it waits for Resume.
   run_.say({OperatorWord::Pause, {}, {}});
   const GivenPose given{map_from_base.translation(), map_from_base.yaw_rad(), PoseSigma{}};
@@ -221,7 +223,7 @@ hmi::Reply PanelVehicle::set_pose(const Transform2<Map, Base>& map_from_base) {
 
 /// A person who insists is believed to a hand's breadth: what is seen has to speak against that much more.
 hmi::Reply PanelVehicle::insist_on_pose(const Transform2<Map, Base>& map_from_base) {
-  if (!run_.stands()) return driving();
+  if (auto moving = moves()) return *std::move(moving);
   constexpr PoseSigma kInsisted{0.1, 0.035};
   run_.say({OperatorWord::Pause, {}, {}});
   const GivenPose given{map_from_base.translation(), map_from_base.yaw_rad(), kInsisted};
@@ -260,7 +262,7 @@ bool PanelVehicle::is_measuring() const {
 }
 
 hmi::Reply PanelVehicle::measure_mounting() {
-  if (is_measuring()) return measuring();
+  const std::scoped_lock lock(begins_);
   if (auto may = may_begin_anew(); !may.accepted) return may;
   try {
     run_.measure_mounting();
@@ -312,9 +314,15 @@ std::shared_ptr<const std::string> PanelVehicle::camera_jpeg() const {
   return camera_ ? camera_->picture() : nullptr;
 }
 
+std::optional<hmi::Reply> PanelVehicle::moves() const {
+  if (is_measuring()) return measuring();
+  if (braking_.view().running || !run_.stands()) return driving();
+  return std::nullopt;
+}
+
 hmi::Reply PanelVehicle::may_begin_anew() const {
-  if (run_.may_change_site()) return hmi::Reply::done();
-  return run_.stands() ? confirm_first() : driving();
+  if (auto moving = moves()) return *std::move(moving);
+  return run_.may_change_site() ? hmi::Reply::done() : confirm_first();
 }
 
 hmi::Reply PanelVehicle::may_change_site() const {

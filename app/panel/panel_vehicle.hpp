@@ -78,7 +78,9 @@ class PanelVehicle final : public hmi::Vehicle {
   [[nodiscard]] bool is_measuring() const;
   /// Why nobody may drive by hand now.
   [[nodiscard]] std::optional<hmi::Reply> no_jog(const std::optional<VehicleView>& view) const;
-  /// Refused while it drives, or while something is to be confirmed that a new run would forget.
+  /// Why it does not stand: it drives, or a measurement or a braking test has it, between its ways too.
+  [[nodiscard]] std::optional<hmi::Reply> moves() const;
+  /// Refused while it moves(), or while something is to be confirmed that a new run would forget.
   [[nodiscard]] hmi::Reply may_begin_anew() const;
 
   SiteRun& run_;
@@ -90,6 +92,7 @@ class PanelVehicle final : public hmi::Vehicle {
   JogHolds jogging_;
   BrakingDesk braking_;
   std::optional<CameraCapture> camera_;
+  std::mutex begins_;                      ///< two panels at once: one of them begins what moves the vehicle
   std::atomic<bool> finishing_ = false;    ///< a site is being made of the map
   mutable std::mutex way_mutex_;           ///< of what follows
   std::vector<planning::DrivenPose> way_;  ///< driven by hand since that began last

@@ -180,8 +180,8 @@ void SiteRun::measure_mounting() {
   const auto site = mapping::load_site(site_);
   (void)lidars_of(site, site_);  // throws where there are none, or they cannot be
   auto mounting = std::make_shared<MountingRun>(site.vehicle, site.sensors);
-  say({OperatorWord::Pause, {}, {}});
   const std::scoped_lock lock(mutex_);
+  if (run_) run_->say({OperatorWord::Pause, {}, {}});
   mounting_ = std::move(mounting);
 }
 
@@ -279,8 +279,9 @@ std::shared_ptr<MappingDesk> SiteRun::mapping() const {
 
 bool SiteRun::say(const OperatorCommand& command) {
   const std::scoped_lock lock(mutex_);
-  if (run_) run_->say(command);
-  return run_ != nullptr;
+  if (!run_ || (mounting_ && mounting_->drives())) return false;
+  run_->say(command);
+  return true;
 }
 
 std::optional<VehicleView> SiteRun::view() const {

@@ -57,7 +57,8 @@ class SiteRun {
   void end_mapping();
   /// Null while no map is made by driving.
   [[nodiscard]] std::shared_ptr<MappingDesk> mapping() const;
-  /// False while there is no run.
+  /// False, and not said, while there is no run or a measurement has the vehicle: when that ends, nothing
+  /// may drive off by what was said during it.
   bool say(const OperatorCommand& command);
   /// Nothing while there is no run.
   [[nodiscard]] std::optional<VehicleView> view() const;

@@ -206,6 +206,21 @@ TEST(BrakingTest, ASilentLidarOrAProtectiveFieldEndsIt) {
   }
 }
 
+/// A test that waited for a drive that is switched off would drive off when nobody expects it any more.
+TEST(BrakingTest, WithoutADriveItIsEndedAndWaitsForNone) {
+  auto v = test::corridor_vehicle();
+  v->drive_silent = true;
+  BrakingTest braking({0.5, 1});
+  v->on_step = [&](const auto& input, const auto& /*output*/, const auto& state) {
+    for (const auto& word : braking.after_step(input, state, v->config)) v->commands.push_back(word);
+  };
+  EXPECT_TRUE(v->run_until([&] { return braking.ended(); }, 3.0));
+  EXPECT_FALSE(braking.trouble().empty());
+  v->drive_silent = false;
+  v->run_until([] { return false; }, 5.0);
+  EXPECT_NEAR(v->rolling.speed().linear_mps, 0.0, 0.001);
+}
+
 TEST(BrakingVerdict, WhatAnEmptyVehicleCanTheLoadedOneNeedNotBeAbleTo) {
   const mapping::VehicleRecord record;  // 0.8 m/s2
   const BrakingSite site{1.0, 3.0, 0.1, 0.0, record.max_deceleration_mps2, record.reaction_s};

@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "app/panel/panel_vehicle.hpp"
 #include "app/panel/reference_lidar.hpp"
 #include "app/statistics/work_meter.hpp"
 #include "mapping/drawing/import_drawing.hpp"
@@ -217,6 +218,87 @@ TEST(SiteRunMounting, IsMeasuredBeforeTheSiteCanBeDrivenAndStopsWhenTold) {
   tick_until(MountingView::State::Stopped);
   for (int i = 0; i < 100; ++i) run.tick(factory->now() + kStep);
   EXPECT_LT(std::abs(factory->truth().linear_mps), 0.01);
+}
+
+/// Panels of a vehicle in a hall of 20 m by 12 m whose site can be driven.
+struct PanelsOfAHall {
+  PanelsOfAHall() {
+    mapping::Site record;
+    record.name = "hall";
+    record.drawing = {"a.png", 400, 240, 1, 0.0};
+    record.scale = mapping::ScaleRecord{0.05, "known", 0.0, 0.0, "", {}, {}};
+    record.sensors = setup().sensors;
+    mapping::save_site(folder.path(), record);
+    folder.write("walls.csv", "id,x1,y1,x2,y2\n1,0,0,20,0\n2,20,0,20,12\n3,20,12,0,12\n4,0,12,0,0\n");
+    fs::create_directories(folder.path() / "routes");
+    folder.write("routes/path.csv", "ID,x,y\n1,2,4\n2,18,4\n");
+    folder.write("routes/tree.csv", "ID,EDA\n1,2\n2,1\n");
+    run.load_now();
+    tick(50);
+  }
+  static simulation::FactorySetup setup() {
+    auto hall = test::small_hall();
+    hall.sensors = {{"front", "lms1xx", 0.6, 0.0, 0.25, 0.0}};
+    return hall;
+  }
+  void opened(TransportRun& begun) {
+    begun.set_tap([this, &begun](const auto& in, const auto& /*output*/, const auto& state) {
+      panel.observe(in, state, begun);
+    });
+  }
+  void tick(int times) {
+    for (; times > 0; --times) run.tick(factory->now() + kStep);
+  }
+  [[nodiscard]] double speed() const { return std::abs(factory->truth().linear_mps); }
+
+  static constexpr Duration kStep = std::chrono::milliseconds(20);
+  test::TemporaryFolder folder;
+  std::shared_ptr<simulation::Factory> factory = std::make_shared<simulation::Factory>(setup());
+  SiteRun run{folder.path(),
+              std::make_unique<test::FactoryLink>(factory, WheelGeometry{}, kStep),
+              {.opened = [this](TransportRun& begun) { opened(begun); }, .closing = {}, .idle = {}}};
+  PanelVehicle panel{run, folder.path() / "madori.db", {}};
+};
+
+TEST(Panels, WhileTheMountingsAreMeasuredNothingElseIsBegunAndNothingWaitsForItsEnd) {
+  PanelsOfAHall hall;
+  ASSERT_TRUE(hall.panel.measure_mounting().accepted);
+  hall.tick(150);
+  ASSERT_GT(hall.speed(), 0.1);
+  EXPECT_EQ(hall.panel.start_braking_test(false).reason.code, "measuring");
+  EXPECT_EQ(hall.panel.measure_mounting().reason.code, "measuring");
+  EXPECT_EQ(hall.panel.may_change_site().reason.code, "measuring");
+  EXPECT_EQ(hall.panel.set_pose({}).reason.code, "measuring");
+  EXPECT_EQ(hall.panel.command(hmi::Command::Resume).reason.code, "measuring");
+  EXPECT_FALSE(hall.run.say({OperatorWord::Resume, {}, {}}));
+  hall.tick(10);
+  EXPECT_GT(hall.speed(), 0.1) << "it is still measured";
+  EXPECT_TRUE(hall.panel.command(hmi::Command::Stop).accepted);
+  hall.tick(100);
+  const double driven_m = hall.factory->distance_driven_m();
+  hall.tick(500);
+  EXPECT_NEAR(hall.factory->distance_driven_m(), driven_m, 0.01);
+}
+
+TEST(Panels, ABrakingTestHasTheVehicleUntilItEndsOrSomebodyPressesStop) {
+  PanelsOfAHall hall;
+  ASSERT_TRUE(hall.panel.start_braking_test(false).accepted);
+  const auto refused = [&] {
+    EXPECT_EQ(hall.panel.start_braking_test(false).reason.code, "driving");
+    EXPECT_EQ(hall.panel.measure_mounting().reason.code, "driving");
+    EXPECT_EQ(hall.panel.may_change_site().reason.code, "driving");
+    EXPECT_EQ(hall.panel.command(hmi::Command::Resume).reason.code, "driving");
+    EXPECT_EQ(hall.panel.jog({0.3, 0.0}, &hall).reason.code, "driving");
+  };
+  refused();  // it has not moved yet
+  for (int i = 0; i < 500 && hall.speed() < 0.5; ++i) hall.tick(1);
+  ASSERT_GE(hall.speed(), 0.5) << hall.panel.braking().trouble.text;
+  refused();
+  EXPECT_TRUE(hall.panel.command(hmi::Command::Stop).accepted);
+  hall.tick(150);
+  EXPECT_FALSE(hall.panel.braking().running);
+  EXPECT_LT(hall.speed(), 0.01);
+  EXPECT_TRUE(hall.panel.may_change_site().accepted);
 }
 
 }  // namespace
