@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "app/commands.hpp"
+#include "core/failure_words.hpp"
 #include "core/result.hpp"
 
 namespace {
@@ -36,7 +37,7 @@ std::string on_one_line(std::string text) {
 /// Exit status: 0 done, 1 failed (one line says what, where and how to mend it), 2 wrong usage.
 int main(int argc, char** argv) {
   CLI::App app("Madori: a factory vehicle drives from the drawing of the factory", "madori");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // else it asked for one instead of naming the word that is none
   madori::app::add_braking_test(app);
   madori::app::add_demo(app);
   madori::app::add_evaluate(app);
@@ -67,12 +68,18 @@ int main(int argc, char** argv) {
   try {
     try {
       app.parse(argc, argv);
+      if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
     } catch (const CLI::ParseError& e) {
+      const auto words = app.remaining();
+      if (app.get_subcommands().empty() && !words.empty()) {
+        std::fprintf(stderr, "madori: %s: is no command - madori --help lists them\n", words.front().c_str());
+        return 2;
+      }
       if (app.exit(e) != 0) return 2;
     }
     finish_stdout();
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "madori: %s\n", on_one_line(e.what()).c_str());
+    std::fprintf(stderr, "madori: %s\n", on_one_line(madori::failure_words(e)).c_str());
     return 1;
   }
   return 0;

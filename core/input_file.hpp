@@ -1,23 +1,31 @@
 #pragma once
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 #include <istream>
 #include <string>
 #include <string_view>
 
+#include "core/failure_words.hpp"
 #include "core/result.hpp"
 
 /// How readers of text open what an operator gives them: with limits that no honest file comes near, and one
 /// line that says which one was passed.
 namespace madori {
 
-/// Throws Error unless `file` is a regular file (links are followed) of at most `most_bytes`.
+/// Throws Error unless `file` is a regular file (links are followed) of at most `most_bytes` that may be
+/// read. `mend`: where there is none.
 inline void require_readable(const std::filesystem::path& file, std::uintmax_t most_bytes,
                              const std::string& mend = "check the path and its permissions") {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
-  if (error || !std::filesystem::exists(status)) throw Error(file.string(), "cannot be opened", mend);
+  if (status.type() == std::filesystem::file_type::not_found)
+    throw Error(file.string(), "cannot be opened", mend);
+  if (!error && ::access(file.c_str(), R_OK) != 0) error.assign(errno, std::generic_category());
+  if (error) throw Error(file.string(), "cannot be read: " + error.message(), remedy_of(error));
   if (std::filesystem::is_directory(status)) throw Error(file.string(), "is a folder, not a file", mend);
   if (!std::filesystem::is_regular_file(status))
     throw Error(file.string(), "is no regular file", "give a file on a disk");

@@ -3,6 +3,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/failure_words.hpp"
 #include "core/thread_role.hpp"
 
 namespace madori::app {
@@ -40,7 +41,7 @@ void BackgroundJobs::run(const std::stop_token& stop) {
     try {
       taken.mapped()();
     } catch (const std::exception& e) {
-      problem = e.what();
+      problem = failure_words(e);
     }
     lock.lock();
     busy_ = false;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/mapping_drive/mapping_desk.hpp"
+#include "core/failure_words.hpp"
 
 namespace madori::app {
 namespace {
@@ -28,7 +29,7 @@ void MappingDesk::read_earlier() {
                                }});
     journal_.emplace(options_.journal, whole);
   } catch (const std::exception& e) {
-    count_.problem = e.what();
+    count_.problem = failure_words(e);
   }
   draw_picture();
   tell(false);

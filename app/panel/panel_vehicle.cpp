@@ -11,6 +11,7 @@
 #include "app/panel/reference_lidar.hpp"
 #include "core/angle.hpp"
 #include "core/clock.hpp"
+#include "core/failure_words.hpp"
 
 namespace madori::app {
 namespace {
@@ -267,7 +268,7 @@ hmi::Reply PanelVehicle::measure_mounting() {
   try {
     run_.measure_mounting();
   } catch (const std::exception& e) {
-    return {false, uncoded(e.what())};
+    return {false, uncoded(failure_words(e))};
   }
   return hmi::Reply::done();
 }

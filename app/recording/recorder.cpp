@@ -11,6 +11,7 @@
 
 #include "app/recording/input_text.hpp"
 #include "app/recording/state_bytes.hpp"
+#include "core/failure_words.hpp"
 #include "core/thread_role.hpp"
 #include "sensors/rosbag/writer.hpp"
 
@@ -157,7 +158,7 @@ void Recorder::end_segment() {
   try {
     tidy(number_++);
   } catch (const std::exception& e) {
-    tell(e.what());
+    tell(failure_words(e));
   }
 }
 
@@ -243,7 +244,7 @@ void Recorder::run(const std::stop_token& stop) {
       try {
         if (!write(record)) ++failed;
       } catch (const std::exception& e) {
-        tell(e.what());
+        tell(failure_words(e));
         ++failed;
         give_up_segment();
       }
@@ -255,7 +256,7 @@ void Recorder::run(const std::stop_token& stop) {
   try {
     if (bag_) end_segment();
   } catch (const std::exception& e) {
-    tell(e.what());
+    tell(failure_words(e));
   }
   bag_.reset();
 }

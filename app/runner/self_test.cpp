@@ -8,6 +8,7 @@
 
 #include "app/lidars.hpp"
 #include "app/orders/order_store.hpp"
+#include "core/failure_words.hpp"
 #include "core/result.hpp"
 #include "planning/route_graph/route_check.hpp"
 
@@ -133,7 +134,7 @@ Finding look(const char* what, const std::function<std::string()>& at) {
   try {
     return {what, at(), false};
   } catch (const std::exception& e) {
-    return {what, e.what(), true};
+    return {what, failure_words(e), true};
   }
 }
 

@@ -6,9 +6,9 @@
 
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <string>
 
+#include "core/failure_words.hpp"
 #include "core/result.hpp"
 
 namespace madori::app {
@@ -30,10 +30,10 @@ SiteLock::SiteLock(const std::filesystem::path& site, SiteUse use) {
   const auto name = site / ".run.lock";
   file_ = ::open(name.c_str(), drives ? O_RDWR | O_CREAT | O_CLOEXEC : O_RDONLY | O_CLOEXEC, 0644);
   if (file_ < 0 && !drives && errno == ENOENT) return;  // no program ever drove it
+  const std::error_code why(errno, std::generic_category());
   if (file_ < 0)
-    throw Error(site.string(),
-                std::string(drives ? "cannot be written: " : "cannot be read: ") + std::strerror(errno),
-                "check the folder and its permissions");
+    throw Error(site.string(), (drives ? "cannot be written: " : "cannot be read: ") + why.message(),
+                remedy_of(why));
   if (::flock(file_, (drives ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
     const std::string other = holder(file_);
     ::close(file_);

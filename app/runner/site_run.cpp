@@ -16,6 +16,7 @@
 #include "app/pose/localizer_pose.hpp"
 #include "app/route_tools.hpp"
 #include "core/clock.hpp"
+#include "core/failure_words.hpp"
 #include "core/result.hpp"
 #include "mapping/days/map_frame.hpp"
 #include "mapping/wall_map/wall_fingerprint.hpp"
@@ -85,7 +86,7 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
     loaded.keeper = std::make_unique<SiteKeeper>(site, loaded.site->walls, loaded.watch, map_watch,
                                                  mapping::map_frame(site, loaded.site->site));
   } catch (const std::exception& e) {
-    loaded.missing = e.what();
+    loaded.missing = failure_words(e);
   }
   return loaded;
 }
@@ -99,7 +100,7 @@ SiteRun::Loaded SiteRun::load_mapping(const std::filesystem::path& site) {
     loaded.mapping = std::make_shared<MappingDesk>(MappingDesk::Options{drive_file(site)});
     loaded.pose = std::make_unique<MappingPose>(loaded.mapping, loaded.site->config.lidars);
   } catch (const std::exception& e) {
-    loaded.missing = e.what();
+    loaded.missing = failure_words(e);
   }
   return loaded;
 }
@@ -122,7 +123,7 @@ void SiteRun::take(Loaded loaded) {
       if (hooks_.opened) hooks_.opened(*next);
     } catch (const std::exception& e) {  // its database, the recording, few file handles: tried again
       next.reset();
-      loaded.missing = e.what();
+      loaded.missing = failure_words(e);
       again_at_ = clock_now() + kTryAgain;
     }
   if (!loaded.missing.empty()) spdlog::info("not ready to drive: {}", loaded.missing);

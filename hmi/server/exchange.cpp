@@ -6,6 +6,7 @@
 #include <chrono>
 #include <limits>
 
+#include "core/failure_words.hpp"
 #include "core/result.hpp"
 #include "hmi/server/body.hpp"
 #include "hmi/server/live_socket.hpp"
@@ -29,7 +30,7 @@ asio::awaitable<Response> answer(ServerParts& parts, Request& request, const Gat
     } catch (const Error& e) {
       return Response::error(422, "refused", e.what());
     } catch (const std::exception& e) {
-      return Response::error(500, "internal", e.what());
+      return Response::error(500, "internal", failure_words(e));
     }
   };
   if (passage.match.work == Work::Quick) co_return guarded();

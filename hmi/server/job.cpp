@@ -3,6 +3,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/failure_words.hpp"
 #include "hmi/server/wire.hpp"
 
 namespace madori::hmi {
@@ -52,7 +53,8 @@ void Job::run(const Work& work) {
   } catch (const Failed& e) {
     error = {"job-failed", {{"reason", e.what()}, {"kind", e.kind}}, e.what()};
   } catch (const std::exception& e) {
-    error = {"job-failed", {{"reason", e.what()}}, e.what()};
+    const std::string reason = failure_words(e);
+    error = {"job-failed", {{"reason", reason}}, reason};
   }
   const std::scoped_lock lock(mutex_);
   outcome_ = std::move(outcome);

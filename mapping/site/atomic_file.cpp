@@ -5,21 +5,19 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <string>
 
+#include "core/failure_words.hpp"
 #include "core/result.hpp"
 
 namespace madori::mapping {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
-  const int error = errno;
-  throw Error(
-      file.string(), what + ": " + std::strerror(error),
-      error == ENOSPC ? "free some disk space and try again" : "check the folder and its permissions");
+  const std::error_code why(errno, std::generic_category());
+  throw Error(file.string(), what + ": " + why.message(), remedy_of(why));
 }
 
 /// Writes, syncs where that is wanted, and closes; false with errno on failure.
