@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -77,6 +79,30 @@ void add_retired_options(CLI::App& command) {
         ->group("");
 }
 
+std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+/// An option that does nothing with this file would be taken for done.
+void refuse_unused(const CLI::App& command, const std::filesystem::path& file, bool backup) {
+  const auto refuse = [&](const std::string& option, const std::string& why) {
+    if (command.count(option) > 0)
+      throw Error(option, "does nothing with " + file.string() + ": " + why, "leave it out");
+  };
+  const std::string ending = ending_of(file);
+  if (ending != ".pdf") refuse("--page", "only a PDF has pages");
+  if (ending != ".dxf") refuse("--layers", "only a DXF has layers");
+  if (ending != ".dxf") refuse("--unit", "only a DXF is drawn in a unit");
+  if (!backup) return;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();  // empty: retired, which is said already
+    if (!name.empty() && name != "drawing" && name != "--site" && name != "--force" && name != "--json")
+      refuse(name, "a backup comes back as it was");
+  }
+}
+
 /// `madori import BACKUP`
 void restore(const ImportArguments& arguments) {
   const auto& [drawing, given] = std::tie(arguments.options.drawing, arguments.options.site);
@@ -123,8 +149,10 @@ void add_import(CLI::App& app) {
   add_detection_options(*command, o.detection);
   add_touches(*command, *arguments);
   add_retired_options(*command);
-  command->callback([arguments] {
-    if (hmi::is_backup(arguments->options.drawing)) return restore(*arguments);
+  command->callback([arguments, command] {
+    const bool backup = hmi::is_backup(arguments->options.drawing);
+    refuse_unused(*command, arguments->options.drawing, backup);
+    if (backup) return restore(*arguments);
     if (arguments->options.site.empty()) throw CLI::RequiredError("--site");
     expect_json(arguments->json_file, arguments->options.site);
     arguments->options.date = iso_time_utc();

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -43,7 +44,23 @@ void systemctl(const std::string& words) {
     throw Error("systemctl " + words, "failed", "is this computer run by systemd, and are you root?");
 }
 
+/// The service would fail at every start, unseen.
+void expect_run_takes(const ServiceArguments& arguments) {
+  CLI::App probe;
+  add_run(probe);
+  probe.get_subcommand("run")->callback([] {});
+  std::vector<std::string> words{"run", arguments.site};
+  words.insert(words.end(), arguments.run_options.begin(), arguments.run_options.end());
+  std::ranges::reverse(words);
+  try {
+    probe.parse(words);
+  } catch (const CLI::ParseError& e) {
+    throw Error("what stands after --", e.what(), "madori run --help lists its options");
+  }
+}
+
 void install(const ServiceArguments& arguments) {
+  expect_run_takes(arguments);
   const fs::path site = fs::canonical(arguments.site);
   const std::string unit =
       service_unit({site, fs::canonical("/proc/self/exe"),

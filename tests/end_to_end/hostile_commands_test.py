@@ -12,6 +12,7 @@ import sqlite3
 import stat
 import subprocess
 import sys
+import tarfile
 import tempfile
 import time
 import unittest
@@ -130,6 +131,50 @@ class Commands(unittest.TestCase):
         self.assertEqual(answer.returncode, 1, answer.stderr)
         self.assertIn("is queued, but standard output", answer.stderr)
         (self.site / "madori.db").unlink()
+
+    def test_a_word_that_is_no_command_is_named(self):
+        answer = madori("nosuch", self.site)
+        self.assertEqual(answer.returncode, 2)
+        self.assertEqual(answer.stderr, "madori: nosuch: is no command - madori --help lists them\n")
+        self.assertIn("subcommand", madori().stderr)
+
+    def test_an_option_that_does_nothing_with_the_file_is_refused_and_nothing_is_made(self):
+        png = next((DATA / "sample_factory").glob("*.png"))
+        for words in (["--page", "2"], ["--unit", "mm"], ["--layers", "A"]):
+            self.refused(madori("import", png, "--site", self.here / "made", *words), words[0], png.name)
+        backup = self.here / "backup.tar"
+        with tarfile.open(backup, "w", format=tarfile.USTAR_FORMAT) as tar:
+            tar.add(self.site / "site.yaml", "site/site.yaml")
+        self.refused(madori("import", backup, "--site", self.here / "made", "--scale", "0.05"), "--scale", "backup")
+        self.assertFalse((self.here / "made").exists())
+
+    def test_a_service_is_installed_with_options_of_run_alone(self):
+        self.refused(madori("service", "install", self.site, "--user", "root", "--print", "--", "--bogus"), "--bogus")
+        good = madori("service", "install", self.site, "--user", "root", "--print", "--", "--hmi", "0.0.0.0:8080")
+        self.assertEqual(good.returncode, 0, good.stderr)
+        self.assertIn('"0.0.0.0:8080"', good.stdout)
+
+    @unittest.skipIf(os.geteuid() != 0, "it becomes another user")
+    def test_what_the_system_refuses_is_said_with_its_file_and_a_remedy(self):
+        site = pathlib.Path(tempfile.mkdtemp(dir="/tmp"))
+        try:
+            shutil.copytree(self.site, site, dirs_exist_ok=True)
+            nobody = lambda *words: madori(*words, user=65534, group=65534, extra_groups=[], cwd="/")
+            site.chmod(0o755)  # not its owner: it reads, and writes nothing
+            self.refused(nobody("sim", site, "--duration", "1"), "devices", "Permission denied", " - ")
+            (site / "routes").chmod(0o700)
+            answer = nobody("route", site, "--check")
+            self.refused(answer, "routes", "Permission denied", " - ")
+            self.assertNotIn("draw routes", answer.stderr)
+            (site / "walls.csv").chmod(0o600)
+            self.assertNotIn("import", nobody("scale", site, "--self-calibration").stderr)
+            site.chmod(0o700)
+            for words in (["route", site, "--check"], ["sim", site], ["versions", site], ["doctor", site]):
+                answer = nobody(*words)
+                self.assertNotIn("filesystem error", answer.stderr, words)
+                self.assertIn(" - ", answer.stderr, words)
+        finally:
+            shutil.rmtree(site)
 
     def test_a_log_without_a_scan_is_refused_and_nothing_is_written(self):
         log, out = self.here / "wheels.log", self.here / "poses.txt"
