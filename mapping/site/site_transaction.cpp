@@ -12,6 +12,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/failure_words.hpp"
 #include "core/result.hpp"
 #include "mapping/site/at_once.hpp"
 #include "mapping/site/atomic_file.hpp"
@@ -40,15 +41,14 @@ void sync(const fs::path& path) {
   if (descriptor >= 0) ::close(descriptor);
   if (!good)
     throw Error(path.string(), std::string("cannot be saved: ") + std::strerror(error),
-                "check the disk and its free space");
+                remedy_of({error, std::generic_category()}));
 }
 
 int take_lock(const fs::path& site, bool wait) {
   const fs::path file = site / kLock;
   const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (lock < 0)
-    throw Error(site.string(), std::string("cannot be written: ") + std::strerror(errno),
-                "check its permissions");
+  const std::error_code why(errno, std::generic_category());
+  if (lock < 0) throw Error(site.string(), "cannot be written: " + why.message(), remedy_of(why));
   if (::flock(lock, wait ? LOCK_EX : LOCK_EX | LOCK_NB) != 0) {
     ::close(lock);
     throw Error(site.string(), "another command is changing this site", "wait until it has ended");
@@ -80,6 +80,23 @@ void require_room_for(const fs::path& site, const std::string& name) {
                 "cannot be written: a file or folder of the site is in its way, or its folder is a link to "
                 "another disk",
                 "move that away");
+  if (fs::is_symlink(site / name)) expect_writable(site / name);
+}
+
+/// People link what several sites share, to another disk too: a link stays, and the file it leads to is
+/// replaced.
+void put(const fs::path& staged, const fs::path& file) {
+  std::error_code failed;
+  const bool linked = fs::is_symlink(file);
+  if (!linked) fs::rename(staged, file, failed);
+  if (!linked && !failed) return;
+  if (failed && failed != std::errc::cross_device_link)
+    throw fs::filesystem_error("cannot rename", file, staged, failed);
+  const std::string content = file_content(staged);
+  if (content.size() != fs::file_size(staged))
+    throw Error(staged.string(), "cannot be read to its end", "look at the disk");
+  write_file_atomically(file, content);
+  fs::remove(staged);
 }
 
 /// Every step can be repeated: a rename that was done before the power failed is simply no longer there.
@@ -93,7 +110,7 @@ void apply_journal(const fs::path& site) {
       fs::remove(site / name, missing);
     } else if (line.starts_with("+ ") && fs::exists(site / kStaging / name)) {
       fs::create_directories((site / name).parent_path());
-      fs::rename(site / kStaging / name, site / name);
+      put(site / kStaging / name, site / name);
     }
   }
   sync(site);
@@ -105,15 +122,13 @@ void apply_journal(const fs::path& site) {
 SiteTransaction::SiteTransaction(fs::path site) : site_(std::move(site)) {
   std::error_code error;
   created_ = fs::create_directories(site_, error);
-  if (error)
-    throw Error(site_.string(), "cannot be made: " + error.message(),
-                "choose a folder that you may write to");
+  if (error) throw Error(site_.string(), "cannot be made: " + error.message(), remedy_of(error));
   lock_ = take_lock(site_, false);
   try {
     if (fs::exists(journal_of(site_))) apply_journal(site_);
     fs::remove_all(site_ / kStaging, error);
     fs::create_directories(site_ / kStaging, error);
-    if (error) throw Error(site_.string(), "cannot be written: " + error.message(), "check its permissions");
+    if (error) throw Error(site_.string(), "cannot be written: " + error.message(), remedy_of(error));
   } catch (...) {
     ::close(lock_);  // else a panel would say until its end that another command changes the site
     throw;
@@ -138,7 +153,7 @@ fs::path SiteTransaction::staged(const std::string& name) {
   fs::path file = site_ / kStaging / name;
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
-  if (error) throw Error((site_ / name).string(), "cannot be written: " + error.message(), "check the disk");
+  if (error) throw Error((site_ / name).string(), "cannot be written: " + error.message(), remedy_of(error));
   return file;
 }
 

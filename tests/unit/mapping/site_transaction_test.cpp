@@ -45,6 +45,29 @@ TEST(SiteTransaction, CommitsPutsAndRemovals) {
   EXPECT_FALSE(fs::exists(folder.path() / "drawing.png"));
 }
 
+/// People link what several sites share, and routes that lie on another disk.
+TEST(SiteTransaction, ALinkStaysAndTheFileItLeadsToIsReplaced) {
+  const test::TemporaryFolder folder, elsewhere;
+  elsewhere.write("routes.csv", "old");
+  fs::create_directories(folder.path() / "routes");
+  const fs::path link = folder.path() / "routes/tree.csv", target = elsewhere.path() / "routes.csv";
+  fs::create_symlink(target, link);
+  {
+    SiteTransaction change(folder.path());
+    change.write("routes/tree.csv", "new");
+    change.commit();
+  }
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(file_content(target), "new");
+  EXPECT_FALSE(fs::exists(folder.path() / ".staging"));
+  fs::remove(link);
+  fs::create_symlink(elsewhere.path() / "nowhere/routes.csv", link);
+  SiteTransaction change(folder.path());
+  change.write("routes/tree.csv", "newer");
+  EXPECT_THROW(change.commit(), Error) << "what was committed could not come to pass";
+  EXPECT_FALSE(fs::exists(folder.path() / ".staging/JOURNAL"));
+}
+
 /// A person has to find the file that is meant.
 TEST(SiteTransaction, WhatItRefusesIsSaidOfTheSitesOwnFile) {
   const test::TemporaryFolder folder;
