@@ -157,8 +157,8 @@ RC_GTEST_PROP(HybridMapProperty, OccupancyIsWhatCountingSays, ()) {
     if (passed.contains(place)) continue;
     const auto cell = map.cells().find({place[0], place[1]});
     RC_ASSERT(cell != CellTree::kNone);
-    const double rounded = 1e-6 * (10 + n);  // of so many sums in single precision
-    RC_ASSERT(std::abs(map.cells()[cell].layers.now - std::min(o.layers.look_most, o.hit * n)) < rounded);
+    constexpr double kRounded = 1e-4;  // of a nat: sums in single precision
+    RC_ASSERT(std::abs(map.cells()[cell].layers.now - std::min(o.layers.look_most, o.hit * n)) < kRounded);
     RC_ASSERT(map.cells()[cell].gaussian.samples == static_cast<float>(n));
   }
 }
