@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdint>
 #include <filesystem>
@@ -15,6 +17,14 @@
 /// How readers of text open what an operator gives them: with limits that no honest file comes near, and one
 /// line that says which one was passed.
 namespace madori {
+
+/// The ending of its name, ".pdf", also of one in capitals.
+inline std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
 
 /// Throws Error unless `file` is a regular file (links are followed) of at most `most_bytes` that may be
 /// read. `mend`: where there is none.

@@ -1,9 +1,8 @@
 #include "sensors/open_log.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <deque>
 
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 #include "sensors/carmen/reader.hpp"
 #include "sensors/deskewed_reader.hpp"
@@ -79,13 +78,6 @@ class Vlp16LogReader final : public LogReader {
   bool any_cloud_ = false;  ///< was handed out
   bool ended_ = false;
 };
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 }  // namespace
 

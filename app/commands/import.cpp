@@ -1,6 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -16,6 +14,7 @@
 #include "app/iso_time.hpp"
 #include "app/json_output.hpp"
 #include "app/runner/site_lock.hpp"
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 #include "hmi/server/site_backup.hpp"
 #include "mapping/drawing/import_drawing.hpp"
@@ -79,19 +78,13 @@ void add_retired_options(CLI::App& command) {
         ->group("");
 }
 
-std::string ending_of(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
-
 /// An option that does nothing with this file would be taken for done.
 void refuse_unused(const CLI::App& command, const std::filesystem::path& file, bool backup) {
   const auto refuse = [&](const std::string& option, const std::string& why) {
     if (command.count(option) > 0)
       throw Error(option, "does nothing with " + file.string() + ": " + why, "leave it out");
   };
-  const std::string ending = ending_of(file);
+  const std::string ending = lower_extension(file);
   if (ending != ".pdf") refuse("--page", "only a PDF has pages");
   if (ending != ".dxf") refuse("--layers", "only a DXF has layers");
   if (ending != ".dxf") refuse("--unit", "only a DXF is drawn in a unit");

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <sstream>
 
+#include "core/input_file.hpp"
 #include "hmi/server/api_support.hpp"
 
 namespace madori::hmi {
@@ -67,9 +67,7 @@ std::string kind_of(const std::string& name, const std::string& reason) {
                               Kind{"password", "locked-file"},
                               Kind{"no wall was found", "no-wall"},
                               Kind{"is no revision of", "no-revision"}};
-  std::string ending = fs::path(name).extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (ending == ".dwg") return "dwg-format";
+  if (lower_extension(name) == ".dwg") return "dwg-format";
   for (const auto& [says, kind] : kKinds)
     if (reason.find(says) != std::string::npos) return kind;
   return "job-failed";

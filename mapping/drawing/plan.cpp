@@ -1,10 +1,9 @@
 #include "mapping/drawing/plan.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <utility>
 
+#include "core/input_file.hpp"
 #include "core/result.hpp"
 #include "mapping/drawing/vector/bounded_load.hpp"
 #include "mapping/drawing/vector/load_dxf.hpp"
@@ -24,9 +23,7 @@ Plan picture_alone(GrayImage picture) {
 }  // namespace
 
 Plan load_plan(const std::filesystem::path& file, const PlanOptions& options) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(file);
   if (std::filesystem::is_directory(file))
     throw Error(file.string(), "is a folder", "name the drawing file in it");
   if (!std::filesystem::exists(file)) throw Error(file.string(), "does not exist", "check the path");

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <utility>
@@ -37,11 +36,9 @@ fs::path journal_of(const fs::path& site) {
 void sync(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool good = descriptor >= 0 && ::fsync(descriptor) == 0;
-  const int error = errno;
+  const std::error_code why(errno, std::generic_category());
   if (descriptor >= 0) ::close(descriptor);
-  if (!good)
-    throw Error(path.string(), std::string("cannot be saved: ") + std::strerror(error),
-                remedy_of({error, std::generic_category()}));
+  if (!good) throw Error(path.string(), "cannot be saved: " + why.message(), remedy_of(why));
 }
 
 int take_lock(const fs::path& site, bool wait) {
@@ -92,10 +89,7 @@ void put(const fs::path& staged, const fs::path& file) {
   if (!linked && !failed) return;
   if (failed && failed != std::errc::cross_device_link)
     throw fs::filesystem_error("cannot rename", file, staged, failed);
-  const std::string content = file_content(staged);
-  if (content.size() != fs::file_size(staged))
-    throw Error(staged.string(), "cannot be read to its end", "look at the disk");
-  write_file_atomically(file, content);
+  write_file_atomically(file, file_content(staged));
   fs::remove(staged);
 }
 
