@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -63,25 +65,42 @@ class LocalMap {
                                    const MatchPrior& prior, const ExtraPull& extra = {},
                                    MatchStart from = MatchStart::Rough) const;
 
- private:
   /// A remembered point, and how far the other keyframes confirm it, 0..1.
   struct Entry {
     SurfacePoint point;
     int piece = 0;
     double weight = 1.0;
   };
-  [[nodiscard]] const Entry* nearest(double x_m, double y_m, double normal_x, double normal_y,
-                                     double reach_m) const;
-  void build_index();
-  void weigh();
+  /// Of the surfaces that look the same way as `p` (any, where it has no normal) the nearest within
+  /// `reach_m`, at most 0.6; null without one. `before`, if any, is what was nearest before the pose moved a
+  /// little: what is farther need not be asked.
+  [[nodiscard]] const Entry* nearest(const SurfacePoint& p, double reach_m, const Entry* before) const;
 
-  std::vector<Entry> points_;  ///< Map frame, sorted by cell
-  std::vector<Entry> sorted_;  ///< room for build_index()
+ private:
+  [[nodiscard]] bool may_be_near(const SurfacePoint& p, double reach_m) const;
+  [[nodiscard]] std::size_t index_of(const Entry& e) const;
+  void weigh();
+  void build_index();
+  void note_sides();
+
+  std::vector<Entry> points_;    ///< Map frame
+  std::vector<Entry> surfaces_;  ///< those with a normal, sorted by cell
   std::vector<std::uint32_t> cell_begin_, next_;
   int width_ = 0;
   int height_ = 0;
-  Point2<Map> origin_;
-  mutable bool has_grid_ = false;  ///< it is built on the first search
+  Point2<Map> low_, high_;  ///< corners of what holds all points
+  struct SeenBy {
+    int pieces = 0;
+    int last = -1;
+  };
+  std::vector<SeenBy> seen_by_;  ///< room for weigh(): how many pieces have points in a cell
+  /// Which ways surfaces look in a cell, within one, and within two around it: a bit an eighth of a turn.
+  static constexpr int kSidesReach = 2;
+  std::array<std::vector<std::uint8_t>, kSidesReach + 1> sides_;
+  std::size_t sides_width_ = 0;
+  Point2<Map> sides_low_;
+  mutable std::vector<const Entry*> found_;  ///< of each point of the scan that is matched
+  mutable bool has_grid_ = false;            ///< it is built on the first search
   mutable ScoreGrid grid_;
   mutable std::vector<ScoreGrid::Mark> marks_;
 };

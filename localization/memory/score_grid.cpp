@@ -109,12 +109,12 @@ class BranchAndBound {
 
   SearchResult run() {
     best_ = {prediction_, -1.0};
-    make_rotations();
     reach_ = static_cast<int>(std::ceil(window_.half_m / ScoreGrid::kResolutionM));
+    make_rotations();
     constexpr int kTop = ScoreGrid::kLevels - 1;
     auto& top = room_.top;
     top.clear();
-    for (std::size_t r = 0; r < room_.rotations.size(); ++r) {
+    for (std::size_t r = 0; r + 1 < room_.rotations.size(); ++r) {
       for (int y = -reach_; y <= reach_; y += 1 << kTop) {
         for (int x = -reach_; x <= reach_; x += 1 << kTop) {
           top.push_back({r, x, y, bound(r, x, y, kTop), top.size()});
@@ -148,18 +148,24 @@ class BranchAndBound {
     const double step = step_rad();
     const int count = static_cast<int>(std::ceil(window_.half_rad / step));
     room_.rotations.clear();
-    room_.cells.clear();
+    room_.inside.clear();
+    room_.outside.clear();
     for (int i = -count; i <= count; ++i) {
-      room_.rotations.push_back({i * step, room_.cells.size()});
+      room_.rotations.push_back({i * step, room_.inside.size(), room_.outside.size()});
       const Transform2<Map, Base> pose(prediction_.x_m(), prediction_.y_m(),
                                        prediction_.yaw_rad() + i * step);
-      for (const SurfacePoint& p : scan_.points) {
-        const Point2<Map> q = pose * Point2<Base>{p.x_m, p.y_m};
-        room_.cells.push_back(
-            {static_cast<int>(std::floor((q.x_m - grid_.origin_.x_m) / ScoreGrid::kResolutionM)),
-             static_cast<int>(std::floor((q.y_m - grid_.origin_.y_m) / ScoreGrid::kResolutionM))});
-      }
+      for (const SurfacePoint& p : scan_.points) add(pose * Point2<Base>{p.x_m, p.y_m});
     }
+    room_.rotations.push_back({0.0, room_.inside.size(), room_.outside.size()});  // where the last one ends
+  }
+
+  void add(const Point2<Map>& q) {
+    const int x = static_cast<int>(std::floor((q.x_m - grid_.origin_.x_m) / ScoreGrid::kResolutionM));
+    const int y = static_cast<int>(std::floor((q.y_m - grid_.origin_.y_m) / ScoreGrid::kResolutionM));
+    if (x >= reach_ && x + reach_ < grid_.width_ && y >= reach_ && y + reach_ < grid_.height_)
+      room_.inside.push_back(y * grid_.width_ + x);
+    else
+      room_.outside.push_back({x, y});
   }
 
   /// Least penalty of any offset within the window of 2^level cells that starts at (x, y).
@@ -172,12 +178,16 @@ class BranchAndBound {
   }
 
   double bound(std::size_t r, int x, int y, int level) const {
-    const std::size_t points = scan_.points.size();
-    const std::array<int, 2>* cell = room_.cells.data() + room_.rotations[r].first;
+    const ScoreGrid::Rotation& from = room_.rotations[r];
+    const ScoreGrid::Rotation& to = room_.rotations[r + 1];
+    const ScoreGrid::Level& values = grid_.levels_[static_cast<std::size_t>(level)];
+    const int shift = y * grid_.width_ + x;
     unsigned sum = 0;
-    for (std::size_t i = 0; i < points; ++i) {
-      sum += grid_.at(level, cell[i][0] + x, cell[i][1] + y);
-    }
+    for (std::size_t i = from.first_inside; i < to.first_inside; ++i)
+      sum += values[static_cast<std::size_t>(room_.inside[i] + shift)];
+    for (std::size_t i = from.first_outside; i < to.first_outside; ++i)
+      sum += grid_.at(level, room_.outside[i][0] + x, room_.outside[i][1] + y);
+    const std::size_t points = scan_.points.size();
     const double mean = points == 0 ? 0.0 : sum / (255.0 * static_cast<double>(points));
     return mean - penalty(r, x, y, level);
   }

@@ -64,7 +64,8 @@ class ScoreGrid {
   /// Room that one search after the other works in.
   struct Rotation {
     double offset_rad = 0.0;
-    std::size_t first = 0;  ///< of its cells
+    std::size_t first_inside = 0;  ///< of its cells
+    std::size_t first_outside = 0;
   };
   struct Candidate {
     std::size_t rotation;
@@ -76,7 +77,10 @@ class ScoreGrid {
   struct SearchRoom {
     std::vector<double> ranges;
     std::vector<Rotation> rotations;
-    std::vector<std::array<int, 2>> cells;  ///< of the scan's points, rotation after rotation
+    /// Cells of the scan's points, rotation after rotation: those that stay within the grid wherever the
+    /// window puts them, by their index, and the others.
+    std::vector<int> inside;
+    std::vector<std::array<int, 2>> outside;
     std::vector<Candidate> top;
   };
   mutable SearchRoom room_;

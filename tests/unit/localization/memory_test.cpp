@@ -37,6 +37,40 @@ TEST(SurfaceScan, NormalsStandOnTheWallsAndLookAtTheSensor) {
   EXPECT_GT(directed, static_cast<int>(scan.points.size()) * 8 / 10);
 }
 
+/// Beside a search through all points. What was found for a place beside it changes nothing.
+TEST(LocalMap, FindsTheNearestSurfaceThatLooksTheSameWay) {
+  std::mt19937 engine(9);
+  const Transform2<Map, Base> from(10.0, 8.0, 0.3), beside(11.0, 8.5, 1.9);
+  const SurfaceScan one = look(from, engine, 0.02), other = look(beside, engine, 0.02);
+  const LocalMap map({{&one, from}, {&other, beside}}, {10.0, 8.0}, 9.0);
+  std::vector<SurfacePoint> surfaces;
+  for (const auto& [scan, pose] : {std::pair{&one, from}, std::pair{&other, beside}})
+    for (const SurfacePoint& s : scan->points)
+      if (const SurfacePoint q = moved(pose, s);
+          q.has_normal() && std::hypot(q.x_m - 10.0, q.y_m - 8.0) < 9.0)
+        surfaces.push_back(q);
+  std::uniform_real_distribution<double> place(-1.0, 20.0), turn(-kPi, kPi), share(0.1, 1.0);
+  int found = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double yaw = turn(engine), reach_m = 0.6 * share(engine);
+    SurfacePoint p{place(engine), place(engine), std::cos(yaw), std::sin(yaw)};
+    if (i % 5 == 0) p.normal_x = p.normal_y = 0.0;
+    double least_m = reach_m;
+    for (const SurfacePoint& q : surfaces)
+      if (!p.has_normal() || q.normal_x * p.normal_x + q.normal_y * p.normal_y > kSameSurfaceCosine)
+        least_m = std::min(least_m, std::hypot(q.x_m - p.x_m, q.y_m - p.y_m));
+    const LocalMap::Entry* nearest = map.nearest(p, reach_m, nullptr);
+    ASSERT_EQ(nearest != nullptr, least_m < reach_m) << i;
+    if (nearest == nullptr) continue;
+    ++found;
+    EXPECT_NEAR(std::hypot(nearest->point.x_m - p.x_m, nearest->point.y_m - p.y_m), least_m, 1e-9);
+    SurfacePoint near = p;
+    near.x_m += 0.05 * share(engine);
+    EXPECT_EQ(map.nearest(near, reach_m, nearest), map.nearest(near, reach_m, nullptr));
+  }
+  EXPECT_GT(found, 200);
+}
+
 /// A wall 4 m ahead, 6 m long, points 3.5 cm apart with noise on x and y: where so much noise is known, more
 /// neighbours tell the wall's direction.
 TEST(SurfaceScan, NoisyPointsTellTheDirectionTogether) {
