@@ -212,7 +212,7 @@ void check_way(CycleState& state, const CycleInput& input, const CycleConfig& co
     if (command.word == OperatorWord::GoOn) allow_door(state, config);
   for (const auto& command : input.commands)
     if (command.word == OperatorWord::ForgetObstacles ||
-        (command.word == OperatorWord::Resume && state.mode == Mode::Waiting)) {
+        (command.word == OperatorWord::Resume && (state.mode == Mode::Waiting || state.block.felt))) {
       forget_what_was_looked_at(state);
       if (state.way.rejoin_m) take_path(state, {}, config);  // nothing to drive around any more: planned anew
     }

@@ -60,6 +60,18 @@ void TransportRun::carry_out(const CycleOutput& output, Stamp moment) {
   }
 }
 
+/// What a device says of itself, for whoever looks later: a standstill names its cause, but not that a
+/// scanner reports an error. The same once a minute, and not more than so many a minute.
+void TransportRun::tell_trouble(const std::string& text, Stamp now) {
+  constexpr std::size_t kMost = 8;
+  if (text.empty()) return;
+  std::erase_if(troubles_, [&](const auto& told) { return now - told.second > std::chrono::minutes(1); });
+  if (troubles_.size() >= kMost || troubles_.contains(text)) return;
+  troubles_[text] = now;
+  tell(text);
+  spdlog::warn("{}", text);
+}
+
 void TransportRun::tick(Stamp now) {
   CycleInput input;
   input.now = now;
@@ -78,7 +90,8 @@ void TransportRun::tick(Stamp now) {
   if (std::ranges::any_of(input.commands, [](const auto& c) { return c.word == OperatorWord::Stop; }))
     orders_.cancel_running("stopped at the panel", time_of_day(now));
   if (tap_) tap_(input, result.output, state_);
-  const std::string problem = orders_.problem();
+  const std::string problem = orders_.problem(), trouble = link_->problem();
+  tell_trouble(trouble, now);
   const std::scoped_lock lock(mutex_);
   view_ = {now,
            state_.mode,
@@ -88,7 +101,7 @@ void TransportRun::tick(Stamp now) {
            result.output.command,
            state_.progress.cross_track_m,
            state_.drive.battery_mv / 1000.0,
-           problem.empty() ? link_->problem() : "orders: " + problem,
+           problem.empty() ? trouble : "orders: " + problem,
            state_.drive};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -59,6 +60,7 @@ class TransportRun {
  private:
   void carry_out(const CycleOutput& output, Stamp moment);
   void ask_detour(const planning::DetourRequest& request);
+  void tell_trouble(const std::string& text, Stamp now);
 
   CycleConfig config_;
   TransportOptions options_;
@@ -69,6 +71,7 @@ class TransportRun {
   std::optional<planning::DetourAnswer> answer_;
   CycleState state_;
   Tap tap_;
+  std::map<std::string, Stamp> troubles_;  ///< of devices, and when they were told
   mutable std::mutex mutex_;
   std::vector<OperatorCommand> said_;
   VehicleView view_;

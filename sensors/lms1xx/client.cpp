@@ -12,12 +12,9 @@ bool is_refused(const Head& head, std::optional<std::uint32_t> answer) {
   return (head.kind == "sAN" || head.kind == "sEA") && answer.value_or(0) != 1;
 }
 
-/// Second status byte of a scan telegram. An LMS5xx sets the error's bit too when its screen is too dirty.
-std::string problem_of(const ScanData& data) {
-  if ((data.status[1] & 4U) != 0) return "the scanner's front screen is too dirty to measure: clean it";
-  if ((data.status[1] & 1U) != 0) return "the scanner reports a device error";
-  if ((data.status[1] & 2U) != 0) return "the scanner's front screen is dirty: clean it soon";
-  return "";
+/// What a scanner that still measures says of itself.
+std::string warning_of(const ScanData& data) {
+  return (data.status[1] & 2U) != 0 ? "the scanner's front screen is dirty: clean it soon" : "";
 }
 
 }  // namespace
@@ -122,13 +119,17 @@ void Client::take_scan(std::span<const std::uint8_t> payload, Stamp received) {
   }
   LaserScan result = std::move(scan).value();
   const ScanData& d = data.value();
+  if (clock_.is_repeated(d)) {
+    const std::lock_guard lock(mutex_);
+    return void(++counters_.refused);
+  }
   result.stamp = clock_.stamp_of(d, received);
   {
     const std::lock_guard lock(mutex_);
     counters_.lost = clock_.lost();
     heard_ = received;
     ++counters_.scans;
-    if (state_ == ClientState::Measuring) problem_ = problem_of(d);
+    if (state_ == ClientState::Measuring) problem_ = warning_of(d);
   }
   sink_(result, d);
 }

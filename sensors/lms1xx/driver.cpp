@@ -110,7 +110,8 @@ class Decoder final : public LidarDecoder {
   void take(std::span<const std::uint8_t> payload, Stamp received) {
     const auto data = decode_scan(dialect_, payload);
     auto scan = data ? to_laser_scan(data.value()) : Result<LaserScan>::failure(data.reason());
-    if (!scan || !differs(scan.value(), model_).empty()) return void(++refused_);
+    if (!scan || !differs(scan.value(), model_).empty() || clock_.is_repeated(data.value()))
+      return void(++refused_);
     if (!is_asked_for(data.value())) return;
     ++sweeps_;
     LidarSweep sweep{std::move(scan).value(), data.value().scan_time_us, ""};

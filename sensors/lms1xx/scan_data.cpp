@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <string_view>
 
 #include "core/angle.hpp"
@@ -155,6 +156,13 @@ void add_intensities(const Channel<Value>* rssi, LaserScan& scan) {
   for (const Value value : rssi->values) scan.intensities.push_back(rssi->scale * static_cast<float>(value));
 }
 
+/// Why a scanner says of itself that its scan is none; empty where it does not. An LMS5xx sets the error's
+/// bit too when its screen is too dirty.
+std::string fault_of(const ScanData& data) {
+  if ((data.status[1] & 4U) != 0) return "the scanner's front screen is too dirty to measure: clean it";
+  return (data.status[1] & 1U) != 0 ? "the scanner reports a device error" : "";
+}
+
 }  // namespace
 
 Result<ScanData> decode_scan(Dialect dialect, std::span<const std::uint8_t> payload) {
@@ -165,6 +173,7 @@ Result<ScanData> decode_scan(Dialect dialect, std::span<const std::uint8_t> payl
 }
 
 Result<LaserScan> to_laser_scan(const ScanData& data) {
+  if (std::string fault = fault_of(data); !fault.empty()) return Result<LaserScan>::failure(std::move(fault));
   const auto* distances = find(data.channels16, "DIST1");
   if (distances == nullptr) distances = find(data.channels16, "DIST2");
   if (distances == nullptr) return Result<LaserScan>::failure("the telegram has no distance channel");

@@ -61,7 +61,8 @@ struct ScanData {
 
 /// Channel DIST1 (or DIST2 where there is no other) as a scan of the Lidar frame: x forward, which is 90 deg
 /// of the device. Values below 16 and those beyond 16 bits are no ranges; RSSI1 becomes the intensities. The
-/// stamp stays unset. Fails without a distance channel, and on scales or angles that are no numbers.
+/// stamp stays unset. Fails without a distance channel, on scales or angles that are no numbers, and where
+/// the scanner says of itself that it does not measure (an error, a front screen that is too dirty).
 [[nodiscard]] Result<LaserScan> to_laser_scan(const ScanData& data);
 
 }  // namespace madori::sensors::lms1xx

@@ -2,7 +2,8 @@
 real sockets; each fault is done to it while it drives. It must stand within the limit or go on as the table says, tell
 the operator why, stay on its route, collide with nothing, and deliver again by itself.
 
-    campaign.py MADORI DATA [--seeds 5] [--first-seed 1] [--only PATTERN] [--short] [--table FILE.md] [--keep FOLDER]
+    campaign.py MADORI DATA [--lidar vlp16|lms1xx|s300,lms1xx] [--seeds 5] [--first-seed 1] [--only PATTERN] [--short]
+                [--table FILE.md] [--keep FOLDER]
 """
 
 import argparse
@@ -21,11 +22,13 @@ from faults import FAULTS, DriveWire, LidarWire, Scene  # noqa: E402
 from more_faults import MORE_FAULTS  # noqa: E402
 from truth_listener import come_first  # noqa: E402
 from running import STANDS_MPS, Factory, Routes, Run, free_port, wait_for  # noqa: E402
-from sample_site import make_site  # noqa: E402
+from sample_site import make_site, mount  # noqa: E402
+from scanner_faults import SCANNER_FAULTS, SCANNERS, mounted  # noqa: E402
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
 parser.add_argument("madori")
 parser.add_argument("data", type=pathlib.Path)
+parser.add_argument("--lidar", default="vlp16", choices=["vlp16", *SCANNERS], help="what it sees with; each has a table of its own")
 parser.add_argument("--seeds", type=int, default=1)
 parser.add_argument("--first-seed", type=int, default=1, help="seeds are shared out to several processes by it")
 parser.add_argument("--only", default="", help="faults whose name has this pattern")
@@ -110,14 +113,18 @@ def scene_of(seed, folder):
     folder.mkdir(parents=True)
     site = folder / "site"
     make_site(arguments.madori, arguments.data, site, quiet=True)
+    if arguments.lidar in SCANNERS:
+        mount(site, SCANNERS[arguments.lidar])
     factory, run_port, lives = Factory(arguments.madori, folder, site), free_port(), iter(range(1, 1000))
     lidar, drive = LidarWire(factory.lidar_port, run_port), DriveWire(factory.devices / "drive")
 
-    def life(**more):
+    def life(more=(), **others):
         return Run(arguments.madori, folder, site, factory, name=f"run{next(lives)}", lidar_port=run_port, drive=drive.name,
-                   **more)
+                   more=(*scanners, *more), **others)
 
-    scene = Scene(arguments.madori, site, factory, life(), lidar, drive, seed, life)
+    scene = Scene(arguments.madori, site, factory, None, lidar, drive, seed, life)
+    scanners = mounted(scene, factory)
+    scene.run = life()
     scene.run.order([13, 15], repeat=900)
     scene.run.resume()
     return scene
@@ -147,7 +154,7 @@ def campaign(seed, rows):
     scene = None
     with contextlib.nullcontext(arguments.keep) if arguments.keep else tempfile.TemporaryDirectory() as name:
         try:
-            for number, fault in enumerate(FAULTS + MORE_FAULTS):
+            for number, fault in enumerate(SCANNER_FAULTS.get(arguments.lidar, FAULTS + MORE_FAULTS)):
                 if not re.search(arguments.only, fault.name) or (arguments.short and not fault.short):
                     continue
                 scene = scene or scene_of(seed, pathlib.Path(name) / f"{seed}-{number}")

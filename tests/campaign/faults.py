@@ -53,8 +53,8 @@ class LidarWire:
 class DriveWire:
     """Between the virtual drive and the program, a pseudo-terminal of its own; `fault(bytes, to_drive)` likewise."""
 
-    def __init__(self, sim_device):
-        self.fault, self.name = None, sim_device.with_name("wire")
+    def __init__(self, sim_device, name="wire"):
+        self.fault, self.name = None, sim_device.with_name(name)
         self.sim_end = os.open(sim_device, os.O_RDWR | os.O_NOCTTY)
         tty.setraw(self.sim_end)
         self.plug_in()

@@ -376,6 +376,7 @@ def begun_anew(scene, how, **more):
     """The program ends in that way and begins anew with that environment."""
     scene.run.process.send_signal(how)
     scene.run.process.wait(30)
+    time.sleep(0.5)  # it may be there again before the vehicle has braked
     scene.run = scene.again(**more)
     scene.run.resume()
 

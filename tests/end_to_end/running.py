@@ -52,8 +52,8 @@ class Factory:
             re.sub(r"(?m)^start:.*$", "start: {x_m: 53.6, y_m: 10.0, yaw_deg: -90}", text))
         self.lidar_port, self.devices, self.log = free_port(), folder / "devices", folder / "sim.txt"
         self.process = subprocess.Popen(
-            [madori, "sim", site, "--devices", self.devices, "--lidar-port", str(self.lidar_port)],
-            stdout=open(self.log, "w"), stderr=subprocess.STDOUT)
+            [madori, "sim", site, "--devices", self.devices, "--lidar-port", str(self.lidar_port),
+             "--lms-port", "0"], stdout=open(self.log, "w"), stderr=subprocess.STDOUT)
         wait_for(lambda: "ws://127.0.0.1:" in self.log.read_text(), "madori sim does not start")
         self.truth = TruthListener(int(self.log.read_text().split("ws://127.0.0.1:")[1].split()[0]))
 

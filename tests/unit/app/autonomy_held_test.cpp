@@ -27,6 +27,21 @@ TEST(AutonomyCycle, AVehicleThatDrivesAndDoesNotGetOnStopsAndSaysSo) {
   }
 }
 
+/// Who paused it and looked says the same as who found it waiting.
+TEST(AutonomyCycle, ResumeAfterAPauseForgetsWhatHeldIt) {
+  auto v = corridor_vehicle();
+  v->drive_to({{2}});
+  v->say(OperatorWord::Resume);
+  ASSERT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.9; }, 10.0));
+  v->rolling.held = test::RollingVehicle::Held::Blocked;
+  ASSERT_TRUE(v->run_until([&] { return v->state().standstill.cause == notice(Cause::HeldBack); }, 4.0));
+  v->say(OperatorWord::Pause);
+  v->run_until([&] { return false; }, 0.5);
+  v->rolling.held = test::RollingVehicle::Held::No;
+  v->say(OperatorWord::Resume);
+  EXPECT_TRUE(v->run_until([&] { return v->rolling.speed().linear_mps > 0.3; }, 3.0));
+}
+
 /// To slipping wheels somebody who stands there seems to move: the vehicle stops and starts, and still
 /// notices.
 TEST(AutonomyCycle, ShortStopsDoNotHideThatItDoesNotGetOn) {

@@ -14,8 +14,8 @@ LidarSettings settings_of(const char* name, std::map<std::string, std::string> v
 }
 
 /// A scan of the whole field of view, all at 3 m.
-lms1xx::Bytes scan_of(lms1xx::Dialect dialect, std::uint16_t step, std::size_t beams) {
-  lms1xx::ScanData data;
+lms1xx::Bytes scan_of(lms1xx::Dialect dialect, std::uint16_t step, std::size_t beams,
+                      lms1xx::ScanData data = {}) {
   data.channels16.push_back(
       {{'D', 'I', 'S', 'T', '1'}, 1.0F, 0.0F, -450'000, step, std::vector<std::uint16_t>(beams, 3000)});
   return lms1xx::encode(dialect, data);
@@ -51,6 +51,29 @@ TEST(LidarRegistry, AScannerThatMeasuresOtherwiseThanTheSiteSaysIsRefused) {
     EXPECT_EQ(seen, sweeps) << step << ' ' << beams;
     EXPECT_EQ(decoder->counters().refused, 1U - static_cast<unsigned>(sweeps));
   }
+}
+
+/// A scanner that hangs itself up sends the same for ever; one in trouble says so and sends on.
+TEST(LidarRegistry, AScanThatComesAgainOrIsNoneByItsScannersWordIsNotHandedOn) {
+  int seen = 0;
+  const auto decoder = lidar_of("lms1xx", "").decoder(settings_of("front"), [&](LidarSweep&) { ++seen; });
+  std::uint64_t pushed = 0;
+  const auto push = [&](std::uint32_t scan_time_us, std::uint8_t status) {
+    lms1xx::ScanData data;
+    data.scan_time_us = data.transmit_time_us = scan_time_us;
+    data.status[1] = status;
+    decoder->push(scan_of(lms1xx::Dialect::B, 5'000, 541, data),
+                  stamp_from_seconds(1.0 + 0.02 * static_cast<double>(++pushed)));
+    return seen;
+  };
+  constexpr std::uint8_t kGood = 0, kError = 1, kDirty = 2, kTooDirty = 4;
+  EXPECT_EQ(push(0, kGood), 1);
+  EXPECT_EQ(push(0, kGood), 1) << "again";
+  EXPECT_EQ(push(20'000, kDirty), 2) << "it still measures";
+  EXPECT_EQ(push(40'000, kError), 2);
+  EXPECT_EQ(push(60'000, kTooDirty), 2);
+  EXPECT_EQ(push(80'000, kGood), 3);
+  EXPECT_EQ(decoder->counters().refused, 3U);
 }
 
 TEST(LidarRegistry, BothDialectsAndBothRatesAreRead) {

@@ -1,0 +1,368 @@
+"""What happens to a vehicle of planar scanners: an LMS1xx (TCP, CoLa B) and an S300 (serial), instead of a VLP-16."""
+
+import binascii
+import select
+import socket
+import struct
+import threading
+import time
+
+from faults import RESUME, DriveWire, Fault, number, put
+from truth_listener import come_first
+
+LMS = "type: lms1xx, x_m: 0.65, z_m: 0.18, settings: {cola: B}"
+S300 = "type: s300, x_m: 0.68, z_m: 0.15, protective_m: 0.7, protective_side_m: 0.05"
+SCANNERS = {"lms1xx": [LMS], "s300,lms1xx": [S300, LMS]}
+
+
+class ColaWire:
+    """Between the virtual LMS1xx and the program, which calls it; `fault(telegram, to_scanner)` gives what is sent instead."""
+
+    def __init__(self, sim_port):
+        self.fault, self.sim_port, self.held, self.answers = None, sim_port, [], True
+        self.server = socket.create_server(("127.0.0.1", 0))
+        self.port = self.server.getsockname()[1]
+        threading.Thread(target=self.serve, daemon=True).start()
+
+    def serve(self):
+        come_first()
+        while True:
+            client = self.server.accept()[0]
+            if not self.answers:
+                client.close()
+                continue
+            client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            device = socket.create_connection(("127.0.0.1", self.sim_port))
+            self.held = [client, device]
+            threading.Thread(target=self.pass_on, args=(client, device), daemon=True).start()
+
+    def pass_on(self, client, device):
+        come_first()
+        rest = {client: b"", device: b""}
+        try:
+            while True:
+                for ready in select.select([client, device], [], [], 0.02)[0]:
+                    data = ready.recv(65536)
+                    if not data:
+                        raise OSError("closed")
+                    telegrams, rest[ready] = split(rest[ready] + data)
+                    for telegram in telegrams:
+                        to_scanner = ready is client
+                        for out in self.fault(telegram, to_scanner) if self.fault else [telegram]:
+                            (device if to_scanner else client).sendall(out)
+        except (OSError, ValueError):
+            client.close()
+            device.close()
+
+    def close(self):
+        for end in self.held:
+            with_reset(end)
+
+
+def with_reset(end):
+    try:
+        end.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        end.shutdown(socket.SHUT_RDWR)
+    except OSError:
+        pass  # the program closed it first
+
+
+def split(data):
+    """Whole CoLa B telegrams, and the rest."""
+    telegrams = []
+    while len(data) >= 8 and len(data) >= 9 + (size := int.from_bytes(data[4:8], "big")):
+        telegrams.append(data[:9 + size])
+        data = data[9 + size:]
+    return telegrams, data
+
+
+def framed(payload):
+    check = 0
+    for byte in payload:
+        check ^= byte
+    return b"\2\2\2\2" + len(payload).to_bytes(4, "big") + payload + bytes([check])
+
+
+def scans(edit):
+    """Each scan's payload may be changed in place (False: it is lost), its checksum made anew; answers pass."""
+    def pass_on(telegram, to_scanner):
+        payload = bytearray(telegram[8:-1])
+        if to_scanner or not payload.startswith(b"sSN LMDscandata"):
+            return [telegram]
+        return [framed(bytes(payload))] if edit(payload) is not False else []
+    return pass_on
+
+
+def raw(edit):
+    """What comes from the scanner, as bytes."""
+    return lambda telegram, to_scanner: [telegram] if to_scanner else edit(telegram)
+
+
+def big(payload, at, size=2):
+    return int.from_bytes(payload[at:at + size], "big")
+
+
+def set_big(payload, at, value, size=2):
+    payload[at:at + size] = (value % (1 << 8 * size)).to_bytes(size, "big")
+
+
+COUNTER, SINCE_START, TRANSMITTED, SCALE, START, STEP, COUNT, DATA = 26, 30, 34, 61, 69, 73, 75, 77
+
+
+def lms_ranges(new):
+    def edit(payload):
+        for i in range(big(payload, COUNT)):
+            set_big(payload, DATA + 2 * i, new(big(payload, DATA + 2 * i), i))
+    return scans(edit)
+
+
+def every_second_beam(payload):
+    """As a scanner that was set to the other step."""
+    count = big(payload, COUNT)
+    values = b"".join(payload[DATA + 2 * i:DATA + 2 * i + 2] for i in range(0, count, 2))
+    rest = payload[DATA + 2 * count:]
+    set_big(payload, STEP, 2 * big(payload, STEP))
+    set_big(payload, COUNT, len(values) // 2)
+    payload[DATA:] = values + rest
+
+
+def kept_from(at, size):
+    first = []
+
+    def edit(payload):
+        first.append(big(payload, at, size)) if not first else set_big(payload, at, first[0], size)
+    return edit
+
+
+def again_and_again():
+    kept = []
+
+    def pass_on(telegram, to_scanner):
+        if to_scanner or len(telegram) < 200:
+            return [telegram]
+        kept.append(telegram)
+        return [kept[0]]
+    return pass_on
+
+
+def late(seconds):
+    waiting = []
+
+    def pass_on(telegram, to_scanner):
+        if to_scanner:
+            return [telegram]
+        now = time.monotonic()
+        waiting.append((now + seconds, telegram))
+        out = [t for due, t in waiting if due <= now]
+        waiting[:] = [w for w in waiting if w[0] > now]
+        return out
+    return pass_on
+
+
+def in_bursts(seconds):
+    waiting, since = [], [time.monotonic()]
+
+    def pass_on(telegram, to_scanner):
+        if to_scanner:
+            return [telegram]
+        waiting.append(telegram)
+        if time.monotonic() - since[0] < seconds:
+            return []
+        out, since[0] = waiting[:], time.monotonic()
+        waiting.clear()
+        return out
+    return pass_on
+
+
+class Telegrams:
+    """Cuts what an S300 sends; `edit(telegram)` may change one, its checksum is made anew, or return False: lost."""
+
+    def __init__(self, edit):
+        self.edit, self.rest = edit, b""
+
+    def __call__(self, data, to_device):
+        if to_device:
+            return data
+        self.rest += data
+        out = b""
+        while len(self.rest) >= 12 and len(self.rest) >= (size := 4 + 2 * big(self.rest, 6)):
+            telegram, self.rest = bytearray(self.rest[:size]), self.rest[size:]
+            if self.edit(telegram) is False:
+                continue
+            put(telegram, size - 2, binascii.crc_hqx(bytes(telegram[4:-2]), 0xFFFF))
+            out += telegram
+        return out
+
+
+S300_DATA = 24
+
+
+def values(new):
+    def edit(telegram):
+        for i in range(541):
+            put(telegram, S300_DATA + 2 * i, new(number(telegram, S300_DATA + 2 * i)))
+    return edit
+
+
+def the_same():
+    kept = []
+
+    def edit(telegram):
+        kept.append(bytes(telegram)) if not kept else telegram.__setitem__(slice(None), kept[0])
+    return edit
+
+
+def lms_does(scene, fault, seconds):
+    scene.lms.fault = fault
+    time.sleep(seconds)
+    scene.lms.fault = None
+
+
+def s300_does(scene, fault, seconds):
+    scene.s300.fault = fault
+    time.sleep(seconds)
+    scene.s300.fault = None
+
+
+def refuses(scene, seconds):
+    scene.lms.answers = False
+    scene.lms.close()
+    time.sleep(seconds)
+    scene.lms.answers = True
+
+
+def closes(scene, times, pause_s):
+    for _ in range(times):
+        scene.lms.close()
+        time.sleep(pause_s)
+
+
+def unplugged(scene, seconds):
+    scene.s300.unplug()
+    time.sleep(seconds)
+    scene.s300.plug_in()
+
+
+def both_silent(scene, seconds):
+    scene.lms.fault, scene.s300.fault = raw(lambda t: []), lambda d, to: b""
+    time.sleep(seconds)
+    scene.lms.fault = scene.s300.fault = None
+
+
+QUIET = ["is silent"]
+FIELD = ["protective field", "safety scanner"]
+NOTHING = raw(lambda t: [])
+
+# One scanner, which all depends on: 0.35 s until it counts as silent, half a second of braking.
+LMS_FAULTS = [
+    Fault("LMS1xx silent for 2 s", lambda s: lms_does(s, NOTHING, 2.0), "stands", 1.0, QUIET),
+    Fault("LMS1xx silent for 15 s", lambda s: lms_does(s, NOTHING, 15.0), "stands", 1.0, QUIET),
+    Fault("LMS1xx silent for 0.2 s, ten times", lambda s: [(lms_does(s, NOTHING, 0.2), time.sleep(0.3)) for _ in range(10)]),
+    Fault("LMS1xx closes the connection", lambda s: closes(s, 1, 3.0)),
+    Fault("LMS1xx closes the connection five times", lambda s: closes(s, 5, 1.5)),
+    Fault("LMS1xx refuses connections for 5 s", lambda s: refuses(s, 5.0), "stands", 1.0, QUIET),
+    Fault("LMS1xx refuses to be set up", lambda s: (closes(s, 1, 0.0), lms_does(s, raw(
+        lambda t: [t] if t[8:].startswith(b"sSN") else [framed(b"sFA\0\3")]), 4.0)), "stands", 1.0, ["refuses SetAccessMode"]),
+    Fault("a tenth of the scans lost", lambda s: lms_does(s, scans(lambda p: s.chance.random() > 0.1), 3.0), "goes on"),
+    Fault("half of the scans lost", lambda s: lms_does(s, scans(lambda p: s.chance.random() > 0.5), 3.0), "goes on"),
+    Fault("19 of 20 scans lost", lambda s: lms_does(s, scans(lambda p: s.chance.random() > 0.95), 4.0)),
+    Fault("every scan twice", lambda s: lms_does(s, raw(lambda t: [t, t]), 3.0), "goes on"),
+    Fault("scans 0.2 s late", lambda s: lms_does(s, late(0.2), 4.0)),
+    Fault("scans 1 s late", lambda s: lms_does(s, late(1.0), 4.0)),
+    Fault("scans in bursts of 0.3 s", lambda s: lms_does(s, in_bursts(0.3), 4.0)),
+    Fault("scans in bursts of 2 s", lambda s: lms_does(s, in_bursts(2.0), 6.0)),
+    Fault("byte after byte", lambda s: lms_does(s, raw(lambda t: [t[:9], t[9:500], t[500:]]), 3.0), "goes on"),
+    Fault("noise between the telegrams", lambda s: lms_does(s, raw(lambda t: [s.chance.randbytes(37), t]), 3.0), "goes on"),
+    Fault("noise in place of the scans", lambda s: lms_does(s, raw(lambda t: [s.chance.randbytes(len(t))]), 3.0), "stands", 1.0, QUIET),
+    Fault("a tenth of the checksums wrong", lambda s: lms_does(s, raw(
+        lambda t: [t[:-1] + bytes([t[-1] ^ 1])] if s.chance.random() < 0.1 else [t]), 3.0), "goes on"),
+    Fault("every checksum wrong", lambda s: lms_does(s, raw(lambda t: [t[:-1] + bytes([t[-1] ^ 1])]), 3.0), "stands", 1.0,
+          QUIET),
+    Fault("telegrams damaged within", lambda s: lms_does(s, raw(lambda t: [s.damaged(t, 1.0)]), 3.0), "stands", 1.2, QUIET),
+    Fault("telegrams cut short", lambda s: lms_does(s, raw(lambda t: [t[:len(t) // 2]]), 3.0), "stands", 1.0, QUIET),
+    Fault("telegrams that announce a gigabyte", lambda s: lms_does(s, raw(lambda t: [t[:4] + b"\x40\0\0\0" + t[8:]]), 3.0),
+          "stands", 1.0, QUIET),
+    Fault("one scan again and again", lambda s: lms_does(s, again_and_again(), 3.0), "stands", 1.0, QUIET),
+    Fault("the same picture for ever, counted on", lambda s: lms_does(s, (lambda kept: scans(lambda p: p.__setitem__(
+        slice(DATA, DATA + 2 * big(p, COUNT)), kept.setdefault(0, bytes(p[DATA:DATA + 2 * big(p, COUNT)])))))({}), 4.0),
+        then=RESUME),
+    Fault("its telegram counter stands still", lambda s: lms_does(s, scans(kept_from(COUNTER, 2)), 3.0)),
+    Fault("its clock stands still", lambda s: lms_does(s, scans(
+        lambda p, c=kept_from(SINCE_START, 4), t=kept_from(TRANSMITTED, 4): (c(p), t(p), None)[2]), 3.0)),
+    Fault("its clock jumps 10 s ahead and back", lambda s: lms_does(s, scans(lambda p: (
+        set_big(p, SINCE_START, big(p, SINCE_START, 4) + 10_000_000, 4),
+        set_big(p, TRANSMITTED, big(p, TRANSMITTED, 4) + 10_000_000, 4), None)[2]), 3.0)),
+    Fault("its clock begins anew", lambda s: lms_does(s, (lambda first: scans(lambda p: (
+        first.setdefault(0, big(p, SINCE_START, 4)), set_big(p, SINCE_START, big(p, SINCE_START, 4) - first[0], 4),
+        set_big(p, TRANSMITTED, big(p, TRANSMITTED, 4) - first[0], 4), None)[3]))({}), 4.0)),
+    Fault("set to another step", lambda s: lms_does(s, scans(every_second_beam), 3.0), "stands", 1.0, ["the scanner measures every"]),
+    Fault("its field of view turned by 90 degrees", lambda s: lms_does(s, scans(
+        lambda p: set_big(p, START, big(p, START, 4) + 900_000, 4)), 3.0), "stands", 1.0, ["the scanner sees from"]),
+    Fault("all ranges doubled by its scale", lambda s: lms_does(s, scans(
+        lambda p: set_big(p, SCALE, 0x40000000, 4)), 3.0), then=RESUME),
+    Fault("ranges that are no numbers (scale NaN)", lambda s: lms_does(s, scans(
+        lambda p: set_big(p, SCALE, 0x7FC00000, 4)), 3.0), "stands", 1.0, ["nonsensical scale"]),
+    Fault("it reports an error of its own", lambda s: lms_does(s, scans(lambda p: set_big(p, 24, 1)), 3.0), "stands", 1.0,
+          ["reports a device error"]),
+    Fault("it reports a dirty front screen", lambda s: lms_does(s, scans(lambda p: set_big(p, 24, 2)), 3.0), "goes on",
+          told=["clean it soon"]),
+    Fault("its front screen is too dirty", lambda s: lms_does(s, scans(lambda p: set_big(p, 24, 4)), 3.0), "stands", 1.0,
+          ["too dirty to measure"]),
+    Fault("LMS1xx covered", lambda s: lms_does(s, lms_ranges(lambda r, i: 0), 4.0)),
+    Fault("a hand before a third of it", lambda s: lms_does(s, lms_ranges(lambda r, i: 60 if i < 180 else r), 4.0)),
+    Fault("LMS1xx: half of its view sees nothing", lambda s: lms_does(s, lms_ranges(lambda r, i: 0 if i < 270 else r), 4.0)),
+    Fault("LMS1xx: ranges 5 % too long", lambda s: lms_does(s, lms_ranges(lambda r, i: int(r * 1.05)), 4.0)),
+    Fault("LMS1xx: ranges with 0.1 m of noise", lambda s: lms_does(s, lms_ranges(
+        lambda r, i: max(0, r + int(s.chance.gauss(0, 100))) if r > 15 else r), 3.0)),
+    Fault("LMS1xx: a twentieth of the beams ends in rain", lambda s: lms_does(s, lms_ranges(
+        lambda r, i: s.chance.randrange(300, 5000) if s.chance.random() < 0.05 else r), 4.0)),
+    Fault("LMS1xx: no returns beyond 8 m", lambda s: lms_does(s, lms_ranges(lambda r, i: r if r < 8000 else 0), 4.0)),
+]
+
+# Both look ahead, the S300 with its protective field: the LMS1xx is missed by nobody, the S300 by everybody.
+PAIR_FAULTS = [
+    Fault("of two scanners the LMS1xx silent for 4 s", lambda s: lms_does(s, NOTHING, 4.0)),
+    Fault("of two scanners the LMS1xx refuses connections for 5 s", lambda s: refuses(s, 5.0)),
+    Fault("both scanners silent for 3 s", lambda s: both_silent(s, 3.0), "stands", 1.0, QUIET + FIELD, short=True),
+    Fault("S300 silent for 2 s", lambda s: s300_does(s, lambda d, to: b"", 2.0), "stands", 1.0, QUIET + FIELD, short=True),
+    Fault("S300 silent for 15 s", lambda s: s300_does(s, lambda d, to: b"", 15.0), "stands", 1.0, QUIET + FIELD),
+    Fault("S300: the line stalls for 0.15 s, ten times", lambda s: [
+        (s300_does(s, lambda d, to: b"", 0.15), time.sleep(0.3)) for _ in range(10)]),
+    Fault("S300: its plug pulled for 3 s", lambda s: unplugged(s, 3.0), "stands", 1.0, QUIET + FIELD),
+    Fault("S300: its plug pulled for 0.1 s", lambda s: unplugged(s, 0.1)),
+    Fault("S300: a tenth of the telegrams lost", lambda s: s300_does(s, Telegrams(lambda t: s.chance.random() > 0.1), 3.0)),
+    Fault("S300: every checksum wrong", lambda s: s300_does(s, lambda d, to: bytes(b ^ 0x55 if b not in (0, 0x55, 0xFF) else b
+                                                                                  for b in d), 3.0), "stands", 1.0, FIELD),
+    Fault("S300: noise in between", lambda s: s300_does(
+        s, lambda d, to: d + s.chance.randbytes(5) if s.chance.random() < 0.2 else d, 3.0)),
+    Fault("S300: noise alone", lambda s: s300_does(s, lambda d, to: s.chance.randbytes(len(d)), 3.0), "stands", 1.0, FIELD),
+    Fault("S300 in standby for 2 s", lambda s: s300_does(s, Telegrams(values(lambda v: 0x4004)), 2.0), "stands", 1.0, FIELD),
+    Fault("S300 locks out for 2 s", lambda s: s300_does(s, Telegrams(lambda t: set_big(t, 12, 1)), 2.0), "stands", 1.0, FIELD),
+    Fault("somebody in its protective field for 2 s", lambda s: s300_does(s, Telegrams(
+        lambda t: put(t, S300_DATA + 540, number(t, S300_DATA + 540) | 0x4000)), 2.0), "stands", 1.0, FIELD, short=True),
+    Fault("a flicker in its protective field, ten times", lambda s: [(s300_does(s, Telegrams(
+        lambda t: put(t, S300_DATA + 540, number(t, S300_DATA + 540) | 0x4000)), 0.08), time.sleep(0.4)) for _ in range(10)]),
+    Fault("S300: one telegram again and again", lambda s: s300_does(s, Telegrams(the_same()), 3.0), "stands", 1.0, QUIET + FIELD),
+    Fault("S300 switched on anew", lambda s: s300_does(s, (lambda first: Telegrams(lambda t: (
+        first.setdefault(0, big(t, 14, 4)), set_big(t, 14, big(t, 14, 4) - first[0], 4), None)[2]))({}), 4.0)),
+    Fault("S300 covered", lambda s: s300_does(s, Telegrams(values(lambda v: 0)), 3.0)),
+    Fault("S300: half of its view sees nothing", lambda s: s300_does(s, Telegrams(
+        lambda t: [put(t, S300_DATA + 2 * i, 0) for i in range(270)] and None), 3.0)),
+    Fault("S300: a telegram of another length", lambda s: s300_does(s, lambda d, to: d[:-2] if len(d) > 500 else d, 3.0), "stands",
+          1.0, QUIET + FIELD),
+]
+SCANNER_FAULTS = {"lms1xx": LMS_FAULTS, "s300,lms1xx": PAIR_FAULTS}
+
+
+def mounted(scene, factory):
+    """The wires of a vehicle's scanners, and what `madori run` is told of them."""
+    said = []
+    for line in factory.log.read_text().splitlines():
+        words = line.split()
+        if words[:2] == ["lms1xx", "tcp"]:
+            scene.lms = ColaWire(int(words[2].rsplit(":", 1)[1]))
+            said += ["--lms", f"127.0.0.1:{scene.lms.port}"]
+        if words[:2] == ["s300", "pty"]:
+            scene.s300 = DriveWire(factory.devices / "s300", "s300_wire")
+            said += ["--scanner", str(scene.s300.name)]
+    return said
