@@ -61,12 +61,14 @@ void TransportRun::carry_out(const CycleOutput& output, Stamp moment) {
 }
 
 /// What a device says of itself, for whoever looks later: a standstill names its cause, but not that a
-/// scanner reports an error. The same once a minute, and not more than so many a minute.
+/// scanner reports an error. Once, until it has been gone for a minute; not more than so many in one.
 void TransportRun::tell_trouble(const std::string& text, Stamp now) {
   constexpr std::size_t kMost = 8;
+  std::erase_if(troubles_,
+                [&](const auto& trouble) { return now - trouble.second > std::chrono::minutes(1); });
   if (text.empty()) return;
-  std::erase_if(troubles_, [&](const auto& told) { return now - told.second > std::chrono::minutes(1); });
-  if (troubles_.size() >= kMost || troubles_.contains(text)) return;
+  if (const auto known = troubles_.find(text); known != troubles_.end()) return void(known->second = now);
+  if (troubles_.size() >= kMost) return;
   troubles_[text] = now;
   tell(text);
   spdlog::warn("{}", text);

@@ -71,7 +71,7 @@ class TransportRun {
   std::optional<planning::DetourAnswer> answer_;
   CycleState state_;
   Tap tap_;
-  std::map<std::string, Stamp> troubles_;  ///< of devices, and when they were told
+  std::map<std::string, Stamp> troubles_;  ///< of devices, told, and when they were there last
   mutable std::mutex mutex_;
   std::vector<OperatorCommand> said_;
   VehicleView view_;
