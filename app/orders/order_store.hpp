@@ -57,6 +57,7 @@ class OrderStore {
   /// Stops counted so far, over all orders.
   [[nodiscard]] std::int64_t stops_done() const;
 
+  /// The newest 200,000 are kept.
   void add_event(const EventRecord& event);
   [[nodiscard]] std::vector<EventRecord> events(std::size_t newest) const;
   /// What SQLite's own check says of the file: "ok" where it is intact.

@@ -162,6 +162,20 @@ TEST(OrderStore, EventsComeNewestFirst) {
   EXPECT_EQ(events[0].stamp, kNow);
 }
 
+TEST(OrderStore, OldEventsMakeRoomForNewOnes) {
+  const test::TemporaryFolder folder;
+  OrderStore store(folder.path() / "madori.db");
+  const Database database = open_order_database(folder.path() / "madori.db");
+  for (const std::int64_t id : {1, 2, 3'000, 150'000, 250'000})
+    Statement(database.get(), "INSERT INTO events (id, stamp_ns, kind, text) VALUES (?, 0, 'mode', ?)")
+        .bind(id, std::to_string(id))
+        .run();
+  store.add_event({kNow, "mode", "newest"});
+  std::vector<std::string> texts;
+  for (const EventRecord& event : store.events(10)) texts.push_back(event.text);
+  EXPECT_EQ(texts, (std::vector<std::string>{"newest", "250000", "150000"}));
+}
+
 /// Works off orders until it is killed; tells every finished stop through a pipe once the store has it.
 [[noreturn]] void work(const std::filesystem::path& file, int report) {
   OrderStore store(file);
