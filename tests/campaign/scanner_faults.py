@@ -7,7 +7,8 @@ import struct
 import threading
 import time
 
-from faults import RESUME, DriveWire, Fault, number, put
+from faults import RESUME, DriveWire, Fault, delayed, number, put
+from more_faults import bursts
 from truth_listener import come_first
 
 LMS = "type: lms1xx, x_m: 0.65, z_m: 0.18, settings: {cola: B}"
@@ -56,10 +57,10 @@ class ColaWire:
 
     def close(self):
         for end in self.held:
-            with_reset(end)
+            hang_up(end)
 
 
-def with_reset(end):
+def hang_up(end):
     try:
         end.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
         end.shutdown(socket.SHUT_RDWR)
@@ -142,35 +143,6 @@ def again_and_again():
             return [telegram]
         kept.append(telegram)
         return [kept[0]]
-    return pass_on
-
-
-def late(seconds):
-    waiting = []
-
-    def pass_on(telegram, to_scanner):
-        if to_scanner:
-            return [telegram]
-        now = time.monotonic()
-        waiting.append((now + seconds, telegram))
-        out = [t for due, t in waiting if due <= now]
-        waiting[:] = [w for w in waiting if w[0] > now]
-        return out
-    return pass_on
-
-
-def in_bursts(seconds):
-    waiting, since = [], [time.monotonic()]
-
-    def pass_on(telegram, to_scanner):
-        if to_scanner:
-            return [telegram]
-        waiting.append(telegram)
-        if time.monotonic() - since[0] < seconds:
-            return []
-        out, since[0] = waiting[:], time.monotonic()
-        waiting.clear()
-        return out
     return pass_on
 
 
@@ -267,11 +239,11 @@ LMS_FAULTS = [
     Fault("half of the scans lost", lambda s: lms_does(s, scans(lambda p: s.chance.random() > 0.5), 3.0), "goes on"),
     Fault("19 of 20 scans lost", lambda s: lms_does(s, scans(lambda p: s.chance.random() > 0.95), 4.0)),
     Fault("every scan twice", lambda s: lms_does(s, raw(lambda t: [t, t]), 3.0), "goes on"),
-    Fault("scans 0.2 s late", lambda s: lms_does(s, late(0.2), 4.0)),
-    Fault("scans 1 s late", lambda s: lms_does(s, late(1.0), 4.0)),
-    Fault("scans in bursts of 0.3 s", lambda s: lms_does(s, in_bursts(0.3), 4.0)),
-    Fault("scans in bursts of 2 s", lambda s: lms_does(s, in_bursts(2.0), 6.0)),
-    Fault("byte after byte", lambda s: lms_does(s, raw(lambda t: [t[:9], t[9:500], t[500:]]), 3.0), "goes on"),
+    Fault("scans 0.2 s late", lambda s: lms_does(s, raw(delayed(0.2)(s)), 4.0)),
+    Fault("scans 1 s late", lambda s: lms_does(s, raw(delayed(1.0)(s)), 4.0)),
+    Fault("scans in bursts of 0.3 s", lambda s: lms_does(s, raw(bursts(0.3)), 4.0)),
+    Fault("scans in bursts of 2 s", lambda s: lms_does(s, raw(bursts(2.0)), 6.0)),
+    Fault("every telegram in three pieces", lambda s: lms_does(s, raw(lambda t: [t[:9], t[9:500], t[500:]]), 3.0), "goes on"),
     Fault("noise between the telegrams", lambda s: lms_does(s, raw(lambda t: [s.chance.randbytes(37), t]), 3.0), "goes on"),
     Fault("noise in place of the scans", lambda s: lms_does(s, raw(lambda t: [s.chance.randbytes(len(t))]), 3.0), "stands", 1.0, QUIET),
     Fault("a tenth of the checksums wrong", lambda s: lms_does(s, raw(
