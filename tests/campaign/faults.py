@@ -142,12 +142,24 @@ class Frames:
         return out
 
 
-def number(raw, at, size=2, signed=False):
-    return int.from_bytes(raw[at:at + size], "little", signed=signed)
+def number(raw, at, size=2, signed=False, order="little"):
+    return int.from_bytes(raw[at:at + size], order, signed=signed)
 
 
-def put(raw, at, value, size=2):
-    raw[at:at + size] = (value % (1 << 8 * size)).to_bytes(size, "little")
+def put(raw, at, value, size=2, order="little"):
+    raw[at:at + size] = (value % (1 << 8 * size)).to_bytes(size, order)
+
+
+def wire_does(wire, fault, seconds):
+    wire.fault = fault
+    time.sleep(seconds)
+    wire.fault = None
+
+
+def unplugged(wire, seconds):
+    wire.unplug()
+    time.sleep(seconds)
+    wire.plug_in()
 
 
 class Scene:
@@ -159,14 +171,10 @@ class Scene:
         self.lidar, self.drive, self.chance = lidar, drive, random.Random(seed)
 
     def lidar_does(self, fault, seconds):
-        self.lidar.fault = fault
-        time.sleep(seconds)
-        self.lidar.fault = None
+        wire_does(self.lidar, fault, seconds)
 
     def drive_does(self, fault, seconds):
-        self.drive.fault = fault
-        time.sleep(seconds)
-        self.drive.fault = None
+        wire_does(self.drive, fault, seconds)
 
     def damaged(self, data, share):
         """Some bytes of some packets are others."""

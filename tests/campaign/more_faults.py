@@ -11,7 +11,7 @@ import subprocess
 import threading
 import time
 
-from faults import DRIVE, RESUME, SILENT, Fault, Frames, both, edited, number, put, ranges, state_is
+from faults import DRIVE, RESUME, SILENT, Fault, Frames, both, edited, number, put, ranges, state_is, unplugged
 
 TURN = 76  # packets of a revolution
 FIRING_US = 55.296
@@ -366,12 +366,6 @@ def other_port(scene, seconds):
     scene.lidar_does(pass_on, seconds)
 
 
-def unplugged(scene, seconds):
-    scene.drive.unplug()
-    time.sleep(seconds)
-    scene.drive.plug_in()
-
-
 def begun_anew(scene, how, **more):
     """The program ends in that way and begins anew with that environment."""
     scene.run.process.send_signal(how)
@@ -448,8 +442,8 @@ MORE_FAULTS = [
     Fault("commands 0.3 s late at once", lambda s: latency(s, 0.3, 0.01, 5.0, to_pc=False), "stands", 1.5, LATE, RESUME),
     Fault("zeros and noise between the drive's frames", lambda s: s.drive_does(
         lambda d, to: b"\0\0" + d + s.chance.randbytes(s.chance.randrange(40)) + b"\0", 3.0)),
-    Fault("the drive's plug pulled for 3 s", lambda s: unplugged(s, 3.0), "stands", 1.0, DRIVE, RESUME),
-    Fault("the drive's plug pulled for 0.1 s", lambda s: unplugged(s, 0.1)),
+    Fault("the drive's plug pulled for 3 s", lambda s: unplugged(s.drive, 3.0), "stands", 1.0, DRIVE, RESUME),
+    Fault("the drive's plug pulled for 0.1 s", lambda s: unplugged(s.drive, 0.1)),
     Fault("the line stalls for 0.15 s, ten times", lambda s: stalls(s, 0.15, 0.3, 10)),
     Fault("the line stalls for 0.5 s, five times", lambda s: stalls(s, 0.5, 0.5, 5)),
     Fault("commands come back as an echo", lambda s: s.drive_does(lambda d, to: (

@@ -6,8 +6,9 @@ import socket
 import struct
 import threading
 import time
+from functools import partial
 
-from faults import RESUME, DriveWire, Fault, delayed, number, put
+from faults import RESUME, DriveWire, Fault, both, delayed, frozen, number, put, unplugged, wire_does
 from more_faults import bursts
 from truth_listener import come_first
 
@@ -99,14 +100,7 @@ def raw(edit):
     return lambda telegram, to_scanner: [telegram] if to_scanner else edit(telegram)
 
 
-def big(payload, at, size=2):
-    return int.from_bytes(payload[at:at + size], "big")
-
-
-def set_big(payload, at, value, size=2):
-    payload[at:at + size] = (value % (1 << 8 * size)).to_bytes(size, "big")
-
-
+big, set_big = partial(number, order="big"), partial(put, order="big")
 COUNTER, SINCE_START, TRANSMITTED, SCALE, START, STEP, COUNT, DATA = 26, 30, 34, 61, 69, 73, 75, 77
 
 
@@ -127,23 +121,20 @@ def every_second_beam(payload):
     payload[DATA:] = values + rest
 
 
-def kept_from(at, size):
+def its_clock(by):
+    """The scanner's own clock (microseconds) is so far off."""
+    return scans(lambda p: [set_big(p, at, big(p, at, 4) + by, 4) for at in (SINCE_START, TRANSMITTED)])
+
+
+def counted_from_zero(at, edited):
+    """The number at that place counts from its first value; others of `edited` by the same."""
     first = []
 
-    def edit(payload):
-        first.append(big(payload, at, size)) if not first else set_big(payload, at, first[0], size)
+    def edit(telegram):
+        first or first.append(big(telegram, at, 4))
+        for place in edited:
+            set_big(telegram, place, big(telegram, place, 4) - first[0], 4)
     return edit
-
-
-def again_and_again():
-    kept = []
-
-    def pass_on(telegram, to_scanner):
-        if to_scanner or len(telegram) < 200:
-            return [telegram]
-        kept.append(telegram)
-        return [kept[0]]
-    return pass_on
 
 
 class Telegrams:
@@ -166,7 +157,7 @@ class Telegrams:
         return out
 
 
-S300_DATA = 24
+S300_SCAN, S300_DATA = 14, 24
 
 
 def values(new):
@@ -184,16 +175,9 @@ def the_same():
     return edit
 
 
-def lms_does(scene, fault, seconds):
-    scene.lms.fault = fault
-    time.sleep(seconds)
-    scene.lms.fault = None
-
-
-def s300_does(scene, fault, seconds):
-    scene.s300.fault = fault
-    time.sleep(seconds)
-    scene.s300.fault = None
+def entered(telegram):
+    """One beam meets somebody in the protective field."""
+    put(telegram, S300_DATA + 540, number(telegram, S300_DATA + 540) | 0x4000)
 
 
 def refuses(scene, seconds):
@@ -209,12 +193,6 @@ def closes(scene, times, pause_s):
         time.sleep(pause_s)
 
 
-def unplugged(scene, seconds):
-    scene.s300.unplug()
-    time.sleep(seconds)
-    scene.s300.plug_in()
-
-
 def both_silent(scene, seconds):
     scene.lms.fault, scene.s300.fault = raw(lambda t: []), lambda d, to: b""
     time.sleep(seconds)
@@ -227,100 +205,94 @@ NOTHING = raw(lambda t: [])
 
 # One scanner, which all depends on: 0.35 s until it counts as silent, half a second of braking.
 LMS_FAULTS = [
-    Fault("LMS1xx silent for 2 s", lambda s: lms_does(s, NOTHING, 2.0), "stands", 1.0, QUIET),
-    Fault("LMS1xx silent for 15 s", lambda s: lms_does(s, NOTHING, 15.0), "stands", 1.0, QUIET),
-    Fault("LMS1xx silent for 0.2 s, ten times", lambda s: [(lms_does(s, NOTHING, 0.2), time.sleep(0.3)) for _ in range(10)]),
+    Fault("LMS1xx silent for 2 s", lambda s: wire_does(s.lms, NOTHING, 2.0), "stands", 1.0, QUIET),
+    Fault("LMS1xx silent for 15 s", lambda s: wire_does(s.lms, NOTHING, 15.0), "stands", 1.0, QUIET),
+    Fault("LMS1xx silent for 0.2 s, ten times", lambda s: [(wire_does(s.lms, NOTHING, 0.2), time.sleep(0.3)) for _ in range(10)]),
     Fault("LMS1xx closes the connection", lambda s: closes(s, 1, 3.0)),
     Fault("LMS1xx closes the connection five times", lambda s: closes(s, 5, 1.5)),
     Fault("LMS1xx refuses connections for 5 s", lambda s: refuses(s, 5.0), "stands", 1.0, QUIET),
-    Fault("LMS1xx refuses to be set up", lambda s: (closes(s, 1, 0.0), lms_does(s, raw(
+    Fault("LMS1xx refuses to be set up", lambda s: (closes(s, 1, 0.0), wire_does(s.lms, raw(
         lambda t: [t] if t[8:].startswith(b"sSN") else [framed(b"sFA\0\3")]), 4.0)), "stands", 1.0, ["refuses SetAccessMode"]),
-    Fault("a tenth of the scans lost", lambda s: lms_does(s, scans(lambda p: s.chance.random() > 0.1), 3.0), "goes on"),
-    Fault("half of the scans lost", lambda s: lms_does(s, scans(lambda p: s.chance.random() > 0.5), 3.0), "goes on"),
-    Fault("19 of 20 scans lost", lambda s: lms_does(s, scans(lambda p: s.chance.random() > 0.95), 4.0)),
-    Fault("every scan twice", lambda s: lms_does(s, raw(lambda t: [t, t]), 3.0), "goes on"),
-    Fault("scans 0.2 s late", lambda s: lms_does(s, raw(delayed(0.2)(s)), 4.0)),
-    Fault("scans 1 s late", lambda s: lms_does(s, raw(delayed(1.0)(s)), 4.0)),
-    Fault("scans in bursts of 0.3 s", lambda s: lms_does(s, raw(bursts(0.3)), 4.0)),
-    Fault("scans in bursts of 2 s", lambda s: lms_does(s, raw(bursts(2.0)), 6.0)),
-    Fault("every telegram in three pieces", lambda s: lms_does(s, raw(lambda t: [t[:9], t[9:500], t[500:]]), 3.0), "goes on"),
-    Fault("noise between the telegrams", lambda s: lms_does(s, raw(lambda t: [s.chance.randbytes(37), t]), 3.0), "goes on"),
-    Fault("noise in place of the scans", lambda s: lms_does(s, raw(lambda t: [s.chance.randbytes(len(t))]), 3.0), "stands", 1.0, QUIET),
-    Fault("a tenth of the checksums wrong", lambda s: lms_does(s, raw(
+    Fault("a tenth of the scans lost", lambda s: wire_does(s.lms, scans(lambda p: s.chance.random() > 0.1), 3.0), "goes on"),
+    Fault("half of the scans lost", lambda s: wire_does(s.lms, scans(lambda p: s.chance.random() > 0.5), 3.0), "goes on"),
+    Fault("19 of 20 scans lost", lambda s: wire_does(s.lms, scans(lambda p: s.chance.random() > 0.95), 4.0)),
+    Fault("every scan twice", lambda s: wire_does(s.lms, raw(lambda t: [t, t]), 3.0), "goes on"),
+    Fault("scans 0.2 s late", lambda s: wire_does(s.lms, raw(delayed(0.2)(s)), 4.0)),
+    Fault("scans 1 s late", lambda s: wire_does(s.lms, raw(delayed(1.0)(s)), 4.0)),
+    Fault("scans in bursts of 0.3 s", lambda s: wire_does(s.lms, raw(bursts(0.3)), 4.0)),
+    Fault("scans in bursts of 2 s", lambda s: wire_does(s.lms, raw(bursts(2.0)), 6.0)),
+    Fault("every telegram in three pieces", lambda s: wire_does(s.lms, raw(lambda t: [t[:9], t[9:500], t[500:]]), 3.0), "goes on"),
+    Fault("noise between the telegrams", lambda s: wire_does(s.lms, raw(lambda t: [s.chance.randbytes(37), t]), 3.0), "goes on"),
+    Fault("noise in place of the scans", lambda s: wire_does(s.lms, raw(lambda t: [s.chance.randbytes(len(t))]), 3.0), "stands", 1.0, QUIET),
+    Fault("a tenth of the checksums wrong", lambda s: wire_does(s.lms, raw(
         lambda t: [t[:-1] + bytes([t[-1] ^ 1])] if s.chance.random() < 0.1 else [t]), 3.0), "goes on"),
-    Fault("every checksum wrong", lambda s: lms_does(s, raw(lambda t: [t[:-1] + bytes([t[-1] ^ 1])]), 3.0), "stands", 1.0,
+    Fault("every checksum wrong", lambda s: wire_does(s.lms, raw(lambda t: [t[:-1] + bytes([t[-1] ^ 1])]), 3.0), "stands", 1.0,
           QUIET),
-    Fault("telegrams damaged within", lambda s: lms_does(s, raw(lambda t: [s.damaged(t, 1.0)]), 3.0), "stands", 1.2, QUIET),
-    Fault("telegrams cut short", lambda s: lms_does(s, raw(lambda t: [t[:len(t) // 2]]), 3.0), "stands", 1.0, QUIET),
-    Fault("telegrams that announce a gigabyte", lambda s: lms_does(s, raw(lambda t: [t[:4] + b"\x40\0\0\0" + t[8:]]), 3.0),
+    Fault("telegrams damaged within", lambda s: wire_does(s.lms, raw(lambda t: [s.damaged(t, 1.0)]), 3.0), "stands", 1.2, QUIET),
+    Fault("telegrams cut short", lambda s: wire_does(s.lms, raw(lambda t: [t[:len(t) // 2]]), 3.0), "stands", 1.0, QUIET),
+    Fault("telegrams that announce a gigabyte", lambda s: wire_does(s.lms, raw(lambda t: [t[:4] + b"\x40\0\0\0" + t[8:]]), 3.0),
           "stands", 1.0, QUIET),
-    Fault("one scan again and again", lambda s: lms_does(s, again_and_again(), 3.0), "stands", 1.0, QUIET),
-    Fault("the same picture for ever, counted on", lambda s: lms_does(s, (lambda kept: scans(lambda p: p.__setitem__(
+    Fault("one scan again and again", lambda s: wire_does(s.lms, scans(the_same()), 3.0), "stands", 1.0, QUIET),
+    Fault("the same picture for ever, counted on", lambda s: wire_does(s.lms, (lambda kept: scans(lambda p: p.__setitem__(
         slice(DATA, DATA + 2 * big(p, COUNT)), kept.setdefault(0, bytes(p[DATA:DATA + 2 * big(p, COUNT)])))))({}), 4.0),
         then=RESUME),
-    Fault("its telegram counter stands still", lambda s: lms_does(s, scans(kept_from(COUNTER, 2)), 3.0)),
-    Fault("its clock stands still", lambda s: lms_does(s, scans(
-        lambda p, c=kept_from(SINCE_START, 4), t=kept_from(TRANSMITTED, 4): (c(p), t(p), None)[2]), 3.0)),
-    Fault("its clock jumps 10 s ahead and back", lambda s: lms_does(s, scans(lambda p: (
-        set_big(p, SINCE_START, big(p, SINCE_START, 4) + 10_000_000, 4),
-        set_big(p, TRANSMITTED, big(p, TRANSMITTED, 4) + 10_000_000, 4), None)[2]), 3.0)),
-    Fault("its clock begins anew", lambda s: lms_does(s, (lambda first: scans(lambda p: (
-        first.setdefault(0, big(p, SINCE_START, 4)), set_big(p, SINCE_START, big(p, SINCE_START, 4) - first[0], 4),
-        set_big(p, TRANSMITTED, big(p, TRANSMITTED, 4) - first[0], 4), None)[3]))({}), 4.0)),
-    Fault("set to another step", lambda s: lms_does(s, scans(every_second_beam), 3.0), "stands", 1.0, ["the scanner measures every"]),
-    Fault("its field of view turned by 90 degrees", lambda s: lms_does(s, scans(
+    Fault("its telegram counter stands still", lambda s: wire_does(s.lms, scans(frozen(COUNTER)), 3.0)),
+    Fault("its clock stands still", lambda s: wire_does(s.lms, scans(
+        both(frozen(SINCE_START, 4), frozen(TRANSMITTED, 4))), 3.0)),
+    Fault("its clock jumps 10 s ahead and back", lambda s: wire_does(s.lms, its_clock(10_000_000), 3.0)),
+    Fault("its clock begins anew", lambda s: wire_does(s.lms, scans(
+        counted_from_zero(SINCE_START, (SINCE_START, TRANSMITTED))), 4.0)),
+    Fault("set to another step", lambda s: wire_does(s.lms, scans(every_second_beam), 3.0), "stands", 1.0, ["the scanner measures every"]),
+    Fault("its field of view turned by 90 degrees", lambda s: wire_does(s.lms, scans(
         lambda p: set_big(p, START, big(p, START, 4) + 900_000, 4)), 3.0), "stands", 1.0, ["the scanner sees from"]),
-    Fault("all ranges doubled by its scale", lambda s: lms_does(s, scans(
+    Fault("all ranges doubled by its scale", lambda s: wire_does(s.lms, scans(
         lambda p: set_big(p, SCALE, 0x40000000, 4)), 3.0), then=RESUME),
-    Fault("ranges that are no numbers (scale NaN)", lambda s: lms_does(s, scans(
+    Fault("ranges that are no numbers (scale NaN)", lambda s: wire_does(s.lms, scans(
         lambda p: set_big(p, SCALE, 0x7FC00000, 4)), 3.0), "stands", 1.0, ["nonsensical scale"]),
-    Fault("it reports an error of its own", lambda s: lms_does(s, scans(lambda p: set_big(p, 24, 1)), 3.0), "stands", 1.0,
+    Fault("it reports an error of its own", lambda s: wire_does(s.lms, scans(lambda p: set_big(p, 24, 1)), 3.0), "stands", 1.0,
           ["reports a device error"]),
-    Fault("it reports a dirty front screen", lambda s: lms_does(s, scans(lambda p: set_big(p, 24, 2)), 3.0), "goes on",
+    Fault("it reports a dirty front screen", lambda s: wire_does(s.lms, scans(lambda p: set_big(p, 24, 2)), 3.0), "goes on",
           told=["clean it soon"]),
-    Fault("its front screen is too dirty", lambda s: lms_does(s, scans(lambda p: set_big(p, 24, 4)), 3.0), "stands", 1.0,
+    Fault("its front screen is too dirty", lambda s: wire_does(s.lms, scans(lambda p: set_big(p, 24, 4)), 3.0), "stands", 1.0,
           ["too dirty to measure"]),
-    Fault("LMS1xx covered", lambda s: lms_does(s, lms_ranges(lambda r, i: 0), 4.0)),
-    Fault("a hand before a third of it", lambda s: lms_does(s, lms_ranges(lambda r, i: 60 if i < 180 else r), 4.0)),
-    Fault("LMS1xx: half of its view sees nothing", lambda s: lms_does(s, lms_ranges(lambda r, i: 0 if i < 270 else r), 4.0)),
-    Fault("LMS1xx: ranges 5 % too long", lambda s: lms_does(s, lms_ranges(lambda r, i: int(r * 1.05)), 4.0)),
-    Fault("LMS1xx: ranges with 0.1 m of noise", lambda s: lms_does(s, lms_ranges(
+    Fault("LMS1xx covered", lambda s: wire_does(s.lms, lms_ranges(lambda r, i: 0), 4.0)),
+    Fault("a hand before a third of it", lambda s: wire_does(s.lms, lms_ranges(lambda r, i: 60 if i < 180 else r), 4.0)),
+    Fault("LMS1xx: half of its view sees nothing", lambda s: wire_does(s.lms, lms_ranges(lambda r, i: 0 if i < 270 else r), 4.0)),
+    Fault("LMS1xx: ranges 5 % too long", lambda s: wire_does(s.lms, lms_ranges(lambda r, i: int(r * 1.05)), 4.0)),
+    Fault("LMS1xx: ranges with 0.1 m of noise", lambda s: wire_does(s.lms, lms_ranges(
         lambda r, i: max(0, r + int(s.chance.gauss(0, 100))) if r > 15 else r), 3.0)),
-    Fault("LMS1xx: a twentieth of the beams ends in rain", lambda s: lms_does(s, lms_ranges(
+    Fault("LMS1xx: a twentieth of the beams ends in rain", lambda s: wire_does(s.lms, lms_ranges(
         lambda r, i: s.chance.randrange(300, 5000) if s.chance.random() < 0.05 else r), 4.0)),
-    Fault("LMS1xx: no returns beyond 8 m", lambda s: lms_does(s, lms_ranges(lambda r, i: r if r < 8000 else 0), 4.0)),
+    Fault("LMS1xx: no returns beyond 8 m", lambda s: wire_does(s.lms, lms_ranges(lambda r, i: r if r < 8000 else 0), 4.0)),
 ]
 
 # Both look ahead, the S300 with its protective field: the LMS1xx is missed by nobody, the S300 by everybody.
 PAIR_FAULTS = [
-    Fault("of two scanners the LMS1xx silent for 4 s", lambda s: lms_does(s, NOTHING, 4.0)),
+    Fault("of two scanners the LMS1xx silent for 4 s", lambda s: wire_does(s.lms, NOTHING, 4.0)),
     Fault("of two scanners the LMS1xx refuses connections for 5 s", lambda s: refuses(s, 5.0)),
     Fault("both scanners silent for 3 s", lambda s: both_silent(s, 3.0), "stands", 1.0, QUIET + FIELD, short=True),
-    Fault("S300 silent for 2 s", lambda s: s300_does(s, lambda d, to: b"", 2.0), "stands", 1.0, QUIET + FIELD, short=True),
-    Fault("S300 silent for 15 s", lambda s: s300_does(s, lambda d, to: b"", 15.0), "stands", 1.0, QUIET + FIELD),
+    Fault("S300 silent for 2 s", lambda s: wire_does(s.s300, lambda d, to: b"", 2.0), "stands", 1.0, QUIET + FIELD, short=True),
+    Fault("S300 silent for 15 s", lambda s: wire_does(s.s300, lambda d, to: b"", 15.0), "stands", 1.0, QUIET + FIELD),
     Fault("S300: the line stalls for 0.15 s, ten times", lambda s: [
-        (s300_does(s, lambda d, to: b"", 0.15), time.sleep(0.3)) for _ in range(10)]),
-    Fault("S300: its plug pulled for 3 s", lambda s: unplugged(s, 3.0), "stands", 1.0, QUIET + FIELD),
-    Fault("S300: its plug pulled for 0.1 s", lambda s: unplugged(s, 0.1)),
-    Fault("S300: a tenth of the telegrams lost", lambda s: s300_does(s, Telegrams(lambda t: s.chance.random() > 0.1), 3.0)),
-    Fault("S300: every checksum wrong", lambda s: s300_does(s, lambda d, to: bytes(b ^ 0x55 if b not in (0, 0x55, 0xFF) else b
+        (wire_does(s.s300, lambda d, to: b"", 0.15), time.sleep(0.3)) for _ in range(10)]),
+    Fault("S300: its plug pulled for 3 s", lambda s: unplugged(s.s300, 3.0), "stands", 1.0, QUIET + FIELD),
+    Fault("S300: its plug pulled for 0.1 s", lambda s: unplugged(s.s300, 0.1)),
+    Fault("S300: a tenth of the telegrams lost", lambda s: wire_does(s.s300, Telegrams(lambda t: s.chance.random() > 0.1), 3.0)),
+    Fault("S300: every checksum wrong", lambda s: wire_does(s.s300, lambda d, to: bytes(b ^ 0x55 if b not in (0, 0x55, 0xFF) else b
                                                                                   for b in d), 3.0), "stands", 1.0, FIELD),
-    Fault("S300: noise in between", lambda s: s300_does(
-        s, lambda d, to: d + s.chance.randbytes(5) if s.chance.random() < 0.2 else d, 3.0)),
-    Fault("S300: noise alone", lambda s: s300_does(s, lambda d, to: s.chance.randbytes(len(d)), 3.0), "stands", 1.0, FIELD),
-    Fault("S300 in standby for 2 s", lambda s: s300_does(s, Telegrams(values(lambda v: 0x4004)), 2.0), "stands", 1.0, FIELD),
-    Fault("S300 locks out for 2 s", lambda s: s300_does(s, Telegrams(lambda t: set_big(t, 12, 1)), 2.0), "stands", 1.0, FIELD),
-    Fault("somebody in its protective field for 2 s", lambda s: s300_does(s, Telegrams(
-        lambda t: put(t, S300_DATA + 540, number(t, S300_DATA + 540) | 0x4000)), 2.0), "stands", 1.0, FIELD, short=True),
-    Fault("a flicker in its protective field, ten times", lambda s: [(s300_does(s, Telegrams(
-        lambda t: put(t, S300_DATA + 540, number(t, S300_DATA + 540) | 0x4000)), 0.08), time.sleep(0.4)) for _ in range(10)]),
-    Fault("S300: one telegram again and again", lambda s: s300_does(s, Telegrams(the_same()), 3.0), "stands", 1.0, QUIET + FIELD),
-    Fault("S300 switched on anew", lambda s: s300_does(s, (lambda first: Telegrams(lambda t: (
-        first.setdefault(0, big(t, 14, 4)), set_big(t, 14, big(t, 14, 4) - first[0], 4), None)[2]))({}), 4.0)),
-    Fault("S300 covered", lambda s: s300_does(s, Telegrams(values(lambda v: 0)), 3.0)),
-    Fault("S300: half of its view sees nothing", lambda s: s300_does(s, Telegrams(
-        lambda t: [put(t, S300_DATA + 2 * i, 0) for i in range(270)] and None), 3.0)),
-    Fault("S300: a telegram of another length", lambda s: s300_does(s, lambda d, to: d[:-2] if len(d) > 500 else d, 3.0), "stands",
+    Fault("S300: noise in between", lambda s: wire_does(
+        s.s300, lambda d, to: d + s.chance.randbytes(5) if s.chance.random() < 0.2 else d, 3.0)),
+    Fault("S300: noise alone", lambda s: wire_does(s.s300, lambda d, to: s.chance.randbytes(len(d)), 3.0), "stands", 1.0, FIELD),
+    Fault("S300 in standby for 2 s", lambda s: wire_does(s.s300, Telegrams(values(lambda v: 0x4004)), 2.0), "stands", 1.0, FIELD),
+    Fault("S300 locks out for 2 s", lambda s: wire_does(s.s300, Telegrams(lambda t: set_big(t, 12, 1)), 2.0), "stands", 1.0, FIELD),
+    Fault("somebody in its protective field for 2 s", lambda s: wire_does(s.s300, Telegrams(entered), 2.0), "stands", 1.0, FIELD, short=True),
+    Fault("a flicker in its protective field, ten times", lambda s: [(wire_does(s.s300, Telegrams(entered), 0.08), time.sleep(0.4)) for _ in range(10)]),
+    Fault("S300: one telegram again and again", lambda s: wire_does(s.s300, Telegrams(the_same()), 3.0), "stands", 1.0, QUIET + FIELD),
+    Fault("S300 switched on anew", lambda s: wire_does(s.s300, Telegrams(counted_from_zero(S300_SCAN, (S300_SCAN,))), 4.0)),
+    Fault("S300 covered", lambda s: wire_does(s.s300, Telegrams(values(lambda v: 0)), 3.0)),
+    Fault("S300: half of its view sees nothing", lambda s: wire_does(s.s300, Telegrams(
+        lambda t: [put(t, S300_DATA + 2 * i, 0) for i in range(270)]), 3.0)),
+    Fault("S300: a telegram of another length", lambda s: wire_does(s.s300, lambda d, to: d[:-2] if len(d) > 500 else d, 3.0), "stands",
           1.0, QUIET + FIELD),
 ]
 SCANNER_FAULTS = {"lms1xx": LMS_FAULTS, "s300,lms1xx": PAIR_FAULTS}
