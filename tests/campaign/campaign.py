@@ -73,12 +73,11 @@ def try_fault(scene, routes, fault):
         return run.stops_done() > done or (arguments.short and factory.truth.newest()["linear_mps"] > 0.9)
 
     asked = False
-    while not goes_on() and run.process.poll() is None and time.monotonic() < end:
+    while not (went_on := goes_on()) and run.process.poll() is None and time.monotonic() < end:
         time.sleep(0.05)
         # A person who reads it does what it says.
         if time.monotonic() - begun > ASKS_AFTER_S and not asked and run.newest_event().endswith("then press Resume"):
             asked = run.say("resume") or True
-    went_on = goes_on()
     stood_s = stands_after(factory, moment, moment + acted_s)
     detours = run.detours_after(before)
     off_m = max((routes.distance_m(t["x_m"], t["y_m"]) for t in factory.truth.since(moment)

@@ -137,6 +137,10 @@ def counted_from_zero(at, edited):
     return edit
 
 
+S300_SIZE, S300_SCAN, S300_DATA = 1108, 14, 24
+S300_HEAD = bytes(6) + ((S300_SIZE - 4) // 2).to_bytes(2, "big") + b"\xff"
+
+
 class Telegrams:
     """Cuts what an S300 sends; `edit(telegram)` may change one, its checksum is made anew, or return False: lost."""
 
@@ -148,16 +152,16 @@ class Telegrams:
             return data
         self.rest += data
         out = b""
-        while len(self.rest) >= 12 and len(self.rest) >= (size := 4 + 2 * big(self.rest, 6)):
-            telegram, self.rest = bytearray(self.rest[:size]), self.rest[size:]
+        while (begin := self.rest.find(S300_HEAD)) >= 0 and len(self.rest) >= begin + S300_SIZE:
+            out += self.rest[:begin]  # the rest of one that had begun before this did
+            telegram, self.rest = bytearray(self.rest[begin:begin + S300_SIZE]), self.rest[begin + S300_SIZE:]
             if self.edit(telegram) is False:
                 continue
-            put(telegram, size - 2, binascii.crc_hqx(bytes(telegram[4:-2]), 0xFFFF))
+            put(telegram, S300_SIZE - 2, binascii.crc_hqx(bytes(telegram[4:-2]), 0xFFFF))
             out += telegram
         return out
 
 
-S300_SCAN, S300_DATA = 14, 24
 
 
 def values(new):
