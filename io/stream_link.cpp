@@ -13,7 +13,9 @@
 #include <boost/asio/serial_port.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
+#include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/clock.hpp"
@@ -75,8 +77,9 @@ class AsioLink final : public StreamLink {
     if (stopping_) return;
     const unsigned turn = ++turn_;
     watch(turn);
-    opener_(stream_, [this, turn](const Problem& problem) {
-      if (stopping_ || turn != turn_) return;
+    const auto wanted = [this, turn] { return !stopping_ && turn == turn_; };
+    opener_(stream_, wanted, [this, wanted, turn](const Problem& problem) {
+      if (!wanted()) return;
       if (problem == boost::system::errc::device_or_resource_busy)
         return fail("another program uses it - end that one");
       if (problem) return fail(problem.message());
@@ -166,8 +169,8 @@ struct SerialOpener {
   std::string device;
   unsigned baud;
 
-  template <class Done>
-  void operator()(asio::serial_port& port, Done done) const {
+  template <class Wanted, class Done>
+  void operator()(asio::serial_port& port, Wanted, Done done) const {
     Problem problem;
     port.open(device, problem);
     using Port = asio::serial_port_base;
@@ -195,18 +198,37 @@ struct TcpOpener {
   std::string host;
   std::uint16_t port;
 
-  template <class Done>
-  void operator()(asio::ip::tcp::socket& socket, Done done) const {
+  /// A name server may take longer than an opening is waited for: what it says at last is the next one's.
+  struct Name {
+    std::vector<asio::ip::tcp::endpoint> found;
+    bool asked = false;
+  };
+  std::shared_ptr<Name> name = std::make_shared<Name>();
+
+  template <class Wanted, class Done>
+  void operator()(asio::ip::tcp::socket& socket, Wanted wanted, Done done) const {
+    if (!name->found.empty()) return connect(socket, done);
+    if (std::exchange(name->asked, true)) return;
     auto resolver = std::make_shared<asio::ip::tcp::resolver>(socket.get_executor());
-    resolver->async_resolve(
-        host, std::to_string(port), [&socket, resolver, done](const Problem& problem, auto found) {
-          if (problem) return done(problem);
-          asio::async_connect(socket, found, [&socket, done](const Problem& refused, const auto&) {
-            Problem ignored;
-            if (!refused) socket.set_option(asio::ip::tcp::no_delay(true), ignored);
-            done(refused);
-          });
-        });
+    resolver->async_resolve(host, std::to_string(port),
+                            [this, resolver, &socket, wanted, done](const Problem& problem, auto found) {
+                              name->asked = false;
+                              for (const auto& entry : found) name->found.push_back(entry.endpoint());
+                              if (!wanted()) return;
+                              problem ? done(problem) : connect(socket, done);
+                            });
+  }
+
+ private:
+  template <class Done>
+  void connect(asio::ip::tcp::socket& socket, Done done) const {
+    const auto ends = std::make_shared<const std::vector<asio::ip::tcp::endpoint>>(
+        std::exchange(name->found, {}));  // the name is asked for anew next time
+    asio::async_connect(socket, *ends, [&socket, ends, done](const Problem& refused, const auto&) {
+      Problem ignored;
+      if (!refused) socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+      done(refused);
+    });
   }
 };
 

@@ -4,6 +4,9 @@
 #include <utility>
 
 #include "app/lidars.hpp"
+#include "core/result.hpp"
+#include "mapping/site/file_identity.hpp"
+#include "mapping/site/site_transaction.hpp"
 #include "planning/route_graph/route_csv.hpp"
 
 namespace madori::app {
@@ -63,6 +66,20 @@ void take_protection(const mapping::Site& site, CycleConfig& config) {
   config.low_bodies_guarded_by = site.low_bodies_guarded_by;
 }
 
+SiteForDriving load_as_it_is(const std::filesystem::path& folder) {
+  SiteForDriving loaded{mapping::load_scaled_site(folder), mapping::load_walls(folder / "walls.csv"), {}};
+  auto routes = planning::load_routes(folder / "routes");
+  loaded.config = vehicle_config(loaded.site.vehicle, lidars_of(loaded.site, folder));
+  CycleConfig& config = loaded.config;
+  take_protection(loaded.site, config);
+  config.metric = loaded.site.shortest_routes ? planning::RouteMetric::Metres : planning::RouteMetric::Hops;
+  std::vector<Segment2<Map>> segments;
+  for (const auto& wall : loaded.walls) segments.push_back(wall.segment);
+  config.walls = std::make_shared<const planning::WallGrid>(std::move(segments));
+  take_routes(std::move(routes), config);
+  return loaded;
+}
+
 }  // namespace
 
 CycleConfig vehicle_config(const mapping::VehicleRecord& vehicle, std::vector<LidarModel> lidars) {
@@ -81,17 +98,14 @@ CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem
 }
 
 SiteForDriving load_for_driving(const std::filesystem::path& folder) {
-  SiteForDriving loaded{mapping::load_scaled_site(folder), mapping::load_walls(folder / "walls.csv"), {}};
-  auto routes = planning::load_routes(folder / "routes");
-  loaded.config = vehicle_config(loaded.site.vehicle, lidars_of(loaded.site, folder));
-  CycleConfig& config = loaded.config;
-  take_protection(loaded.site, config);
-  config.metric = loaded.site.shortest_routes ? planning::RouteMetric::Metres : planning::RouteMetric::Hops;
-  std::vector<Segment2<Map>> segments;
-  for (const auto& wall : loaded.walls) segments.push_back(wall.segment);
-  config.walls = std::make_shared<const planning::WallGrid>(std::move(segments));
-  take_routes(std::move(routes), config);
-  return loaded;
+  constexpr int kMostTries = 100;  // a save in between is rare, and asks for one more
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    mapping::recover_site(folder);
+    const auto before = mapping::site_identity(folder);
+    auto loaded = load_as_it_is(folder);
+    if (!mapping::is_being_changed(folder) && mapping::site_identity(folder) == before) return loaded;
+  }
+  throw Error(folder.string(), "is being changed all the time", "try again");
 }
 
 void take_routes(planning::RouteGraph routes, CycleConfig& config) {

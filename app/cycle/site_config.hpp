@@ -20,7 +20,7 @@ struct SiteForDriving {
                                          std::vector<LidarModel> lidars);
 
 /// Loads a scaled site with its routes; throws Error with the mend where something is missing or faulty: no
-/// scale, no routes, no lidar that can be driven by.
+/// scale, no routes, no lidar that can be driven by. All files are of one state of the site.
 [[nodiscard]] SiteForDriving load_for_driving(const std::filesystem::path& folder);
 
 /// The same of a vehicle that is about to map by driving: no routes, no walls, and a silent lidar forbids to

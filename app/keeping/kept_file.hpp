@@ -1,12 +1,10 @@
 #pragma once
 
-#include <sys/stat.h>
-
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <utility>
+
+#include "mapping/site/file_identity.hpp"
 
 namespace madori::app {
 
@@ -15,29 +13,21 @@ namespace madori::app {
 /// it.
 class KeptFile {
  public:
-  explicit KeptFile(std::filesystem::path file) : file_(std::move(file)), known_(identity()) {}
+  /// Before the run reads it: what is put there from now on is somebody else's.
+  explicit KeptFile(std::filesystem::path file)
+      : file_(std::move(file)), known_(mapping::file_identity(file_)) {}
 
   /// Whether it was written, and is this run's.
   bool write(const std::function<void()>& writer) {
-    if (identity() != known_) return false;
+    if (mapping::file_identity(file_) != known_) return false;
     writer();
-    known_ = identity();
+    known_ = mapping::file_identity(file_);
     return true;
   }
 
  private:
-  using Identity = std::array<std::int64_t, 5>;
-
-  /// All zero where there is none.
-  [[nodiscard]] Identity identity() const {
-    struct stat s {};
-    if (::stat(file_.c_str(), &s) != 0) return {};
-    return {static_cast<std::int64_t>(s.st_dev), static_cast<std::int64_t>(s.st_ino), s.st_size,
-            s.st_mtim.tv_sec, s.st_mtim.tv_nsec};
-  }
-
   std::filesystem::path file_;
-  Identity known_;
+  mapping::FileIdentity known_;
 };
 
 }  // namespace madori::app

@@ -34,22 +34,22 @@ void keep_today(const std::filesystem::path& site, const localization::HybridMap
 
 }  // namespace
 
-SiteKeeper::Learned::Learned(const std::filesystem::path& site)
-    : memory(site / kMemoryFile),
+SiteKeeper::Learned::Learned(std::filesystem::path folder)
+    : site(std::move(folder)),
+      memory(site / kMemoryFile),
       map(site / kLivingMapFile),
       warp(site / kWarpFile),
       reliability(site / kReliabilityFile) {}
 
-SiteKeeper::SiteKeeper(std::filesystem::path site, const mapping::Walls& walls,
-                       std::shared_ptr<const WallWatch> watch, std::shared_ptr<const MapWatch> map_watch,
-                       std::string frame)
-    : site_(std::move(site)),
+SiteKeeper::SiteKeeper(Learned learned, const mapping::Walls& walls, std::shared_ptr<const WallWatch> watch,
+                       std::shared_ptr<const MapWatch> map_watch, std::string frame)
+    : site_(learned.site),
       walls_(walls),
       fingerprint_(mapping::walls_fingerprint(walls)),
       frame_(std::move(frame)),
       watch_(std::move(watch)),
       map_watch_(std::move(map_watch)),
-      learned_(site_) {}
+      learned_(std::move(learned)) {}
 
 SiteKeeper::~SiteKeeper() {
   finish_learning();

@@ -21,8 +21,15 @@ namespace madori::app {
 /// somebody else has replaced the file since.
 class SiteKeeper {
  public:
+  /// What of the learned files is the run's: as they are before it reads them.
+  struct Learned {
+    explicit Learned(std::filesystem::path folder);
+    std::filesystem::path site;
+    KeptFile memory, map, warp, reliability;
+  };
+
   /// `frame`: mapping::map_frame() of the site as it was loaded; without one no days are kept.
-  SiteKeeper(std::filesystem::path site, const mapping::Walls& walls, std::shared_ptr<const WallWatch> watch,
+  SiteKeeper(Learned learned, const mapping::Walls& walls, std::shared_ptr<const WallWatch> watch,
              std::shared_ptr<const MapWatch> map_watch = nullptr, std::string frame = "");
   /// Keeps everything once more.
   ~SiteKeeper();
@@ -42,12 +49,6 @@ class SiteKeeper {
   void keep_pose(const CycleState& state, Stamp now);
   void take_memory(const CycleState& state, Stamp now);
   void keep_learned();
-
-  /// What of the learned files is this run's.
-  struct Learned {
-    explicit Learned(const std::filesystem::path& site);
-    KeptFile memory, map, warp, reliability;
-  };
 
   std::filesystem::path site_;
   mapping::Walls walls_;

@@ -65,6 +65,7 @@ std::uintmax_t read_drive(const std::filesystem::path& file, const DriveReader& 
   std::uintmax_t whole = kHead.size();
   for (std::string record;;) {
     std::uint32_t size = 0;
+    if (reader.stop.stop_requested()) return whole;
     if (!in.read(reinterpret_cast<char*>(&size), sizeof size)) return whole;
     if (size < kSumBytes || size > kMostBytes) return whole;
     record.resize(size);

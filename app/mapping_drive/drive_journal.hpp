@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,12 @@ struct DriveScan {
 struct DriveReader {
   std::function<void(const OdometryReading&)> on_odometry;
   std::function<void(const DriveScan&)> on_scan;
+  std::stop_token stop = {};  ///< asked before each record
 };
 
 /// Reads what a DriveJournal has written, up to the first record that is not whole: the end of power may have
-/// cut it off. Returns the bytes that are whole; 0 where there is no such file. Throws Error where it is
-/// something else.
+/// cut it off, or until it is to stop. Returns the bytes that are whole as far as it read; 0 where there is
+/// no such file. Throws Error where it is something else.
 std::uintmax_t read_drive(const std::filesystem::path& file, const DriveReader& reader);
 
 /// What a mapper was given, kept as it is driven: "MADORI drive 1\n", then records of u32 size, payload,

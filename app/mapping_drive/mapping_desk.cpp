@@ -33,7 +33,7 @@ MappingDesk::MappingDesk(Options options)
   if (options_.beside)
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
   else
-    read_earlier();
+    read_earlier({});
 }
 
 MappingDesk::~MappingDesk() = default;
@@ -114,7 +114,7 @@ localization::FinishedMap MappingDesk::finish() {
 
 void MappingDesk::run(const std::stop_token& stop) {
   (void)take_role("mapping", ThreadRole::Ordinary);
-  read_earlier();
+  read_earlier(stop);
   std::unique_lock lock(mutex_);
   const auto wanted = [this] { return !waiting_.empty() || asked_; };
   for (;;) {  // what still waits when it ends is worked on, and so kept

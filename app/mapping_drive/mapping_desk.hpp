@@ -77,7 +77,7 @@ class MappingDesk {
   void run(const std::stop_token& stop);
   void put(Item item);
   void drop(std::deque<Item>::iterator item);
-  void read_earlier();
+  void read_earlier(const std::stop_token& stop);
   void work(const Item& item);
   void take(const OdometryReading& reading);
   void take(const GivenScan& given);

@@ -18,7 +18,8 @@ constexpr double kPictureShare = 0.05;  ///< of the thread's time at most
 
 }  // namespace
 
-void MappingDesk::read_earlier() {
+/// A drive that was not read to its end is left as it is: it is somebody else's to go on with.
+void MappingDesk::read_earlier(const std::stop_token& stop) {
   try {
     const std::uintmax_t whole = read_drive(
         options_.journal, {.on_odometry = [this](const OdometryReading& reading) { take(reading); },
@@ -26,7 +27,9 @@ void MappingDesk::read_earlier() {
                                [this](const DriveScan& scan) {
                                  take({scan, last_ ? last_->odom_from_base : Transform2<Odom, Base>()});
                                  if (count_.scans % 20 == 0) tell(true);
-                               }});
+                               },
+                           .stop = stop});
+    if (whole > 0 && stop.stop_requested()) return;
     journal_.emplace(options_.journal, whole);
   } catch (const std::exception& e) {
     count_.problem = failure_words(e);

@@ -72,10 +72,10 @@ class ServedPanel final : public Panel {
   PanelVehicle vehicle_;
   hmi::StaticFiles files_;
   hmi::SiteEditor editor_;
-  hmi::Job job_;
   hmi::Replay replay_;
   hmi::ApiContext context_;
-  hmi::Server server_;  ///< last: its threads use all of the above
+  hmi::Job job_;        ///< its work uses all of the above
+  hmi::Server server_;  ///< last: its threads use all of them
 };
 
 }  // namespace

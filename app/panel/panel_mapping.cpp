@@ -93,7 +93,9 @@ std::vector<hmi::FoundDevice> PanelVehicle::lidar_kinds() const {
 
 hmi::Reply PanelVehicle::start_mapping(const mapping::VehicleRecord& vehicle,
                                        const std::vector<mapping::SensorRecord>& sensors, bool anew) {
+  const std::scoped_lock lock(begins_);
   if (run_.mapping()) return hmi::Reply::refused("mapping", "a map is being made by driving already");
+  if (auto refused = still_loads()) return *std::move(refused);
   run_.map_by_driving({vehicle, sensors}, anew);
   return hmi::Reply::done();
 }

@@ -77,9 +77,15 @@ std::vector<hmi::OrderView> PanelOrders::ended() const {
   return list;
 }
 
+std::optional<hmi::Reply> PanelOrders::wrong_count(const std::vector<hmi::StopView>& stops) {
+  if (stops.empty()) return hmi::Reply::refused("empty-order", "choose at least one station");
+  if (stops.size() > kMostStops)
+    return hmi::Reply::refused("long-order", "an order has at most 100 stops: divide it");
+  return std::nullopt;
+}
+
 hmi::Reply PanelOrders::add(const std::vector<hmi::StopView>& stops, int repeat) {
-  if (stops.empty() || stops.size() > kMostStops)
-    return hmi::Reply::refused("empty-order", "choose at least one station");
+  if (auto refused = wrong_count(stops)) return *std::move(refused);
   if (repeat < 1 || repeat > kMostRepeats) return hmi::Reply::refused("bad-repeat", "repeat 1 to 1000 times");
   std::vector<OrderStop> wanted;
   for (const auto& view : stops) {

@@ -22,6 +22,8 @@ class PanelOrders {
 
   [[nodiscard]] std::vector<hmi::OrderView> open() const;
   [[nodiscard]] std::vector<hmi::OrderView> ended() const;
+  /// Where an order has no stop, or too many; looked at before anything that takes longer the more there are.
+  [[nodiscard]] static std::optional<hmi::Reply> wrong_count(const std::vector<hmi::StopView>& stops);
   hmi::Reply add(const std::vector<hmi::StopView>& stops, int repeat);
   [[nodiscard]] std::optional<hmi::OrderView> find(long long id) const;
   hmi::Reply cancel(long long id);

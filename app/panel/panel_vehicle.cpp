@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "app/lidars.hpp"
@@ -183,6 +185,7 @@ void PanelVehicle::jog_silent(const void* who) {
 hmi::Reply PanelVehicle::add_order(const std::vector<hmi::StopView>& stops, int repeat) {
   if (!run_.view()) return not_drivable();
   if (run_.mapping()) return mapping_now();
+  if (auto refused = PanelOrders::wrong_count(stops)) return *std::move(refused);
   std::vector<int> nodes;
   for (const auto& stop : stops) nodes.push_back(stop.node);
   std::optional<int> after;
@@ -193,6 +196,14 @@ hmi::Reply PanelVehicle::add_order(const std::vector<hmi::StopView>& stops, int 
     return {false, {"no-way-to-station", {{"station", name}}, "no way leads to " + name}};
   }
   return orders_.add(stops, repeat);
+}
+
+/// What was just saved counts: it is waited for.
+std::optional<hmi::Reply> PanelVehicle::still_loads() const {
+  constexpr auto kLook = std::chrono::milliseconds(50);
+  for (int looks = 0; looks < 60 && run_.loads(); ++looks) std::this_thread::sleep_for(kLook);
+  if (!run_.loads()) return std::nullopt;
+  return hmi::Reply::refused("site-loading", "the site is being loaded: try again in a moment");
 }
 
 hmi::Reply PanelVehicle::repeat_order(long long id) {
@@ -259,12 +270,14 @@ std::vector<hmi::LidarView> PanelVehicle::lidar_views() const {
 }
 
 bool PanelVehicle::is_measuring() const {
-  return run_.mounting().state == MountingView::State::Driving;
+  return run_.is_measured();
 }
 
 hmi::Reply PanelVehicle::measure_mounting() {
   const std::scoped_lock lock(begins_);
   if (auto may = may_begin_anew(); !may.accepted) return may;
+  if (run_.mounting().state == MountingView::State::Computing) return measuring();
+  if (auto refused = still_loads()) return *std::move(refused);
   try {
     run_.measure_mounting();
   } catch (const std::exception& e) {

@@ -76,6 +76,7 @@ class PanelVehicle final : public hmi::Vehicle {
   void note_way_by_hand(const CycleState& state, const CycleConfig& config);
   [[nodiscard]] hmi::Reply not_drivable() const;
   [[nodiscard]] bool is_measuring() const;
+  [[nodiscard]] std::optional<hmi::Reply> still_loads() const;
   /// Why nobody may drive by hand now.
   [[nodiscard]] std::optional<hmi::Reply> no_jog(const std::optional<VehicleView>& view) const;
   /// Why it does not stand: it drives, or a measurement or a braking test has it, between its ways too.

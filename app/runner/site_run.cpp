@@ -63,6 +63,7 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
   try {
     loaded.sensors = listed_sensors(site);
     loaded.site = load_for_driving(site);
+    SiteKeeper::Learned learned(site);
     const auto& lidars = loaded.site->config.lidars;
     loaded.watch =
         std::make_shared<WallWatch>(loaded.site->walls, ScanMaker::eye(lidars), site / kReliabilityFile);
@@ -83,8 +84,8 @@ SiteRun::Loaded SiteRun::load(const std::filesystem::path& site) {
     loaded.pose = std::make_unique<LocalizerPose>(loaded.site->walls, lidars, options);
     loaded.last = load_stored_pose(site, mapping::walls_fingerprint(loaded.site->walls));
     if (!loaded.last.message.empty()) spdlog::info("{}", loaded.last.message);
-    loaded.keeper = std::make_unique<SiteKeeper>(site, loaded.site->walls, loaded.watch, map_watch,
-                                                 mapping::map_frame(site, loaded.site->site));
+    loaded.keeper = std::make_unique<SiteKeeper>(std::move(learned), loaded.site->walls, loaded.watch,
+                                                 map_watch, mapping::map_frame(site, loaded.site->site));
   } catch (const std::exception& e) {
     loaded.missing = failure_words(e);
   }
@@ -107,8 +108,7 @@ SiteRun::Loaded SiteRun::load_mapping(const std::filesystem::path& site) {
 
 void SiteRun::take(Loaded loaded) {
   if (run_ && hooks_.closing) hooks_.closing();
-  if (keeper_)  // its last writing takes a while: not on this thread
-    kept_ = std::async(std::launch::async, [keeper = std::move(keeper_)]() mutable { keeper.reset(); });
+  end_beside(std::exchange(keeper_, nullptr));
   keeper_ = std::move(loaded.keeper);
   recall_ = PoseRecall(std::move(loaded.last.pose));
   memory_ = std::move(loaded.memory);
@@ -136,10 +136,20 @@ void SiteRun::take(Loaded loaded) {
     mapping_ = next ? std::move(loaded.mapping) : nullptr;
     sensors_ = std::move(loaded.sensors);
     std::swap(run_, next);
+    loads_ = false;
   }
   next.reset();
-  if (before)  // it may have much to finish: not on this thread
-    kept_ = std::async(std::launch::async, [desk = std::move(before)]() mutable { desk.reset(); });
+  end_beside(std::move(before));
+  end_beside(std::move(loaded.mapping));  // no run was made of it
+}
+
+/// What may have much to write or to finish ends on a thread of its own.
+void SiteRun::end_beside(std::shared_ptr<void> what) {
+  if (!what) return;
+  std::erase_if(ending_, [](const auto& end) {
+    return end.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  });
+  ending_.push_back(std::async(std::launch::async, [what = std::move(what)]() mutable { what.reset(); }));
 }
 
 void SiteRun::load_now() {
@@ -155,6 +165,7 @@ void SiteRun::load_now() {
 
 void SiteRun::look_for_site() {
   using std::chrono::seconds;
+  if (is_measured()) return;  // by the site as it was when that began
   if (loading_.valid()) {
     if (loading_.wait_for(seconds(0)) != std::future_status::ready || !may_change_site()) return;
     take(loading_.get());
@@ -163,6 +174,7 @@ void SiteRun::look_for_site() {
   if (again_at_ && clock_now() > *again_at_) wanted_ = true;
   if (!std::exchange(wanted_, false)) return;
   again_at_.reset();
+  loads_ = true;
   if (keeper_) keeper_->finish_learning();
   loading_ = std::async(std::launch::async, [site = site_, before = keeper_, mapping = mapping_wanted_] {
     if (before) before->flush();  // what it learned is read again
@@ -181,9 +193,9 @@ void SiteRun::measure_mounting() {
   const auto site = mapping::load_site(site_);
   (void)lidars_of(site, site_);  // throws where there are none, or they cannot be
   auto mounting = std::make_shared<MountingRun>(site.vehicle, site.sensors);
-  const std::scoped_lock lock(mutex_);
+  const std::scoped_lock lock(mutex_);  // ends before `mounting` does, which may be the one before
   if (run_) run_->say({OperatorWord::Pause, {}, {}});
-  mounting_ = std::move(mounting);
+  std::swap(mounting_, mounting);
 }
 
 void SiteRun::stop_measuring() {
@@ -278,6 +290,11 @@ std::shared_ptr<MappingDesk> SiteRun::mapping() const {
   return mapping_;
 }
 
+bool SiteRun::is_measured() const {
+  const std::scoped_lock lock(mutex_);
+  return mounting_ && mounting_->drives();
+}
+
 bool SiteRun::say(const OperatorCommand& command) {
   const std::scoped_lock lock(mutex_);
   if (!run_ || (mounting_ && mounting_->drives())) return false;
@@ -298,17 +315,27 @@ std::optional<std::string> SiteRun::node_name(int id) const {
 
 std::optional<int> SiteRun::without_way(std::optional<int> after, const std::vector<int>& stops,
                                         bool repeats) const {
-  const std::scoped_lock lock(mutex_);
-  if (!run_) return std::nullopt;
-  const planning::RouteGraph& routes = run_->config().routes;
-  const VehicleView view = run_->view();
-  std::vector<std::size_t> starts = main_routes(routes);
-  const auto before = after ? routes.index_of(*after) : std::nullopt;
-  if (before)
+  planning::RouteGraph routes;  // searched beside the ticks, which never wait for it
+  PoseEstimate pose;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!run_) return std::nullopt;
+    routes = run_->config().routes;
+    pose = run_->view().pose;
+  }
+  std::vector<std::size_t> starts;
+  if (const auto before = after ? routes.index_of(*after) : std::nullopt)
     starts = {*before};
-  else if (may_drive(view.pose.health.state))
-    starts = nodes_near(routes, view.pose.map_from_base.translation());
+  else if (may_drive(pose.health.state))
+    starts = nodes_near(routes, pose.map_from_base.translation());
+  else if (const auto all = main_routes(routes); !all.empty())
+    starts = {all.front()};  // from each of them a way leads where one leads from any
   return stop_without_way(routes, std::move(starts), stops, repeats);
+}
+
+bool SiteRun::loads() const {
+  const std::scoped_lock lock(mutex_);
+  return wanted_ || loads_;
 }
 
 bool SiteRun::stands() const {

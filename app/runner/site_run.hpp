@@ -69,6 +69,8 @@ class SiteRun {
   /// from the last to the first where the order `repeats`.
   [[nodiscard]] std::optional<int> without_way(std::optional<int> after, const std::vector<int>& stops,
                                                bool repeats) const;
+  /// The site has changed and was not taken over yet.
+  [[nodiscard]] bool loads() const;
   /// The vehicle stands, and will not move before somebody lets it.
   [[nodiscard]] bool stands() const;
   /// It stands(), and nothing is to be confirmed: a new run would forget an emergency stop or a fault.
@@ -90,9 +92,11 @@ class SiteRun {
 
   /// Measures how the lidars are mounted: the vehicle drives about a metre forward, once around and back,
   /// past everything else. Throws Error where the site names no vehicle and lidars. Precondition: it stands
-  /// (may_change_site()) and no measurement drives.
+  /// (may_change_site()), the site is not being loaded (loads()), and no measurement drives or computes.
   void measure_mounting();
   void stop_measuring();
+  /// A measurement has the vehicle.
+  [[nodiscard]] bool is_measured() const;
   [[nodiscard]] MountingView mounting() const;
 
  private:
@@ -111,6 +115,7 @@ class SiteRun {
   [[nodiscard]] static Loaded load_mapping(const std::filesystem::path& site);
   bool tick_mounting(Stamp now);
   void take(Loaded loaded);
+  void end_beside(std::shared_ptr<void> what);
   void look_for_site();
   void recall_pose();
   void tell_what_is_not_kept(Stamp now);
@@ -121,6 +126,7 @@ class SiteRun {
   std::future<Loaded> loading_;
   mutable std::mutex mutex_;  ///< of what follows; the ticks hold it only to exchange the run
   bool wanted_ = true;
+  bool loads_ = false;
   bool mapping_wanted_ = false;
   std::shared_ptr<MappingDesk> mapping_;
   std::vector<mapping::SensorRecord> sensors_;
@@ -135,8 +141,8 @@ class SiteRun {
   PoseRecall recall_{std::nullopt};
   std::string memory_;
   std::vector<mapping::SensorRecord> next_sensors_;
-  std::optional<Stamp> again_at_;  ///< a run that could not be begun is tried again
-  std::future<void> kept_;         ///< what the run before learned is being written
+  std::optional<Stamp> again_at_;          ///< a run that could not be begun is tried again
+  std::vector<std::future<void>> ending_;  ///< what the runs before learned is being written
 };
 
 }  // namespace madori::app

@@ -1,7 +1,6 @@
 #include "hmi/server/revisions.hpp"
 
 #include <sodium.h>
-#include <sys/stat.h>
 
 #include <array>
 #include <initializer_list>
@@ -9,6 +8,8 @@
 
 #include "mapping/site/atomic_file.hpp"
 #include "mapping/site/site.hpp"
+#include "mapping/site/site_file.hpp"
+#include "mapping/site/site_transaction.hpp"
 
 namespace madori::hmi {
 namespace {
@@ -40,17 +41,9 @@ template <class Reduce>
 std::string part_of_site(const fs::path& folder, Reduce reduce) {
   std::error_code missing;
   if (!fs::exists(folder / "site.yaml", missing)) return "";
-  mapping::Site site = mapping::load_site(folder);
+  mapping::Site site = mapping::read_site_file(folder / "site.yaml");  // waits for no change
   reduce(site);
   return mapping::site_yaml(site);
-}
-
-/// When and where a file was last written: atomic writes give it a new inode.
-std::string touch_of(const fs::path& file) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) return "-";
-  return std::to_string(status.st_ino) + '.' + std::to_string(status.st_size) + '.' +
-         std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec);
 }
 
 }  // namespace
@@ -81,10 +74,8 @@ std::string vehicle_revision(const fs::path& site) {
 
 SiteRevisions RevisionWatch::now() const {
   const std::scoped_lock lock(mutex_);
-  std::string touched;
-  for (const char* name : {"site.yaml", "walls.csv", "routes/tree.csv", "routes/path.csv"})
-    touched += touch_of(site_ / name) + ' ';
-  if (touched == touched_) return last_;
+  const auto touched = mapping::site_identity(site_);
+  if (touched == touched_ || mapping::is_being_changed(site_)) return last_;
   last_ = {"unreadable", "unreadable", "unreadable", "unreadable"};
   try {
     last_.walls = walls_revision(site_);

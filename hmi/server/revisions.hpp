@@ -2,7 +2,10 @@
 
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <string>
+
+#include "mapping/site/file_identity.hpp"
 
 namespace madori::hmi {
 
@@ -24,7 +27,8 @@ struct SiteRevisions {
 [[nodiscard]] std::string vehicle_revision(const std::filesystem::path& site);
 
 /// All of them, worked out again only when a file was touched: cheap enough for every message of the live
-/// socket. May be called from any thread. A malformed site.yaml has the revision "unreadable".
+/// socket, and waits for nobody: in the middle of a change they are those of before. May be called from any
+/// thread. A malformed site.yaml has the revision "unreadable".
 class RevisionWatch {
  public:
   explicit RevisionWatch(std::filesystem::path site) : site_(std::move(site)) {}
@@ -33,7 +37,7 @@ class RevisionWatch {
  private:
   std::filesystem::path site_;
   mutable std::mutex mutex_;
-  mutable std::string touched_;
+  mutable std::optional<mapping::SiteIdentity> touched_;
   mutable SiteRevisions last_;
 };
 

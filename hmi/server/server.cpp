@@ -33,7 +33,7 @@ void raise_descriptor_limit() {
 
 struct Server::Impl {
   Impl(const ServerOptions& options, ApiContext& context, const StaticFiles& files)
-      : parts(options, context, files, host_allowed(options.host, true)) {}
+      : parts(options, context, files, host_allowed(options.host, true), workers) {}
 
   void listen();
   asio::awaitable<void> accept_connections();
@@ -41,6 +41,8 @@ struct Server::Impl {
 
   ServerParts parts;
   asio::io_context io{1};
+  static constexpr std::size_t kWorkers = 2;
+  asio::thread_pool workers{kWorkers};  ///< ends before `io`: what waits in it holds connections of that
   tcp::acceptor acceptor{io};
   std::thread thread;
 };
@@ -106,8 +108,8 @@ Server::Server(const ServerOptions& options, ApiContext& context, const StaticFi
 Server::~Server() {
   impl_->io.stop();  // the sockets let their buttons go as they end
   if (impl_->thread.joinable()) impl_->thread.join();
-  impl_->parts.workers.stop();
-  impl_->parts.workers.join();
+  impl_->workers.stop();
+  impl_->workers.join();
 }
 
 std::uint16_t Server::port() const {

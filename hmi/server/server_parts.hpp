@@ -29,14 +29,16 @@ class Counted {
 
 /// What all connections share. Only the sockets' thread may use it; slow work goes to the workers.
 struct ServerParts {
-  ServerParts(const ServerOptions& o, ApiContext& c, const StaticFiles& f, bool loopback_only)
+  ServerParts(const ServerOptions& o, ApiContext& c, const StaticFiles& f, bool loopback_only,
+              boost::asio::thread_pool& pool)
       : options(o),
         access(c.access),
         files(f),
         vehicle(c.vehicle),
         router(make_router(c)),
         gate(router, loopback_only),
-        feed(c.vehicle, c.editor, c.replay) {}
+        feed(c.vehicle, c.editor, c.replay),
+        workers(pool) {}
 
   /// What `work` returns, once a worker has done it.
   template <class Work>
@@ -49,7 +51,6 @@ struct ServerParts {
     co_return co_await boost::asio::co_spawn(workers, behind, boost::asio::use_awaitable);
   }
 
-  static constexpr std::size_t kWorkers = 2;
   ServerOptions options;
   Access& access;
   const StaticFiles& files;
@@ -60,7 +61,7 @@ struct ServerParts {
   std::size_t connections = 0;
   std::size_t live_sockets = 0;
   std::size_t uploads = 0;
-  boost::asio::thread_pool workers{kWorkers};
+  boost::asio::thread_pool& workers;
 };
 
 }  // namespace madori::hmi

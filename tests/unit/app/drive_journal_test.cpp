@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <stop_token>
 
 #include "core/result.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -51,6 +52,20 @@ TEST_F(DriveJournalTest, GivesBackWhatItWasGiven) {
   EXPECT_EQ(all.scans[4].stamp, stamp_from_seconds(4));
   EXPECT_EQ(all.scans[4].sensor.x_m, 0.3);
   EXPECT_EQ(all.scans[4].points[1], (Point2<Base>{-3.0, 2.0}));
+}
+
+TEST_F(DriveJournalTest, IsReadNoFartherThanWanted) {
+  write(0, 0, 5);
+  std::stop_source stop;
+  int scans = 0;
+  const auto whole = read_drive(file_, {.on_odometry = [](const auto&) {},
+                                        .on_scan =
+                                            [&](const auto&) {
+                                              if (++scans == 2) stop.request_stop();
+                                            },
+                                        .stop = stop.get_token()});
+  EXPECT_EQ(scans, 2);
+  EXPECT_LT(whole, std::filesystem::file_size(file_));
 }
 
 TEST_F(DriveJournalTest, GoesOnBehindWhatWasCutOff) {

@@ -84,5 +84,26 @@ TEST_F(BusyDesk, AScanThatIsDroppedWaitsNoMore) {
   let_it_read();
 }
 
+/// It is somebody else's to go on with: cut short, it could not.
+TEST(MappingDesk, ADriveThatIsNotReadToItsEndStaysWhole) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "drive.bin";
+  {
+    DriveJournal journal(file, 0);
+    for (int i = 0; i < 3000; ++i) {
+      journal.add(OdometryReading{stamp_from_seconds(i), {0.1 * (i % 30), 0.0, 0.0}});
+      journal.add(corner_seen_at(i, 0.1 * (i % 30)));
+    }
+  }
+  const auto bytes = std::filesystem::file_size(file);
+  const auto begun = std::chrono::steady_clock::now();
+  {
+    MappingDesk desk({file});
+    ASSERT_TRUE(test::eventually([&] { return desk.progress().scans > 0; }));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(5));
+  EXPECT_EQ(std::filesystem::file_size(file), bytes);
+}
+
 }  // namespace
 }  // namespace madori::app

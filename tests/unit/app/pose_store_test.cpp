@@ -187,7 +187,7 @@ TEST(PoseStore, TheRecordedInputHoldsItToTheLastBit) {
 TEST(SiteKeeper, KeepsThePoseAtMostEverySecondAndAtAStandstill) {
   const test::TemporaryFolder folder;
   const mapping::Walls walls = drawing(hall(true));
-  SiteKeeper keeper(folder.path(), walls, nullptr);
+  SiteKeeper keeper(SiteKeeper::Learned(folder.path()), walls, nullptr);
   CycleState state(CycleConfig{}, std::make_unique<LocalizerPose>(
                                       walls, std::vector{test::spinning_lidar({0.0, 0.0, 1.2, 0.0})}));
   state.pose.health = {LocalizationState::Localized, ""};
@@ -215,7 +215,7 @@ TEST(SiteKeeper, SaysWhatIsNotKeptUntilItIs) {
   const test::TemporaryFolder folder;
   const mapping::Walls walls = drawing(hall(true));
   const auto site = folder.path() / "site";
-  SiteKeeper keeper(site, walls, nullptr);  // as on a disk that is gone
+  SiteKeeper keeper(SiteKeeper::Learned(site), walls, nullptr);  // as on a disk that is gone
   CycleState state(CycleConfig{}, std::make_unique<LocalizerPose>(
                                       walls, std::vector{test::spinning_lidar({0.0, 0.0, 1.2, 0.0})}));
   state.pose.health = {LocalizationState::Localized, ""};
@@ -237,21 +237,21 @@ TEST(SiteKeeper, LeavesWhatSomebodyElseHasPutInItsPlace) {
   const mapping::Walls walls = drawing(hall(true));
   const auto file = folder.path() / kReliabilityFile;
   const auto watch = [&] { return std::make_shared<WallWatch>(walls, Point2<Base>{}, file); };
-  { const SiteKeeper keeper(folder.path(), walls, watch()); }
+  { const SiteKeeper keeper(SiteKeeper::Learned(folder.path()), walls, watch()); }
   const std::string kept = mapping::file_content(file);
   EXPECT_FALSE(kept.empty());
   {
-    const SiteKeeper keeper(folder.path(), walls, watch());
+    const SiteKeeper keeper(SiteKeeper::Learned(folder.path()), walls, watch());
     mapping::write_file_atomically(file, std::string_view("a backup's"));
   }
   EXPECT_EQ(mapping::file_content(file), "a backup's");
   {
-    const SiteKeeper keeper(folder.path(), walls, watch());
+    const SiteKeeper keeper(SiteKeeper::Learned(folder.path()), walls, watch());
     std::filesystem::remove(file);
   }
   EXPECT_FALSE(std::filesystem::exists(file)) << "forgotten on purpose";
   {
-    SiteKeeper keeper(folder.path(), walls, watch());
+    SiteKeeper keeper(SiteKeeper::Learned(folder.path()), walls, watch());
     keeper.finish_learning();
     keeper.flush();
     EXPECT_EQ(mapping::file_content(file), kept);

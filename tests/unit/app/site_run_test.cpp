@@ -242,6 +242,7 @@ struct PanelsOfAHall {
     return hall;
   }
   void opened(TransportRun& begun) {
+    ++begun_runs;
     begun.set_tap([this, &begun](const auto& in, const auto& /*output*/, const auto& state) {
       panel.observe(in, state, begun);
     });
@@ -252,6 +253,7 @@ struct PanelsOfAHall {
   [[nodiscard]] double speed() const { return std::abs(factory->truth().linear_mps); }
 
   static constexpr Duration kStep = std::chrono::milliseconds(20);
+  int begun_runs = 0;
   test::TemporaryFolder folder;
   std::shared_ptr<simulation::Factory> factory = std::make_shared<simulation::Factory>(setup());
   SiteRun run{folder.path(),
@@ -278,6 +280,45 @@ TEST(Panels, WhileTheMountingsAreMeasuredNothingElseIsBegunAndNothingWaitsForIts
   const double driven_m = hall.factory->distance_driven_m();
   hall.tick(500);
   EXPECT_NEAR(hall.factory->distance_driven_m(), driven_m, 0.01);
+}
+
+TEST(Panels, AChangeOfTheSiteWaitsUntilTheMountingsAreMeasured) {
+  PanelsOfAHall hall;
+  ASSERT_TRUE(hall.panel.measure_mounting().accepted);
+  hall.tick(100);
+  hall.run.reload();
+  for (int i = 0; i < 40; ++i) {  // a second in which it would have been loaded
+    std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    hall.tick(1);
+  }
+  EXPECT_TRUE(hall.run.is_measured());
+  EXPECT_TRUE(hall.run.loads());
+  EXPECT_EQ(hall.begun_runs, 1);
+  hall.run.stop_measuring();
+  while (hall.begun_runs == 1) {  // the test's own limit ends this
+    hall.tick(1);
+    std::this_thread::yield();
+  }
+  EXPECT_FALSE(hall.run.loads());
+}
+
+TEST(Panels, NoMeasurementBeginsBeforeTheChangedSiteIsTakenOver) {
+  PanelsOfAHall hall;
+  hall.run.reload();  // and nobody ticks
+  EXPECT_EQ(hall.panel.measure_mounting().reason.code, "site-loading");
+  while (hall.run.loads()) hall.tick(1);
+  EXPECT_EQ(hall.begun_runs, 2);
+  EXPECT_TRUE(hall.panel.measure_mounting().accepted);
+}
+
+TEST(Panels, AnOrderOfTooManyStopsIsCalledThat) {
+  PanelsOfAHall hall;
+  const std::vector<hmi::StopView> all(100, hmi::StopView{1, "pass", 0.0, false});
+  auto more = all;
+  more.push_back(all.front());
+  EXPECT_EQ(hall.panel.add_order({}, 1).reason.code, "empty-order");
+  EXPECT_EQ(hall.panel.add_order(more, 1).reason.code, "long-order");
+  EXPECT_TRUE(hall.panel.add_order(all, 1).accepted);
 }
 
 TEST(Panels, ABrakingTestHasTheVehicleUntilItEndsOrSomebodyPressesStop) {

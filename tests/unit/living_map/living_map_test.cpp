@@ -136,7 +136,7 @@ TEST(LivingMap, TheSitesKeeperWritesItAtTheEnd) {
   const auto wall_watch =
       std::make_shared<WallWatch>(walls, Point2<Base>{}, folder.path() / kReliabilityFile);
   stand(*map_watch, 1e6, 3);
-  { SiteKeeper keeper(folder.path(), walls, wall_watch, map_watch); }
+  { SiteKeeper keeper(SiteKeeper::Learned(folder.path()), walls, wall_watch, map_watch); }
   EXPECT_EQ(load_living_map(folder.path() / kLivingMapFile).cells().size() > 500, true);
   EXPECT_TRUE(mapping::kept_days(folder.path()).empty());  // nobody said in which frame
 }
@@ -150,7 +150,7 @@ TEST(LivingMap, TheSitesKeeperKeepsWhatItReadsOfTheDay) {
   constexpr double kDay_s = 86'400.0;
   stand(*map_watch, 20'000 * kDay_s + 3600.0, 8);
   const std::string frame = "0123456789abcdef";
-  { SiteKeeper keeper(folder.path(), walls, wall_watch, map_watch, frame); }
+  { SiteKeeper keeper(SiteKeeper::Learned(folder.path()), walls, wall_watch, map_watch, frame); }
   const auto days = mapping::kept_days(folder.path());
   ASSERT_EQ(days.size(), 1U);
   EXPECT_EQ(mapping::to_text(days[0]), "2024-10-04");
