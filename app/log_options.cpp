@@ -1,5 +1,7 @@
 #include "app/log_options.hpp"
 
+#include <cstdio>
+
 #include "app/lidars.hpp"
 #include "core/result.hpp"
 #include "sensors/lidar/registry.hpp"
@@ -22,6 +24,7 @@ sensors::LogOptions log_options(const mapping::Site& site, const std::filesystem
   const LidarModel lidar = log_lidar(site);
   options.base_from_lidar = lidar.mounting.base_from_lidar();
   options.lidar_height_m = lidar.mounting.z_m;
+  options.remark = [](const std::string& what) { std::fprintf(stderr, "madori: %s\n", what.c_str()); };
   return options;
 }
 

@@ -92,15 +92,21 @@ std::unique_ptr<LogReader> open_log(const std::filesystem::path& file, const Log
     if (!options.deskew) return log;
     return std::make_unique<DeskewedReader>(std::move(log));
   };
-  if (capture) return deskewed(std::make_unique<Vlp16LogReader>(file, options));
+  const auto steady = [&](std::unique_ptr<LogReader> log) -> std::unique_ptr<LogReader> {
+    LogRemark remark;
+    if (options.remark)
+      remark = [told = options.remark, file](const std::string& what) { told(file.string() + ": " + what); };
+    return std::make_unique<SteadyTimeReader>(std::move(log), std::move(remark));
+  };
+  if (capture) return deskewed(steady(std::make_unique<Vlp16LogReader>(file, options)));
   if (extension == ".log" || extension == ".clf" || extension == ".carmen")
-    return std::make_unique<carmen::CarmenReader>(file);
+    return steady(std::make_unique<carmen::CarmenReader>(file));
   if (extension == ".bag") {
     BagOptions bag = options.bag;
     bag.base_from_lidar = options.base_from_lidar;
     bag.lidar_height_m = options.lidar_height_m;
     return deskewed(
-        std::make_unique<TimeOrderedReader>(std::make_unique<BagReader>(file, bag), kBagDisorder));
+        std::make_unique<TimeOrderedReader>(steady(std::make_unique<BagReader>(file, bag)), kBagDisorder));
   }
   throw Error(file.string(), "has an extension that is no log's",
               "use .log, .clf or .carmen (CARMEN), .bag (ROS 1) or .pcap (VLP-16)");

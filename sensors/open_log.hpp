@@ -6,6 +6,7 @@
 #include "core/wheels.hpp"
 #include "sensors/log_record.hpp"
 #include "sensors/rosbag/reader.hpp"
+#include "sensors/steady_time.hpp"
 
 namespace madori::sensors {
 
@@ -16,10 +17,12 @@ struct LogOptions {
   double lidar_height_m = 0.0;              ///< of the lidar above the floor
   bool deskew = true;                       ///< move a cloud's points to its stamp, where there is odometry
   BagOptions bag;                           ///< topics; its mounting is taken from above
+  LogRemark remark;                         ///< may be empty
 };
 
 /// Opens a log by its extension: .log, .clf, .carmen (CARMEN), .bag (ROS 1), .pcap, .pcapng (VLP-16, with
 /// wheels). Bags and captures give their records in the order of time, CARMEN logs in the order of the file.
+/// Where a clock was set back, time goes on (SteadyTimeReader).
 /// Throws Error with the file, the cause and the mend.
 [[nodiscard]] std::unique_ptr<LogReader> open_log(const std::filesystem::path& file,
                                                   const LogOptions& options = {});

@@ -242,10 +242,15 @@ bool Localizer::was_carried(Stamp stamp, const ScanPoints& points, const Odometr
                     map_.evidence.on_memory < options_.known_share * agreement_.usual_inliers());
 }
 
-/// Which of the two clocks is right shows next.
+/// Which of the two clocks is right shows next. It is answered only: what is known of the newest scan's place
+/// is not known of this one's.
 PoseEstimate Localizer::on_late_scan(Stamp stamp, const SurfaceScan& scan) {
   late_anchor_ = match(scan, OdometryStep{}).place.map_from_base;
-  return estimate(stamp, *late_anchor_);
+  PoseEstimate late = estimate(stamp, *late_anchor_);
+  if (late.health.state == LocalizationState::Localized)
+    late.health = {LocalizationState::Degraded, "the scan is older than one before it: its place is a guess",
+                   late.health.place};
+  return late;
 }
 
 /// The vehicle moves to where the scan lies, or, where that is nowhere, as the wheels say.

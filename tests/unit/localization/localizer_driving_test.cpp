@@ -384,7 +384,8 @@ TEST(LocalizerDriving, EmptyScansLateOnesAndBrokenReadingsDoNoHarm) {
   (void)localizer.on_scan(moments[0].scan.stamp, {});
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const PoseEstimate e = take(localizer, moments[i]);
-    (void)localizer.on_scan(moments[0].scan.stamp, extract_walls(moments[0].scan, {}));
+    const PoseEstimate late = localizer.on_scan(moments[0].scan.stamp, extract_walls(moments[0].scan, {}));
+    EXPECT_TRUE(i == 0 || late.health.state != LocalizationState::Localized) << i;
     (void)localizer.on_odometry(moments[0].odometry);
     (void)localizer.on_odometry({moments[i].odometry.stamp, {std::nan(""), 0.0, 0.0}});
     if (i % 3 == 0) (void)localizer.on_scan(moments[i].scan.stamp, {});
