@@ -1,6 +1,7 @@
 #include "app/log_player.hpp"
 
 #include <chrono>
+#include <cmath>
 
 #include "localization/scan_points.hpp"
 #include "localization/wall_extraction/wall_extraction.hpp"
@@ -19,8 +20,7 @@ Seen seen(const sensors::ScanRecord& record, const LidarModel& /*lidar*/, const 
   if (record.odom_from_base) {
     (void)maker.on_odometry({record.scan.stamp, *record.odom_from_base});
   }
-  return {record.scan.stamp, localization::scan_points(record.scan, record.base_from_lidar),
-          record.base_from_lidar.translation()};
+  return {record.scan.stamp, points_of(record), record.base_from_lidar.translation()};
 }
 
 Seen seen(const sensors::CloudRecord& record, const LidarModel& lidar, const PoseMaker& /*maker*/) {
@@ -36,14 +36,34 @@ localization::Beams beams(const sensors::CloudRecord& record, const Seen& /*scan
   return localization::beams_of(sensors::cloud_in_base(record), lidar);
 }
 
+std::size_t lidar_of(const sensors::ScanRecord& record) {
+  return record.scan.lidar;
+}
+std::size_t lidar_of(const sensors::CloudRecord& record) {
+  return record.cloud.lidar;
+}
+
 }  // namespace
 
-PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, const PoseMaker& maker,
+localization::ScanPoints points_of(const sensors::ScanRecord& record, double range_min_m) {
+  if (!record.moved) return localization::scan_points(record.scan, record.base_from_lidar, range_min_m);
+  localization::ScanPoints points;
+  for (const CloudPoint& p : record.moved->points) {
+    const Point2<Lidar> at{static_cast<double>(p.x_m), static_cast<double>(p.y_m)};
+    if (!(std::hypot(at.x_m, at.y_m) >= range_min_m)) continue;
+    const Point2<Base> seen_at = record.base_from_lidar * at;
+    points.add(seen_at.x_m, seen_at.y_m);
+  }
+  return points;
+}
+
+PlayedLog play_log(sensors::LogReader& log, const LogLidars& lidars, const PoseMaker& maker,
                    const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans,
                    localization::MapLearner* learner) {
   PlayedLog played;
   const auto timed = [&](const auto& record) {
     ++played.scans;
+    const LidarModel& lidar = lidars.at(lidar_of(record));
     const auto before = std::chrono::steady_clock::now();
     const Seen scan = seen(record, lidar, maker);
     const PoseEstimate estimate = maker.on_scan(scan.stamp, scan.points, scan.sensor);
@@ -66,14 +86,14 @@ PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, const PoseM
   return played;
 }
 
-PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localization::Localizer& localizer,
+PlayedLog play_log(sensors::LogReader& log, const LogLidars& lidars, localization::Localizer& localizer,
                    const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans,
                    localization::MapLearner* learner) {
   const PoseMaker maker{[&](const OdometryReading& reading) { return localizer.on_odometry(reading); },
                         [&](Stamp stamp, const localization::ScanPoints& points, const Point2<Base>& sensor) {
                           return localizer.on_scan(stamp, points, sensor);
                         }};
-  return play_log(log, lidar, maker, sink, scans, learner);
+  return play_log(log, lidars, maker, sink, scans, learner);
 }
 
 }  // namespace madori::app

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "core/lidar_model.hpp"
+#include "app/log_options.hpp"
 #include "core/pose_estimate.hpp"
 #include "localization/localizer/localizer.hpp"
 #include "localization/ndt_map/map_learner.hpp"
@@ -27,12 +27,17 @@ struct PoseMaker {
   std::function<PoseEstimate(Stamp, const localization::ScanPoints&, const Point2<Base>&)> on_scan;
 };
 
-/// Runs a log through it in the order of its records, and hands out the pose of every record. `lidar` is the
-/// one whose clouds the log holds. `learner`, where there is one, looks at every scan that is due.
-PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, const PoseMaker& maker,
+/// The returns of a scan, Base frame: where they would have been seen at its stamp, as far as that is known.
+/// Such below `range_min_m` are left out.
+[[nodiscard]] localization::ScanPoints points_of(const sensors::ScanRecord& record,
+                                                 double range_min_m = 0.05);
+
+/// Runs a log through it in the order of its records, and hands out the pose of every record. `lidars` are
+/// those whose sweeps the log holds. `learner`, where there is one, looks at every scan that is due.
+PlayedLog play_log(sensors::LogReader& log, const LogLidars& lidars, const PoseMaker& maker,
                    const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans = {},
                    localization::MapLearner* learner = nullptr);
-PlayedLog play_log(sensors::LogReader& log, const LidarModel& lidar, localization::Localizer& localizer,
+PlayedLog play_log(sensors::LogReader& log, const LogLidars& lidars, localization::Localizer& localizer,
                    const std::function<void(const PoseEstimate&)>& sink, const ScanSink& scans = {},
                    localization::MapLearner* learner = nullptr);
 

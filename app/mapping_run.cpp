@@ -65,7 +65,7 @@ std::vector<MomentPose> with_wheels(const localization::FinishedMap& map,
 
 }  // namespace
 
-MappingRun run_mapper(sensors::LogReader& log, const LidarModel& lidar, localization::Mapper& mapper) {
+MappingRun run_mapper(sensors::LogReader& log, const LogLidars& lidars, localization::Mapper& mapper) {
   MappingRun run;
   std::vector<ReckonedPose> wheels;
   const PoseMaker maker{
@@ -77,7 +77,7 @@ MappingRun run_mapper(sensors::LogReader& log, const LidarModel& lidar, localiza
       [&](Stamp stamp, const localization::ScanPoints& points, const Point2<Base>& sensor) {
         return mapper.on_scan(stamp, points, sensor);
       }};
-  run.played = play_log(log, lidar, maker, [&](const PoseEstimate& e) { run.causal.push_back(e); });
+  run.played = play_log(log, lidars, maker, [&](const PoseEstimate& e) { run.causal.push_back(e); });
   const auto before = std::chrono::steady_clock::now();
   run.map = mapper.finish();
   run.finish_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();

@@ -17,7 +17,7 @@ struct MappingRun {
 };
 
 /// Drives the mapper through the log, to its end.
-[[nodiscard]] MappingRun run_mapper(sensors::LogReader& log, const LidarModel& lidar,
+[[nodiscard]] MappingRun run_mapper(sensors::LogReader& log, const LogLidars& lidars,
                                     localization::Mapper& mapper);
 
 /// TUM lines of the poses, moved onto the site.

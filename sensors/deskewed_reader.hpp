@@ -3,13 +3,14 @@
 #include <deque>
 #include <memory>
 
+#include "core/scan_as_cloud.hpp"
 #include "sensors/deskew.hpp"
 #include "sensors/log_record.hpp"
 
 namespace madori::sensors {
 
-/// Moves the points of each cloud to its stamp, where the log's odometry spans the sweep. The source hands
-/// out its records in the order of time, and so does this.
+/// Moves the points of each cloud, and of each scan whose beams have a period, to its stamp, where the log's
+/// odometry spans the sweep. The source hands out its records in the order of time, and so does this.
 class DeskewedReader final : public LogReader {
  public:
   explicit DeskewedReader(std::unique_ptr<LogReader> source) : source_(std::move(source)) {}
@@ -21,16 +22,31 @@ class DeskewedReader final : public LogReader {
     waiting_.pop_front();
     if (auto* const cloud = std::get_if<CloudRecord>(&first))
       (void)deskew(cloud->cloud, cloud->base_from_lidar, track_);
+    else if (takes_time(first))
+      deskew_scan(std::get<ScanRecord>(first));
     return first;
   }
 
  private:
   static constexpr Duration kSweep = std::chrono::milliseconds(300);  ///< longer than the slowest, of 5 Hz
 
+  /// A scan that claims to take longer than any lidar does states the period of something else.
+  [[nodiscard]] static bool takes_time(const LogRecord& record) {
+    if (std::holds_alternative<CloudRecord>(record)) return true;
+    const auto* const scan = std::get_if<ScanRecord>(&record);
+    if (scan == nullptr || scan->scan.beam_period <= Duration(0)) return false;
+    return to_seconds(scan->scan.beam_period) * static_cast<double>(scan->scan.ranges_m.size()) <=
+           to_seconds(kSweep);
+  }
   [[nodiscard]] bool front_waits() const {
     if (waiting_.empty()) return true;
-    const auto* const cloud = std::get_if<CloudRecord>(&waiting_.front());
-    return cloud != nullptr && stamp_of(waiting_.back()) < cloud->cloud.stamp + kSweep;
+    const LogRecord& front = waiting_.front();
+    return takes_time(front) && stamp_of(waiting_.back()) < stamp_of(front) + kSweep;
+  }
+  void deskew_scan(ScanRecord& record) const {
+    PointCloud<Lidar> sweep;
+    scan_as_cloud(record.scan, sweep);
+    if (deskew(sweep, record.base_from_lidar, track_)) record.moved = std::move(sweep);
   }
   void take() {
     std::optional<LogRecord> record = source_->next();

@@ -19,6 +19,9 @@ struct ScanRecord {
   Transform2<Base, Lidar> base_from_lidar;
   /// The vehicle's dead reckoning at the scan, where the log states it beside the scan.
   std::optional<Transform2<Odom, Base>> odom_from_base;
+  /// The returns as they would have been seen at the scan's stamp, in the order of the beams; nothing where
+  /// the sweep counts as instantaneous, or no odometry spans it.
+  std::optional<PointCloud<Lidar>> moved;
 };
 
 /// One revolution of a 3D lidar of a log.

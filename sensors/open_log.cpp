@@ -44,6 +44,7 @@ class Vlp16LogReader final : public LogReader {
     any_cloud_ = true;
     PointCloud<Lidar> cloud = std::move(frames_.front());
     frames_.pop_front();
+    cloud.lidar = options_.lidar;
     return CloudRecord{"vlp16", std::move(cloud), options_.base_from_lidar, options_.lidar_height_m};
   }
 
@@ -103,8 +104,8 @@ std::unique_ptr<LogReader> open_log(const std::filesystem::path& file, const Log
     return steady(std::make_unique<carmen::CarmenReader>(file));
   if (extension == ".bag") {
     BagOptions bag = options.bag;
-    bag.base_from_lidar = options.base_from_lidar;
-    bag.lidar_height_m = options.lidar_height_m;
+    if (bag.lidars.empty())
+      bag.lidars.push_back({"", "", options.lidar, false, options.base_from_lidar, options.lidar_height_m});
     return deskewed(
         std::make_unique<TimeOrderedReader>(steady(std::make_unique<BagReader>(file, bag)), kBagDisorder));
   }

@@ -13,10 +13,11 @@ namespace madori::sensors {
 struct LogOptions {
   std::filesystem::path wheels;             ///< `time_s,left_rad,right_rad`, beside a .pcap
   WheelGeometry geometry;                   ///< what the wheels' angles mean
-  Transform2<Base, Lidar> base_from_lidar;  ///< mounting, for .pcap and .bag; CARMEN logs tell it themselves
+  Transform2<Base, Lidar> base_from_lidar;  ///< mounting, for .pcap; CARMEN logs tell it themselves
   double lidar_height_m = 0.0;              ///< of the lidar above the floor
+  std::size_t lidar = 0;                    ///< its place among the vehicle's
   bool deskew = true;                       ///< move a cloud's points to its stamp, where there is odometry
-  BagOptions bag;                           ///< topics; its mounting is taken from above
+  BagOptions bag;                           ///< topics and lidars; where it names none, that from above
   LogRemark remark;                         ///< may be empty
 };
 

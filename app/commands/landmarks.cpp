@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/commands/log_arguments.hpp"
 #include "app/commands/within.hpp"
 #include "app/json_output.hpp"
 #include "app/landmarks/corridor_files.hpp"
@@ -24,6 +25,7 @@ namespace lm = localization::landmarks;
 
 struct LandmarkArguments {
   std::string log;
+  LogArguments of_log;
   std::vector<std::string> agents;
   std::string simulate;
   std::filesystem::path out;
@@ -83,7 +85,7 @@ void simulate(const LandmarkArguments& arguments) {
 }
 
 /// `LOG` or `LOG@x:y:yaw_deg`: a rough start in the frame of the landmarks, as sure as what a person says.
-AgentTrack run_agent(const std::string& text, const mapping::Site& site, lm::LandmarkHub& hub,
+AgentTrack run_agent(const std::string& text, const sensors::LogOptions& options, lm::LandmarkHub& hub,
                      bool match_scans, const Transform2<Map, Map>& map_from_origin) {
   const std::size_t at = text.rfind('@');
   const std::string file = text.substr(0, at);
@@ -94,7 +96,7 @@ AgentTrack run_agent(const std::string& text, const mapping::Site& site, lm::Lan
     const double m2 = kRough.position_m * kRough.position_m, rad2 = kRough.yaw_rad * kRough.yaw_rad;
     rough = lm::FullPose{{pose.x_m(), pose.y_m(), pose.yaw_rad()}, {lm::Matrix3::diagonal(m2, m2, rad2)}};
   }
-  const auto log = sensors::open_log(file, log_options(site));
+  const auto log = sensors::open_log(file, options);
   return AgentTrack(*log, hub, match_scans, rough);
 }
 
@@ -109,9 +111,10 @@ void map_log(const LandmarkArguments& arguments) {
     map_from_origin = {start.x_m(), start.y_m(), start.yaw_rad()};
   }
   lm::LandmarkHub hub(arguments.most);
-  std::vector<AgentTrack> tracks{run_agent(arguments.log, site, hub, !arguments.wheels, map_from_origin)};
+  const sensors::LogOptions options = log_options(site, arguments.of_log);
+  std::vector<AgentTrack> tracks{run_agent(arguments.log, options, hub, !arguments.wheels, map_from_origin)};
   for (const std::string& agent : arguments.agents)
-    tracks.push_back(run_agent(agent, site, hub, !arguments.wheels, map_from_origin));
+    tracks.push_back(run_agent(agent, options, hub, !arguments.wheels, map_from_origin));
   if (!walls.empty()) map_from_origin = landmarks_on_drawing(hub, walls, map_from_origin);
   std::vector<std::vector<StampedPose>> ways;
   std::string trajectory = kTumHead;
@@ -148,6 +151,7 @@ void add_landmarks(CLI::App& app) {
   command->add_option("--agents", arguments->agents, "logs of further agents: LOG[@x:y:yaw_deg],...")
       ->delimiter(',')
       ->needs(log);
+  add_log_arguments(*command, arguments->of_log);
   CLI::Option* scenario =
       command->add_option("--simulate", arguments->simulate, "corridor scenario: the published experiment")
           ->check(CLI::ExistingFile)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/commands.hpp"
+#include "app/commands/log_arguments.hpp"
 #include "app/health_log.hpp"
 #include "app/json_output.hpp"
 #include "app/learned/calibration_file.hpp"
@@ -35,7 +36,7 @@ namespace {
 struct LocalizeArguments {
   std::string site;
   std::string log;
-  std::string wheels;
+  LogArguments of_log;
   std::string initial;
   std::string out;
   std::string on_drawing;
@@ -108,13 +109,13 @@ void localize(const LocalizeArguments& arguments) {
   if (arguments.memory) kept = load_memory(folder, walls);
   if (!kept.message.empty()) std::fprintf(stderr, "%s\n", kept.message.c_str());
   if (kept.memory) localizer.recall(*std::move(kept.memory));
-  const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
+  const auto log = sensors::open_log(arguments.log, log_options(site, arguments.of_log));
   std::string trajectory = kTumHead;
   std::string on_drawing = kTumHead;
   HealthLog health;
   std::vector<PoseEstimate> estimates;
   const PlayedLog played = play_log(
-      *log, log_lidar(site), localizer,
+      *log, log_lidars(site), localizer,
       [&](const PoseEstimate& e) {
         trajectory += tum_line(e.stamp, e.map_from_base);
         if (!arguments.on_drawing.empty()) {
@@ -184,8 +185,8 @@ void add_localize(CLI::App& app) {
   command->add_option("--log", arguments->log, "CARMEN .log, ROS 1 .bag, or a 3D lidar's .pcap")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("--wheels", arguments->wheels, "time_s,left_rad,right_rad; for a .pcap")
-      ->check(CLI::ExistingFile);
+  add_wheels(*command, arguments->of_log);
+  add_log_arguments(*command, arguments->of_log);
   CLI::Option* initial =
       command->add_option("--initial", arguments->initial, "pose at the start, \"x y yaw_deg\", Map frame");
   CLI::Option* global = command->add_flag("--global", arguments->global, "the start is not known: find it");

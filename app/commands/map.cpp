@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/commands/log_arguments.hpp"
 #include "app/json_output.hpp"
 #include "app/log_options.hpp"
 #include "app/log_player.hpp"
@@ -25,7 +26,7 @@ namespace {
 
 struct MapArguments {
   std::string log;
-  std::string wheels;
+  LogArguments of_log;
   std::filesystem::path out;
   std::string name;
   std::string method = "graph";
@@ -71,8 +72,8 @@ void map_log(const MapArguments& arguments) {
   const SiteLock lock(arguments.out, SiteUse::Change);
   const std::unique_ptr<localization::Mapper> mapper = make_mapper(arguments.method, arguments.seed);
   const mapping::Site vehicle_of = replaces ? mapping::load_site(arguments.out) : mapping::Site{};
-  const auto log = sensors::open_log(arguments.log, log_options(vehicle_of, arguments.wheels));
-  const MappingRun run = run_mapper(*log, log_lidar(vehicle_of), *mapper);
+  const auto log = sensors::open_log(arguments.log, log_options(vehicle_of, arguments.of_log));
+  const MappingRun run = run_mapper(*log, log_lidars(vehicle_of), *mapper);
   const localization::Memory& memory = run.map.memory;
   const MappedSite mapped = map_site(localization::standing_cloud(memory), arguments.log);
   const std::string name =
@@ -117,8 +118,8 @@ void add_map(CLI::App& app) {
   command->add_option("--log", arguments->log, "CARMEN .log, ROS 1 .bag, or a 3D lidar's .pcap")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("--wheels", arguments->wheels, "time_s,left_rad,right_rad; for a .pcap")
-      ->check(CLI::ExistingFile);
+  add_wheels(*command, arguments->of_log);
+  add_log_arguments(*command, arguments->of_log);
   command->add_option("--out", arguments->out, "site folder to write")->required();
   command->add_option("--name", arguments->name, "of the site; the log's where not given");
   command->add_option("--method", arguments->method, "how: graph, slow-lidar, or rbpf")

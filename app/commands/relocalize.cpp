@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/commands/log_arguments.hpp"
 #include "app/json_output.hpp"
 #include "app/log_options.hpp"
+#include "app/log_player.hpp"
 #include "app/trajectory_file.hpp"
 #include "core/median.hpp"
 #include "core/result.hpp"
@@ -25,7 +27,7 @@ namespace loc = localization;
 struct RelocalizeArguments {
   std::string site;
   std::string log;
-  std::string wheels;
+  LogArguments of_log;
   std::string out;
   std::string json_file;
   bool best_guess = false;
@@ -54,11 +56,11 @@ loc::PlaceIndex place_index(const std::filesystem::path& site, const mapping::Wa
 }
 
 /// The points of a record that may be walls; nothing for odometry.
-std::optional<loc::ScanPoints> points_of(const sensors::LogRecord& record, const LidarModel& lidar) {
+std::optional<loc::ScanPoints> wall_points(const sensors::LogRecord& record, const LogLidars& lidars) {
   if (const auto* scan = std::get_if<sensors::ScanRecord>(&record))
-    return loc::extract_walls(scan->scan, scan->base_from_lidar);
+    return loc::extract_walls(points_of(*scan, loc::kWallNearestM));
   if (const auto* cloud = std::get_if<sensors::CloudRecord>(&record))
-    return loc::extract_walls(sensors::cloud_in_base(*cloud), lidar);
+    return loc::extract_walls(sensors::cloud_in_base(*cloud), lidars.at(cloud->cloud.lidar));
   return std::nullopt;
 }
 
@@ -95,12 +97,12 @@ void relocalize(const RelocalizeArguments& arguments) {
   const mapping::Site site = mapping::load_scaled_site(folder);
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");
   const loc::GlobalLocalizer global(walls, place_index(folder, walls));
-  const auto log = sensors::open_log(arguments.log, log_options(site, arguments.wheels));
-  const LidarModel lidar = log_lidar(site);
+  const auto log = sensors::open_log(arguments.log, log_options(site, arguments.of_log));
+  const LogLidars lidars = log_lidars(site);
   Tally tally;
   while (const auto record = log->next()) {
     const auto started = std::chrono::steady_clock::now();
-    const auto points = points_of(*record, lidar);
+    const auto points = wall_points(*record, lidars);
     if (!points) continue;
     const loc::GlobalAnswer answer = global.locate(*points);
     tally.ms.push_back(
@@ -131,7 +133,8 @@ void add_relocalize(CLI::App& app) {
   command->add_option("--log", arguments->log, "CARMEN log, .bag or .pcap")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("--wheels", arguments->wheels, "time_s,left_rad,right_rad beside a .pcap");
+  add_wheels(*command, arguments->of_log);
+  add_log_arguments(*command, arguments->of_log);
   command->add_option("--out", arguments->out, "poses to write (TUM), one a scan that was found")->required();
   command->add_option("--json", arguments->json_file, "state and hypotheses of every scan; - for stdout");
   command->add_flag("--best-guess", arguments->best_guess,

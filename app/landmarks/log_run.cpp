@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/log_player.hpp"
 #include "core/result.hpp"
 #include "localization/landmarks/dead_reckoning.hpp"
 
@@ -41,7 +42,7 @@ AgentTrack::AgentTrack(sensors::LogReader& log, lm::LandmarkHub& hub, bool match
     any_scan = true;
     const Stamp stamp = scan->scan.stamp;
     if (scan->odom_from_base) (void)reckoning.on_odometry({stamp, *scan->odom_from_base});
-    const localization::ScanPoints points = localization::scan_points(scan->scan, scan->base_from_lidar);
+    const localization::ScanPoints points = points_of(*scan);
     add(stamp, reckoning.on_scan(stamp, points, scan->base_from_lidar.translation()));
     agent.move(reckoning.take_motion());
     if (const auto sighting = agent.look(stamp, lm::look_around(points))) {

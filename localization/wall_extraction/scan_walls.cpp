@@ -11,7 +11,6 @@ constexpr double kGapM = 0.3;        ///< neighbours farther apart (plus 5 % of 
 constexpr double kStraightM = 0.04;  ///< a surface bends where it leaves the chord by more (+ 0.5 % of range)
 constexpr double kSureLengthM = 0.8;  ///< a straight stretch this long is surely a wall, shorter ones less
 constexpr double kLeastWeight = 0.1;  ///< of a return without any line
-constexpr double kRangeMinM = 0.1;
 
 double range_of(const ScanPoints& p, std::size_t i) {
   return std::hypot(p.x_m[i], p.y_m[i]);
@@ -68,7 +67,10 @@ void split(ScanPoints& p, std::size_t first, std::size_t last) {
 }  // namespace
 
 ScanPoints extract_walls(const LaserScan& scan, const Transform2<Base, Lidar>& base_from_lidar) {
-  ScanPoints points = scan_points(scan, base_from_lidar, kRangeMinM);
+  return extract_walls(scan_points(scan, base_from_lidar, kWallNearestM));
+}
+
+ScanPoints extract_walls(ScanPoints points) {
   points.weight.assign(points.size(), static_cast<float>(kLeastWeight));
   points.normal_x.assign(points.size(), 0.0F);
   points.normal_y.assign(points.size(), 0.0F);

@@ -22,5 +22,8 @@ namespace madori::localization {
 /// lines that they support and weights by the lines' lengths. Lines by splitting at the farthest point (Ramer
 /// 1972) of each run of neighbours.
 [[nodiscard]] ScanPoints extract_walls(const LaserScan& scan, const Transform2<Base, Lidar>& base_from_lidar);
+/// The same of returns in the order of the beams, such below kWallNearestM left out.
+[[nodiscard]] ScanPoints extract_walls(ScanPoints points);
+inline constexpr double kWallNearestM = 0.1;
 
 }  // namespace madori::localization

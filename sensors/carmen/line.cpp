@@ -89,7 +89,7 @@ Parsed parse_odometry(Words words) {
 /// The half-circle form says no angles: an even count starts at -90 deg and stops one step short of +90 deg,
 /// an odd count includes both.
 Parsed parse_half_circle(Words words, std::string_view kind) {
-  ScanRecord record{std::string(kind), {}, {}, {}};
+  ScanRecord record{std::string(kind), {}, {}, {}, {}};
   const int beams = words.count(2, kMaxHalfCircleBeams);
   if (!words.good())
     return Parsed::failure("needs a number of beams between 2 and 722 after " + record.source);
@@ -107,7 +107,7 @@ Parsed parse_half_circle(Words words, std::string_view kind) {
 }
 
 Parsed parse_robot_laser(Words words, std::string_view kind) {
-  ScanRecord record{std::string(kind), {}, {}, {}};
+  ScanRecord record{std::string(kind), {}, {}, {}, {}};
   LaserScan& scan = record.scan;
   words.skip(1);  // laser type
   scan.angle_min_rad = words.number();

@@ -19,7 +19,7 @@ Stamp to_stamp(std::int64_t stamp_ns) {
 
 /// The topic of this kind to read; empty where there is none.
 std::string choose(const std::vector<bridge::Topic>& topics, bridge::Kind kind, const std::string& wanted,
-                   const std::string& usual, const std::string& file) {
+                   const std::string& usual, const std::string& option, const std::string& file) {
   std::vector<std::string> names;
   for (const bridge::Topic& topic : topics)
     if (topic.kind == kind) names.push_back(topic.name);
@@ -32,7 +32,7 @@ std::string choose(const std::vector<bridge::Topic>& topics, bridge::Kind kind, 
   if (!wanted.empty()) return wanted;
   if (names.size() <= 1) return all;
   if (has(usual)) return usual;
-  throw Error(file, "has several topics of one kind: " + all, "name the one to use");
+  throw Error(file, "has several topics of one kind: " + all, "name the one to use with " + option);
 }
 
 std::optional<OdometryReading> convert(const bridge::Pose& pose) {
@@ -45,12 +45,13 @@ std::optional<OdometryReading> convert(const bridge::Pose& pose) {
 }
 
 std::optional<ScanRecord> convert(const std::string& topic, const bridge::Scan& in,
-                                  const BagOptions& options) {
+                                  const MountedLidar& lidar) {
   const bool sound = std::isfinite(in.angle_min) && std::isfinite(in.angle_increment) &&
                      in.angle_increment != 0.0F && in.range_max > 0.0F && in.ranges.size() <= kMaxBeams;
   if (!sound) return std::nullopt;
-  ScanRecord record{topic, {}, options.base_from_lidar, {}};
+  ScanRecord record{topic, {}, lidar.base_from_lidar, {}, {}};
   LaserScan& scan = record.scan;
+  scan.lidar = lidar.place;
   scan.stamp = to_stamp(in.stamp_ns);
   if (in.time_increment > 0.0F && in.time_increment < 1.0F)
     scan.beam_period = duration_from_seconds(in.time_increment);
@@ -79,9 +80,11 @@ BagReader::BagReader(const std::filesystem::path& file, BagOptions options)
                 "an interrupted recording is mended by `rosbag reindex`");
   }
   std::vector<std::string> chosen{
-      choose(topics, bridge::Kind::Scan, options_.scan_topic, "/scan", file.string()),
-      choose(topics, bridge::Kind::Cloud, options_.cloud_topic, "/velodyne_points", file.string()),
-      choose(topics, bridge::Kind::Odometry, options_.odometry_topic, "/odom", file.string())};
+      choose(topics, bridge::Kind::Scan, options_.scan_topic, "/scan", "--scan-topic", file.string()),
+      choose(topics, bridge::Kind::Cloud, options_.cloud_topic, "/velodyne_points", "--cloud-topic",
+             file.string()),
+      choose(topics, bridge::Kind::Odometry, options_.odometry_topic, "/odom", "--odometry-topic",
+             file.string())};
   std::erase(chosen, "");
   if (chosen.empty())
     throw Error(file.string(), "holds no LaserScan, PointCloud2 or Odometry",
@@ -91,6 +94,17 @@ BagReader::BagReader(const std::filesystem::path& file, BagOptions options)
 
 BagReader::~BagReader() = default;
 
+const MountedLidar& BagReader::lidar_of(bool planar, const std::string& topic, const std::string& frame) {
+  const auto [found, fresh] = found_.try_emplace({topic, frame});
+  if (!fresh || options_.lidars.empty()) return found->second;
+  const MountedLidar* const lidar = which_lidar(options_.lidars, planar, topic, frame);
+  if (lidar == nullptr)
+    throw Error(file_.string() + ": " + topic,
+                "may be of each of the site's lidars: " + names_of(options_.lidars),
+                "name the one with --lidar");
+  return found->second = *lidar;
+}
+
 std::optional<LogRecord> BagReader::next() {
   const auto refuse = [this](const std::string& topic, std::int64_t stamp_ns, const std::string& why) {
     throw Error(file_.string() + ": " + topic + " at " + std::to_string(static_cast<double>(stamp_ns) * 1e-9),
@@ -98,15 +112,17 @@ std::optional<LogRecord> BagReader::next() {
   };
   bridge::Input::Sinks sinks;
   sinks.scan = [&](const std::string& topic, const bridge::Scan& in) {
-    auto record = convert(topic, in, options_);
+    auto record = convert(topic, in, lidar_of(true, topic, in.frame));
     if (!record) refuse(topic, in.stamp_ns, "the scan's angles or limits are no numbers");
     ready_.emplace_back(std::move(*record));
   };
   sinks.cloud = [&](const std::string& topic, const bridge::Cloud& in) {
     auto cloud = cloud_from_fields(in);
     if (!cloud) refuse(topic, in.stamp_ns, cloud.reason());
-    ready_.emplace_back(
-        CloudRecord{topic, std::move(cloud).value(), options_.base_from_lidar, options_.lidar_height_m});
+    const MountedLidar& lidar = lidar_of(false, topic, in.frame);
+    CloudRecord record{topic, std::move(cloud).value(), lidar.base_from_lidar, lidar.height_m};
+    record.cloud.lidar = lidar.place;
+    ready_.emplace_back(std::move(record));
   };
   sinks.odometry = [&](const std::string& topic, const bridge::Pose& in) {
     const auto reading = convert(in);

@@ -86,6 +86,7 @@ TEST(Bag, SeveralTopicsOfAKindMustBeChosenFrom) {
     writer.close();
   }
   EXPECT_THAT(error_of(file), HasSubstr("/left, /right"));
+  EXPECT_THAT(error_of(file), HasSubstr("--scan-topic"));
   LogOptions options;
   options.bag.scan_topic = "/right";
   EXPECT_EQ(to_seconds(stamp_of(*open_log(file, options)->next())), 2.0);
@@ -332,6 +333,88 @@ TEST(Bag, ARevolutionIsDeskewedByTheOdometryBesideIt) {
     }
   }
   EXPECT_EQ(clouds, 1);
+}
+
+/// A lidar of 40 Hz that turns with its vehicle before a wall 3 m ahead of where it began.
+TEST(Bag, AScanWhoseBeamsHaveAPeriodIsDeskewedAsACloudIs) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "run.bag";
+  const auto at = [](double seconds) { return stamp_from_seconds(1'700'000'000.0 + seconds); };
+  constexpr double kTurnRadps = 1.5, kBeamS = 0.0001;
+  LaserScan scan{at(0.1), duration_from_seconds(kBeamS), -0.5, 0.005, 30.0, {}, {}};
+  for (int i = 0; i < 200; ++i)
+    scan.ranges_m.push_back(static_cast<float>(
+        3.0 / std::cos(scan.angle_rad(static_cast<std::size_t>(i)) + kTurnRadps * (0.1 + kBeamS * i))));
+  const auto write = [&](Duration beam_period) {
+    BagWriter writer(file);
+    scan.beam_period = beam_period;
+    writer.write("/scan", scan);
+    for (int i = 0; i < 40; ++i)
+      writer.write("/odom", OdometryReading{at(0.02 * i), {0.0, 0.0, kTurnRadps * 0.02 * i}});
+    writer.close();
+  };
+  const auto read = [&] {
+    const auto log = open_log(file);
+    for (auto record = log->next(); record; record = log->next())
+      if (const auto* found = std::get_if<ScanRecord>(&*record)) return *found;
+    throw Error(file.string(), "holds no scan", "");
+  };
+  write(duration_from_seconds(kBeamS));
+  const ScanRecord record = read();
+  ASSERT_TRUE(record.moved);
+  ASSERT_EQ(record.moved->points.size(), scan.ranges_m.size());
+  const Transform2<Odom, Lidar> begin(0.0, 0.0, kTurnRadps * 0.1);
+  for (const CloudPoint& p : record.moved->points)
+    EXPECT_NEAR((begin * Point2<Lidar>{p.x_m, p.y_m}).x_m, 3.0, 1e-3);
+  write(Duration(0));
+  EXPECT_FALSE(read().moved);
+  write(duration_from_seconds(0.1));  // a driver that states the whole sweep's time
+  EXPECT_FALSE(read().moved);
+}
+
+TEST(WhichLidar, IsToldByFramePlaceOrKind) {
+  const std::vector<MountedLidar> three{{"roof", "roof", 0, false, {}, 1.2},
+                                        {"front", "front", 1, true, {}, 0.2},
+                                        {"rear", "rear", 2, true, {}, 0.2}};
+  const auto name = [](const std::vector<MountedLidar>& lidars, bool planar, const char* topic,
+                       const char* frame) {
+    const MountedLidar* const found = which_lidar(lidars, planar, topic, frame);
+    return found == nullptr ? "?" : found->name;
+  };
+  EXPECT_EQ(name(three, true, "/scan", "/rear"), "rear");
+  EXPECT_EQ(name(three, true, "/scan/1", "laser"), "front");
+  EXPECT_EQ(name(three, true, "/scan/2", "laser"), "rear");
+  EXPECT_EQ(name(three, true, "/scan/7", "laser"), "?");
+  EXPECT_EQ(name(three, true, "/base_scan", "laser"), "?");
+  EXPECT_EQ(name(three, false, "/points", "velodyne"), "roof");
+  EXPECT_EQ(name(three, true, "/cut_out_of_the_cloud", "roof"), "roof");
+  const std::vector<MountedLidar> two{three[0], three[1]};
+  EXPECT_EQ(name(two, true, "/scan", "laser"), "front");
+  EXPECT_EQ(name({three[0]}, true, "/scan", "laser"), "roof");
+  EXPECT_EQ(name({}, true, "/scan", "laser"), "?");
+}
+
+TEST(Bag, EachTopicHasTheMountingOfItsOwnLidar) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "run.bag";
+  {
+    BagWriter writer(file);
+    writer.write("/base_scan", sample_scan(stamp_from_seconds(1.0)));
+    writer.write("/points", sample_cloud(stamp_from_seconds(1.1)));
+    writer.close();
+  }
+  LogOptions options;
+  options.bag.lidars = {{"roof", "roof", 0, false, {0.3, 0.0, kPi}, 1.2},
+                        {"front", "front", 1, true, {0.5, 0.0, 0.0}, 0.2}};
+  const auto log = open_log(file, options);
+  const auto scan = std::get<ScanRecord>(log->next().value());
+  EXPECT_DOUBLE_EQ(scan.base_from_lidar.x_m(), 0.5);
+  EXPECT_EQ(scan.scan.lidar, 1U);
+  const auto cloud = std::get<CloudRecord>(log->next().value());
+  EXPECT_DOUBLE_EQ(cloud.lidar_height_m, 1.2);
+  options.bag.lidars.push_back({"rear", "rear", 2, true, {}, 0.2});
+  EXPECT_THAT(error_of(file, options),
+              HasSubstr("/base_scan: may be of each of the site's lidars: roof, front, rear"));
 }
 
 TEST(Deskew, StraightensAWallThatWasSeenWhileTurningAndDriving) {

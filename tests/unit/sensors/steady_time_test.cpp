@@ -32,7 +32,7 @@ OdometryReading wheel(double time_s) {
   return {stamp_from_seconds(time_s), {}};
 }
 ScanRecord sight(double time_s, const std::string& source = "FLASER") {
-  ScanRecord record{source, {}, {}, {}};
+  ScanRecord record{source, {}, {}, {}, {}};
   record.scan.stamp = stamp_from_seconds(time_s);
   return record;
 }
