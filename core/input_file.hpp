@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <istream>
 #include <string>
-#include <string_view>
 
 #include "core/failure_words.hpp"
 #include "core/result.hpp"
@@ -45,12 +44,6 @@ inline void require_readable(const std::filesystem::path& file, std::uintmax_t m
     throw Error(file.string(),
                 "has " + std::to_string(bytes) + " bytes, more than " + std::to_string(most_bytes),
                 "is it the right file?");
-}
-
-/// Whether the beginning of a file may be text in UTF-8: no mark of UTF-16, no zero byte.
-[[nodiscard]] inline bool is_utf8(std::string_view text) {
-  const bool other = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
-  return !other && text.substr(0, 4096).find('\0') == std::string_view::npos;
 }
 
 /// A text file line by line, as std::getline does. Throws Error, with the line, where one is longer than

@@ -74,7 +74,10 @@ inline constexpr std::array kFindingTexts{
     FindingText{"short-leg", "leg {from} -> {to} is only {length} m long"},
     FindingText{"one-way", "leg {from} -> {to} is one-way: node {to} does not list node {from}"},
     FindingText{"open-quote", "a double quote begins and does not end - close it or remove it"},
-    FindingText{"not-text", "is no text in UTF-8 (UTF-16, or no text at all) - save it as CSV in UTF-8"},
+    FindingText{
+        "not-text",
+        "is no text in UTF-8 (another code page, UTF-16, or no text at all) - save it as CSV in UTF-8 "
+        "(Excel: \"CSV UTF-8\")"},
     FindingText{"tight-corner",
                 "a vehicle of {length} m does not get round node {node} from {from} to {to}: a drawn wall is "
                 "in its way - move the node, or drive with a shorter vehicle"},

@@ -11,6 +11,7 @@
 #include "core/angle.hpp"
 #include "core/input_file.hpp"
 #include "core/result.hpp"
+#include "core/utf8.hpp"
 #include "planning/route_graph/csv_rows.hpp"
 #include "planning/route_graph/finding_texts.hpp"
 
@@ -140,7 +141,7 @@ std::optional<RouteNode> read_node(const CsvRow& csv, const std::map<std::string
 }
 
 std::vector<RouteNode> read_nodes(std::string_view text, Findings findings) {
-  std::vector<CsvRow> rows = csv_rows(text);
+  std::vector<CsvRow> rows = csv_rows(text, 3);
   const auto columns = take_header(rows, findings);
   std::vector<RouteNode> nodes;
   std::map<int, int> line_of;
@@ -160,6 +161,11 @@ std::vector<RouteNode> read_nodes(std::string_view text, Findings findings) {
   }
   if (nodes.empty()) findings.error(0, Fault::NoNode);
   return nodes;
+}
+
+/// Whether a row begins with a number, however it goes on: a header does not.
+bool is_numbered(const CsvRow& row) {
+  return row.fields.front().find_first_of("0123456789") == 0;
 }
 
 /// Legs of one row `ID,EDA`.
@@ -196,13 +202,13 @@ std::vector<RouteLeg> read_legs(std::string_view text, const std::vector<RouteNo
   std::vector<RouteLeg> legs;
   std::map<int, int> line_of;
   bool first = true;
-  for (const CsvRow& row : csv_rows(text)) {
+  for (const CsvRow& row : csv_rows(text, 2)) {
     if (row.open_quote) {
       findings.error(row.line, Fault::OpenQuote);
       continue;
     }
     const auto id = csv_integer(row.fields.front());
-    if (std::exchange(first, false) && !id) continue;  // the header
+    if (std::exchange(first, false) && !is_numbered(row)) continue;  // the header
     if (id) {
       const auto [earlier, fresh] = line_of.emplace(*id, row.line);
       if (!fresh) {
@@ -214,6 +220,11 @@ std::vector<RouteLeg> read_legs(std::string_view text, const std::vector<RouteNo
     read_neighbours(row, index, findings, legs);
   }
   return legs;
+}
+
+/// The number of the line, from 1, in which the byte `at` stands.
+int line_at(std::string_view text, std::size_t at) {
+  return 1 + static_cast<int>(std::ranges::count(text.substr(0, at), '\n'));
 }
 
 std::string read_file(const std::filesystem::path& file) {
@@ -242,7 +253,8 @@ ParsedRoutes parse_routes(std::string_view tree, std::string_view path, const st
                           const std::string& path_file) {
   ParsedRoutes parsed;
   for (const auto& [text, file] : {std::pair(tree, tree_file), std::pair(path, path_file)})
-    if (!is_utf8(text)) Findings(file, parsed.findings).error(0, Fault::NotText);
+    if (const std::size_t end = utf8_end(text); end < text.size())
+      Findings(file, parsed.findings).error(line_at(text, end), Fault::NotText);
   if (!parsed.findings.empty()) return parsed;
   auto nodes = read_nodes(path, Findings(path_file, parsed.findings));
   auto legs = read_legs(tree, nodes, Findings(tree_file, parsed.findings));

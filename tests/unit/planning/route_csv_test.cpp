@@ -60,6 +60,48 @@ TEST(RouteCsv, ReadsDecimalCommasBetweenSemicolons) {
   EXPECT_EQ(routes.graph.nodes()[1].position, (Point2<Map>{-12.0, 20.5}));
 }
 
+TEST(RouteCsv, ANumberSignInANameEndsNoRow) {
+  const ParsedRoutes routes = parse_routes("ID,EDA\n1,2\n2,1\n",
+                                           "ID,x,y,name,station,speed_mps,action\n"
+                                           "1,24.9,16.0,Gate #2,1,0.1,door\n"
+                                           "2,8,5,#3; left,,,load # here, too\n");
+  EXPECT_TRUE(routes.findings.empty());
+  ASSERT_EQ(routes.graph.nodes().size(), 2U);
+  const RouteNode& gate = routes.graph.nodes()[0];
+  EXPECT_EQ(gate.name, "Gate #2");
+  EXPECT_TRUE(gate.station);
+  EXPECT_DOUBLE_EQ(gate.speed_limit_mps.value_or(0.0), 0.1);
+  EXPECT_EQ(gate.action, NodeAction::Door);
+  EXPECT_EQ(routes.graph.nodes()[1].name, "#3; left");
+  EXPECT_EQ(routes.graph.nodes()[1].action, NodeAction::Load);
+}
+
+TEST(RouteCsv, ACommentHidesNoField) {
+  const std::string head = "ID,x,y,name,station # published columns, and two more\n";
+  EXPECT_TRUE(
+      findings("ID,EDA\n0,1 # 2, 3\n1,0 #2\n", head + "0,0,0 # short row\n1,1,1,,1# here, too\n").empty());
+  EXPECT_TRUE(
+      findings("0,1\n1, # dead end, or not\n", "0,0,0 # first; row\n  # all, of it\n1,1,1\n").empty());
+  EXPECT_THAT(findings("ID,EDA\n0,\n", head + "0,0,0 # moved,Gate,1\n"),
+              ::testing::Contains(HasSubstr("path.csv:2: y \"0 # moved\" must be a number")));
+  EXPECT_THAT(findings("0 # from,1\n1,0\n", "ID,x,y\n0,0,0\n1,1,1\n"),
+              ::testing::Contains(HasSubstr("tree.csv:1: \"0 # from\" is no node ID")));
+}
+
+TEST(RouteCsv, RefusesAnotherCodePageWithItsLine) {
+  const std::string head =
+      "ID,x,y,name\n0,0,0,S\xC3\xBC"
+      "d\n";
+  EXPECT_TRUE(findings("ID,EDA\n0,1\n1,0\n", head + "1,1,1,\xE5\x8D\x97 \xF0\x9F\x9A\xAA\n").empty());
+  for (const std::string name : {"S\xFC"
+                                 "d",
+                                 "\xC3", "\xED\xA0\x80", "\xC0\xAF", "\xE0\x80\xAF", "\xF4\x90\x80\x80"})
+    EXPECT_THAT(findings("ID,EDA\n0,1\n1,0\n", head + "1,1,1," + name + "\n"),
+                ::testing::ElementsAre(HasSubstr("path.csv:3: is no text in UTF-8")));
+  EXPECT_THAT(findings(std::string("\xFF\xFEI\0D\0", 6), head),
+              ::testing::ElementsAre(HasSubstr("tree.csv:1: is no text in UTF-8")));
+}
+
 TEST(RouteCsv, LeavesNoFieldOut) {
   EXPECT_THAT(findings("ID,EDA\n0,1\n1,0\n", "ID,x,y\n0,8,5,20,2\n1,12,20,,\n"),
               ::testing::Contains(HasSubstr("path.csv:2: \"20\" stands in no column")));
