@@ -50,7 +50,8 @@ std::optional<CapturedPacket> PcapReader::next() {
     if (outcome != 1) return std::nullopt;
     if (header->ts.tv_sec < 0 || header->ts.tv_sec > kLatestS) refuse("the next one's time is out of range");
     const auto udp = udp_payload({bytes, header->caplen}, handle_->link_type);
-    if (!udp) continue;
+    if (udp && udp->cut_short) ++cut_packets_;
+    if (!udp || udp->cut_short) continue;
     // With nanosecond precision asked for, tv_usec holds nanoseconds.
     const Stamp captured(std::chrono::seconds(header->ts.tv_sec) +
                          std::chrono::nanoseconds(header->ts.tv_usec));

@@ -28,6 +28,8 @@ class PcapReader {
 
   /// Nothing at the end; a capture that was cut short ends there. Throws Error where one is damaged.
   [[nodiscard]] std::optional<CapturedPacket> next();
+  /// UDP packets read so far that were left out because the capture holds their beginnings only (tcpdump -s).
+  [[nodiscard]] std::uint64_t cut_packets() const { return cut_packets_; }
 
  private:
   struct Handle;
@@ -36,6 +38,7 @@ class PcapReader {
   std::string file_;
   std::unique_ptr<Handle> handle_;
   std::uint64_t packets_ = 0;  ///< read so far, of any kind
+  std::uint64_t cut_packets_ = 0;
 };
 
 }  // namespace madori::sensors::pcap

@@ -60,8 +60,11 @@ std::optional<UdpPayload> udp_payload(Bytes frame, int link_type) {
   // The UDP length counts: some VLP-16 firmware states a wrong IP length in its position packets.
   const Bytes udp = ip->subspan(header);
   const std::size_t length = word(udp, 4);
-  if (length < 8 || length > udp.size()) return std::nullopt;
-  return UdpPayload{static_cast<std::uint16_t>(word(udp, 2)), udp.subspan(8, length - 8)};
+  if (length < 8) return std::nullopt;
+  const bool cut_short = length > udp.size();
+  return UdpPayload{static_cast<std::uint16_t>(word(udp, 2)),
+                    cut_short ? Bytes() : udp.subspan(8, length - 8),
+                    (static_cast<std::uint32_t>(word(*ip, 12)) << 16U) | word(*ip, 14), cut_short};
 }
 
 }  // namespace madori::sensors::pcap

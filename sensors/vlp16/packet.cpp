@@ -11,11 +11,15 @@ constexpr std::size_t kBlockBytes = 100;
 constexpr std::size_t kSentenceAt = 206;
 constexpr std::size_t kSentenceBytes = 128;
 
-bool is_another_product(std::uint8_t product) {
-  constexpr std::array<std::uint8_t, 4> kOthers{0x24, 0x28, 0x31,
-                                                0x63};  // Puck Hi-Res, VLP-32C, Velarray, VLS-128
-  return std::find(kOthers.begin(), kOthers.end(), product) != kOthers.end();
-}
+struct Product {
+  std::uint8_t code;
+  const char* name;
+};
+constexpr std::array<Product, 5> kOthers{{{0x24, "Puck Hi-Res"},
+                                          {0x28, "VLP-32C"},
+                                          {0x31, "Velarray"},
+                                          {0x63, "VLS-128"},
+                                          {0xA1, "VLS-128 (Alpha Prime)"}}};
 
 PacketFault decode_block(const std::uint8_t* at, Block& block) {
   if (at[0] != 0xFF || at[1] != 0xEE) return PacketFault::BlockFlag;
@@ -52,15 +56,20 @@ const char* to_string(PacketFault fault) {
   return "unknown";
 }
 
+const char* other_product(std::uint8_t product) {
+  const auto* found = std::ranges::find(kOthers, product, &Product::code);
+  return found == kOthers.end() ? nullptr : found->name;
+}
+
 PacketFault decode(std::span<const std::uint8_t> bytes, DataPacket& packet) {
   if (bytes.size() != kDataBytes) return PacketFault::Length;
   const std::uint8_t* const tail = bytes.data() + kBlocks * kBlockBytes;
   packet.time_us = get_u32_le(tail);
   packet.product = tail[5];
+  if (other_product(packet.product) != nullptr) return PacketFault::Product;
   if (tail[4] < 0x37 || tail[4] > 0x39) return PacketFault::Mode;
   packet.mode = static_cast<ReturnMode>(tail[4]);
   if (packet.time_us >= kMicrosecondsPerHour) return PacketFault::Time;
-  if (is_another_product(packet.product)) return PacketFault::Product;
   for (std::size_t b = 0; b < kBlocks; ++b) {
     const PacketFault fault = decode_block(bytes.data() + b * kBlockBytes, packet.blocks[b]);
     if (fault != PacketFault::None) return fault;

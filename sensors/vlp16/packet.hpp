@@ -73,7 +73,10 @@ struct DataPacket {
 
 /// Why bytes are no data packet of a VLP-16.
 enum class PacketFault { None, Length, BlockFlag, Azimuth, Time, Mode, Product };
+inline constexpr std::size_t kPacketFaults = static_cast<std::size_t>(PacketFault::Product) + 1;
 [[nodiscard]] const char* to_string(PacketFault fault);
+/// The name of the maker's other product whose product byte this is; nullptr where it may be a VLP-16's.
+[[nodiscard]] const char* other_product(std::uint8_t product);
 
 /// Reads a data packet of any length into `packet`, which is complete only when the answer is None. Refused
 /// are wrong flags, azimuths beyond 360 deg, times of an hour and more, unknown modes, and the products

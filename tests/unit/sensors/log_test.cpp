@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/angle.hpp"
@@ -11,12 +13,14 @@
 #include "sensors/rosbag/bridge.hpp"
 #include "sensors/rosbag/cloud_fields.hpp"
 #include "sensors/rosbag/writer.hpp"
+#include "sensors/vlp16/encode.hpp"
 #include "tests/support/made_bag.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace madori::sensors {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -235,7 +239,7 @@ int packets_of(const std::filesystem::path& file) {
 
 TEST(Capture, OneThatWasCutShortEndsThereAndADamagedOneIsRefused) {
   const test::TemporaryFolder folder;
-  const std::string good = capture_of({100, 200, 300});
+  const std::string good = capture_of(std::vector<std::size_t>{100, 200, 300});
   EXPECT_EQ(packets_of(folder.write("good.pcap", good)), 3);
   EXPECT_EQ(packets_of(folder.write("short.pcap", good.substr(0, good.size() - 10))), 2);
   std::string damaged = good;
@@ -246,6 +250,66 @@ TEST(Capture, OneThatWasCutShortEndsThereAndADamagedOneIsRefused) {
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), HasSubstr("is damaged after 1 packets"));
   }
+}
+
+/// What a made capture holds: a data packet as a VLP-16 sends it, and how to change it.
+struct Sent {
+  std::uint8_t product = 0x22, mode = 0x37, host = 201;
+  std::size_t most_bytes = 65'535;  ///< of a frame, in the capture
+  int order = 0;
+};
+
+std::string capture_of(const std::vector<Sent>& all) {
+  std::string file;
+  const auto put = [&file](std::size_t value, int bytes = 4) {
+    for (int i = 0; i < bytes; ++i) file += static_cast<char>((value >> (8 * i)) & 0xFFU);
+  };
+  put(0xA1B2C3D4U), put(2, 2), put(4, 2), put(0), put(0), put(65'535), put(101);
+  for (const Sent& sent : all) {
+    vlp16::DataPacket packet;
+    packet.time_us = 1'000U + 1'327U * static_cast<unsigned>(sent.order);
+    for (std::size_t b = 0; b < vlp16::kBlocks; ++b)
+      packet.blocks[b].azimuth_cdeg =
+          static_cast<std::uint16_t>(40 * (12 * sent.order + static_cast<int>(b)));
+    const auto bytes = vlp16::encode(packet);
+    std::string frame(28, '\0');
+    frame += std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    frame[0] = 0x45, frame[9] = 17;
+    const std::array<std::uint8_t, 4> from{192, 168, 1, sent.host};
+    for (std::size_t i = 0; i < from.size(); ++i) frame[12 + i] = static_cast<char>(from[i]);
+    frame[24] = static_cast<char>(1214U >> 8U), frame[25] = static_cast<char>(1214U & 0xFFU);
+    frame[28 + 1204] = static_cast<char>(sent.mode), frame[28 + 1205] = static_cast<char>(sent.product);
+    const std::size_t kept = std::min(sent.most_bytes, frame.size());
+    put(1'000), put(1'327U * static_cast<unsigned>(sent.order)), put(kept), put(frame.size());
+    file += frame.substr(0, kept);
+  }
+  return file;
+}
+
+TEST(Capture, WhatIsNoVlp16IsRefusedByName) {
+  const test::TemporaryFolder folder;
+  const auto refused = [&](const std::vector<Sent>& all) {
+    return error_of(folder.write("a.pcap", capture_of(all)));
+  };
+  EXPECT_EQ(refused({{}, {.order = 1}}), "");
+  EXPECT_THAT(refused({{.product = 0x24}, {.product = 0x24, .order = 1}}),
+              HasSubstr("another sensor (Puck Hi-Res)"));
+  EXPECT_THAT(refused({{.product = 0x28, .mode = 0x3A}}), HasSubstr("another sensor (VLP-32C)"));
+  EXPECT_THAT(refused({{.product = 0xA1}}), HasSubstr("another sensor (VLS-128"));
+  EXPECT_THAT(refused({{.mode = 0x3A}}), HasSubstr("unknown return mode (0x3A)"));
+  EXPECT_THAT(refused({{.most_bytes = 96}, {.most_bytes = 96, .order = 1}}),
+              AllOf(HasSubstr("the beginnings of 2 UDP packets only"), HasSubstr("tcpdump -s 0")));
+  EXPECT_THAT(error_of(folder.write("b.pcap", capture_of(std::vector<std::size_t>{100, 200}))),
+              HasSubstr("UDP port 2368"));
+}
+
+TEST(Capture, SeveralSensorsAreNamedAndToBeChosenFrom) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(
+      error_of(folder.write("a.pcap", capture_of({Sent{}, Sent{.host = 202}}))),
+      AllOf(HasSubstr("several VLP-16 (192.168.1.201, 192.168.1.202)"), HasSubstr("src host 192.168.1.201")));
+  EXPECT_EQ(error_of(folder.write("b.pcap", capture_of({Sent{}, Sent{.product = 0x24, .host = 202}}))), "")
+      << "another model beside it is not mixed in";
 }
 
 TEST(OpenLog, NamesTheMend) {
