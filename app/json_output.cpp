@@ -8,13 +8,18 @@
 
 namespace madori::app {
 
-void expect_json(const std::string& file, const std::filesystem::path& made) {
-  if (file.empty() || file == "-") return;
+void expect_outputs(std::initializer_list<std::string> files, const std::filesystem::path& made) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path());
-  const bool is_made = !made.empty() && folder == fs::weakly_canonical(fs::absolute(made));
-  if (is_made && !fs::exists(folder)) return;
-  mapping::expect_writable(file);
+  for (const std::string& file : files) {
+    if (file.empty()) continue;
+    const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path());
+    const bool is_made = !made.empty() && folder == fs::weakly_canonical(fs::absolute(made));
+    if (!is_made || fs::exists(folder)) mapping::expect_writable(file);
+  }
+}
+
+void expect_json(const std::string& file, const std::filesystem::path& made) {
+  if (file != "-") expect_outputs({file}, made);
 }
 
 void write_json(const std::string& file, const nlohmann::json& value) {

@@ -132,14 +132,6 @@ void localize(const LocalizeArguments& arguments) {
   require_scans(static_cast<std::size_t>(played.scans), arguments.log);
   std::optional<localization::SelfCalibration> calibration;  // takes a fifth of the time: where asked
   if (arguments.learn || !arguments.json_file.empty()) calibration = calibrate(learner, localizer, walls);
-  if (arguments.learn) {
-    localization::save_reliability(folder / kReliabilityFile, learner.reliability());
-    (void)keep_calibration(folder, walls, *calibration);
-    save_living_map(folder, map_learner.map(), walls);
-    // A memory that lies in a wrong place would bend the drawing to it.
-    if (!estimates.empty() && estimates.back().health.state <= LocalizationState::Degraded)
-      keep_warp(folder, walls, localizer);
-  }
   mapping::write_file_atomically(arguments.out, trajectory);
   if (!arguments.on_drawing.empty()) mapping::write_file_atomically(arguments.on_drawing, on_drawing);
   if (!arguments.health_file.empty()) {
@@ -148,7 +140,6 @@ void localize(const LocalizeArguments& arguments) {
   if (!arguments.plot.empty()) {
     mapping::write_file_atomically(arguments.plot, trajectory_plot(walls, estimates));
   }
-  if (arguments.memory && !estimates.empty()) keep(localizer, estimates.back(), folder, walls);
   if (!arguments.walls_plot.empty()) {
     mapping::write_file_atomically(arguments.walls_plot, reliability_plot(walls, learner.reliability()));
   }
@@ -169,6 +160,16 @@ void localize(const LocalizeArguments& arguments) {
       {"living_map", arguments.learn ? to_json(map_learner.map()) : nlohmann::json()},
       {"seed", arguments.seed}};
   write_json(arguments.json_file, result);
+  // The site last: a drive of which the results could not be written has taught it nothing.
+  if (arguments.learn) {
+    localization::save_reliability(folder / kReliabilityFile, learner.reliability());
+    (void)keep_calibration(folder, walls, *calibration);
+    save_living_map(folder, map_learner.map(), walls);
+    // A memory that lies in a wrong place would bend the drawing to it.
+    if (!estimates.empty() && estimates.back().health.state <= LocalizationState::Degraded)
+      keep_warp(folder, walls, localizer);
+  }
+  if (arguments.memory && !estimates.empty()) keep(localizer, estimates.back(), folder, walls);
   std::fprintf(arguments.json_file == "-" ? stderr : stdout,
                "%d scans, %d odometry records; %s written\n%s\n%s%s", played.scans, played.odometry_records,
                arguments.out.c_str(), health.summary().c_str(),
@@ -211,8 +212,10 @@ void add_localize(CLI::App& app) {
     if (!arguments->global && arguments->initial.empty()) {
       throw CLI::RequiredError("--initial or --global");
     }
-    expect_json(arguments->json_file);
-    localize(*arguments);
+    const LocalizeArguments& a = *arguments;
+    expect_json(a.json_file);
+    expect_outputs({a.out, a.on_drawing, a.health_file, a.plot, a.walls_plot});
+    localize(a);
   });
 }
 

@@ -64,6 +64,7 @@ std::vector<std::uint8_t> final_plot(const MappingRun& run, const MappedSite& ma
 
 void map_log(const MapArguments& arguments) {
   expect_json(arguments.json_file, arguments.out);
+  expect_outputs({arguments.trajectory, arguments.at_last, arguments.plot}, arguments.out);
   const bool replaces = std::filesystem::exists(arguments.out / "site.yaml");
   if (replaces && !arguments.force) {
     throw Error(arguments.out.string(), "is a site already",

@@ -93,6 +93,8 @@ void add_scan(Tally& tally, Stamp stamp, const loc::GlobalAnswer& answer, bool b
 }
 
 void relocalize(const RelocalizeArguments& arguments) {
+  expect_outputs({arguments.out});
+  expect_json(arguments.json_file);
   const std::filesystem::path folder(arguments.site);
   const mapping::Site site = mapping::load_scaled_site(folder);
   const mapping::Walls walls = mapping::load_walls(folder / "walls.csv");

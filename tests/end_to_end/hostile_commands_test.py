@@ -61,6 +61,19 @@ class Commands(unittest.TestCase):
                 self.assertEqual(state(self.site), before, known)
         self.assertEqual(madori("route", self.site, "--check").returncode, 0)
 
+    def test_a_result_that_cannot_be_written_is_said_before_the_log_is_read(self):
+        before, drawing, nowhere = state(self.site), DATA / "sample_factory" / "factory.dxf", self.here / "none" / "way.tum"
+        localize = ("localize", self.site, "--log", drawing, "--initial", "0 0 0", "--learn", "--memory")
+        good = ("--out", self.here / "way.tum")
+        for command in ((*localize, "--out", nowhere), *((*localize, *good, option, nowhere) for option in
+                                                         ("--plot", "--health", "--on-drawing", "--walls-plot", "--json")),
+                        ("relocalize", self.site, "--log", drawing, "--out", nowhere),
+                        *(("map", "--log", drawing, "--out", self.here / "made", option, nowhere) for option in
+                          ("--trajectory", "--final", "--plot"))):
+            self.refused(madori(*command), str(nowhere))
+            self.assertEqual(state(self.site), before, command)
+            self.assertFalse((self.here / "made").exists() or (self.here / "way.tum").exists(), command)
+
     def test_what_a_program_drives_by_is_not_changed_under_it(self):
         drawing, backup = DATA / "sample_factory" / "factory.dxf", self.here / "site.tar"
         self.assertEqual(madori("export", self.site, "--backup", backup).returncode, 0)

@@ -37,6 +37,15 @@ TEST(JsonOutput, AFileThatCannotBeWrittenIsSaidBeforehand) {
   EXPECT_THROW(expect_json(folder.path().string()), Error);
 }
 
+TEST(JsonOutput, EveryFileThatCannotBeWrittenIsSaidBeforehand) {
+  const test::TemporaryFolder folder;
+  const std::string good = (folder.path() / "a.tum").string(), bad = (folder.path() / "none/a.tum").string();
+  EXPECT_NO_THROW(expect_outputs({good, "", good}));
+  EXPECT_FALSE(std::filesystem::exists(good));
+  EXPECT_THROW(expect_outputs({good, "", bad}), Error);
+  EXPECT_NO_THROW(expect_outputs({good, bad}, folder.path() / "none"));
+}
+
 /// Whoever reads it has gone.
 TEST(JsonOutput, AClosedPipeIsAFailure) {
   std::array<int, 2> ends{};
