@@ -114,6 +114,10 @@ ImageHeader tiff(std::span<const std::uint8_t> bytes) {
         break;
       case 277:
         samples = std::max(samples, value);
+        header.samples = static_cast<int>(std::min(value, 64U));
+        break;
+      case 274:
+        header.orientation = static_cast<int>(std::min(value, 8U));
         break;
       case 282:
         header.dpi = ratio(value);
@@ -128,6 +132,7 @@ ImageHeader tiff(std::span<const std::uint8_t> bytes) {
         break;
     }
   }
+  header.bits = static_cast<int>(std::min(bits, 64U));
   header.bytes_per_px = static_cast<int>(std::clamp(samples, 1U, 4U) * std::clamp((bits + 7) / 8, 1U, 8U));
   const double inches = unit == 2 ? 1 : unit == 3 ? 2.54 : 0;
   header.dpi *= inches;

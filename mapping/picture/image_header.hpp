@@ -16,6 +16,7 @@ struct ImageHeader {
   double dpi = 0;        ///< along u; 0 = not stated, or not that of a drawing (below 1, above 100,000)
   int bytes_per_px = 1;  ///< of the decoded picture: channels times bytes of a sample
   double dpi_v = 0;      ///< along v: a fax has 204 x 196 or 204 x 98; as along u where none is stated
+  int bits = 8, samples = 1, orientation = 1;  ///< of a TIFF, as it states them (tags 258, 277 and 274)
 };
 
 /// The header, or nothing where the bytes are none of these formats. Never reads outside `bytes`.

@@ -13,6 +13,7 @@
 #include "core/result.hpp"
 #include "mapping/picture/grey_png.hpp"
 #include "mapping/picture/image_header.hpp"
+#include "mapping/picture/packed_tiff.hpp"
 #include "mapping/picture/quiet_stderr.hpp"
 
 namespace madori::mapping {
@@ -71,7 +72,8 @@ ImageHeader checked_header(const fs::path& file, const std::vector<std::uint8_t>
   const double megapixels = longest_pixel(*header) * static_cast<double>(header->width_px) *
                             static_cast<double>(header->height_px) / 1e6;
   expect_at_most(file, megapixels, kMaxImageMegapixels, " megapixels");
-  expect_at_most(file, megapixels * header->bytes_per_px, kMaxDecodedMb, " MB decoded");
+  const int bytes_per_px = is_packed_tiff(*header) ? 4 : header->bytes_per_px;
+  expect_at_most(file, megapixels * bytes_per_px, kMaxDecodedMb, " MB decoded");
   return *header;
 }
 
@@ -86,16 +88,17 @@ bool ends_as_jpeg(const std::vector<std::uint8_t>& bytes) {
   return std::search(data, bytes.end(), kEnd.begin(), kEnd.end()) != bytes.end();
 }
 
-/// Palette, colour and depth are OpenCV's; only JPEG carries an EXIF orientation, which IMREAD_UNCHANGED
-/// skips.
-cv::Mat decode(const fs::path& file, const std::vector<std::uint8_t>& bytes, ImageFormat format) {
+/// Palette, colour and depth are OpenCV's, but for some TIFFs; only JPEG carries an EXIF orientation, which
+/// IMREAD_UNCHANGED skips.
+cv::Mat decode(const fs::path& file, const std::vector<std::uint8_t>& bytes, const ImageHeader& header) {
+  const ImageFormat format = header.format;
   const int flags = format == ImageFormat::Jpeg ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED;
   if (format == ImageFormat::Jpeg && !ends_as_jpeg(bytes))
     throw Error(file.string(), "is cut off", "copy or export it again");
   cv::Mat picture;
   const QuietStderr quiet;
   try {
-    picture = cv::imdecode(bytes, flags);
+    picture = is_packed_tiff(header) ? decode_packed_tiff(bytes, header) : cv::imdecode(bytes, flags);
   } catch (const cv::Exception&) {
     picture.release();
   }
@@ -147,7 +150,7 @@ GrayImage load_image(const fs::path& file) {
               .height_px = static_cast<int>(header.height_px),
               .pixels = std::move(*pixels),
               .dpi = header.dpi};
-  const cv::Mat picture = squared(decode(file, bytes, header.format), header);
+  const cv::Mat picture = squared(decode(file, bytes, header), header);
   GrayImage image{
       .width_px = picture.cols, .height_px = picture.rows, .dpi = std::max(header.dpi, header.dpi_v)};
   image.pixels.resize(picture.total());

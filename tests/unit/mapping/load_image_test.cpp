@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -89,6 +90,67 @@ TEST_F(LoadImage, EveryDepthAndFormat) {
   cv::imwrite((folder_.path() / "bit.png").string(), bilevel, one_bit);
   EXPECT_EQ(load_image(folder_.path() / "bit.png").at(1, 2), 0);
   EXPECT_EQ(load_image(folder_.path() / "bit.png").at(0, 0), 255);
+}
+
+/// A TIFF of 4 x 2 pixels, uncompressed, with these further SHORT tags.
+std::string tiff_of(int bits, const std::map<int, std::vector<int>>& tags, const std::string& data) {
+  std::map<int, std::vector<int>> all{{256, {4}}, {257, {2}}, {258, {bits}},
+                                      {259, {1}}, {277, {1}}, {278, {2}}};
+  for (const auto& [tag, values] : tags) all[tag] = values;
+  const auto number = [](std::size_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>((value >> (8 * i)) & 0xFFU);
+    return text;
+  };
+  const std::size_t entries = all.size() + 2, after = 8 + 2 + 12 * entries + 4;
+  std::string beyond = data, directory = number(entries, 2);
+  all[273] = {static_cast<int>(after)}, all[279] = {static_cast<int>(data.size())};
+  for (const auto& [tag, values] : all) {
+    std::string packed;
+    for (const int value : values) packed += number(static_cast<std::size_t>(value), 2);
+    directory += number(static_cast<std::size_t>(tag), 2) + number(3, 2) + number(values.size(), 4);
+    if (packed.size() > 4) {
+      directory += number(after + beyond.size(), 4);
+      beyond += packed;
+    } else {
+      packed.resize(4);
+      directory += packed;
+    }
+  }
+  return std::string("II*\0", 4) + number(8, 4) + directory + number(0, 4) + beyond;
+}
+
+/// Rows of a picture, for comparison.
+std::vector<int> greys(const GrayImage& image) {
+  std::vector<int> all;
+  for (int v = 0; v < image.height_px; ++v)
+    for (int u = 0; u < image.width_px; ++u) all.push_back(image.at(u, v));
+  return all;
+}
+
+TEST_F(LoadImage, TiffsOfTwoAndFourBitAndGreyWithAlpha) {
+  using Greys = std::vector<int>;
+  const std::string nibbles("\xF0\xF5\xFF\xFF", 4);
+  EXPECT_EQ(greys(load_image(write_text("g4.tif", tiff_of(4, {{262, {1}}}, nibbles)))),
+            (Greys{255, 0, 255, 85, 255, 255, 255, 255}));
+  EXPECT_EQ(greys(load_image(write_text("n4.tif", tiff_of(4, {{262, {0}}}, nibbles)))),
+            (Greys{0, 255, 0, 170, 0, 0, 0, 0}));
+  EXPECT_EQ(greys(load_image(write_text("g2.tif", tiff_of(2, {{262, {1}}}, "\xF1\xFF")))),
+            (Greys{255, 255, 0, 85, 255, 255, 255, 255}));
+  std::vector<int> palette(48, 65'535);
+  for (const int black : {5, 21, 37}) palette[static_cast<std::size_t>(black)] = 0;
+  EXPECT_EQ(greys(load_image(write_text("p4.tif", tiff_of(4, {{262, {3}}, {320, palette}}, nibbles)))),
+            (Greys{255, 255, 255, 0, 255, 255, 255, 255}));
+  const GrayImage turned = load_image(write_text("t4.tif", tiff_of(4, {{262, {1}}, {274, {6}}}, nibbles)));
+  ASSERT_EQ(turned.width_px, 2);
+  EXPECT_EQ(greys(turned), (Greys{255, 255, 255, 0, 255, 255, 255, 85}));
+  const std::string black_line("\0\0\0\xFF\0\xFF\0\0\0\0\0\0\0\0\0\x80", 16);
+  EXPECT_EQ(greys(load_image(write_text(
+                "ga.tif", tiff_of(8, {{258, {8, 8}}, {262, {1}}, {277, {2}}, {338, {2}}}, black_line)))),
+            (Greys{255, 0, 0, 255, 255, 255, 255, 127}));
+  EXPECT_NE(reason(write_text("no_bits.tif", tiff_of(0, {{262, {1}}, {277, {2}}}, black_line))), "");
+  EXPECT_THAT(reason(write_text("cut.tif", tiff_of(4, {{262, {1}}}, nibbles).substr(0, 90))),
+              HasSubstr("cut off"));
 }
 
 /// A square drawn on a sheet that was faxed at 204 x 98 dots per inch, and at 204 x 196.
