@@ -95,10 +95,12 @@ void refuse_blank(const ImportOptions& options, const GrayImage& picture) {
 }
 
 [[noreturn]] void no_walls(const ImportOptions& options, const Plan& plan) {
-  const bool vectors = plan.vectors.has_value();
+  std::string layers;
+  for (const auto& note : plan.left_out) layers += note + "; ";
+  layers += "name the layers of the walls with --layers";
   throw Error(options.drawing.string(), "no wall was found in it",
-              vectors
-                  ? "name the layers of the walls with --layers"
+              plan.vectors
+                  ? layers
                   : "doubtful walls: --strictness 0.3; name a line that is a wall: --like u,v; look at the "
                     "stages with --debug-images");
 }
@@ -233,6 +235,7 @@ ImportReport import_drawing(const ImportOptions& options, const Progress& progre
 
   report.found.stages = std::move(reports);
   report.notes = std::move(plan.notes);
+  report.notes.insert(report.notes.end(), plan.left_out.begin(), plan.left_out.end());
   return report;
 }
 

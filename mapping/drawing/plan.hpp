@@ -31,6 +31,7 @@ struct Plan {
   std::optional<double> m_per_px;      ///< where the file knows its units
   std::string scale_method;            ///< "dxf-units" where m_per_px is set
   std::vector<std::string> notes;      ///< choices that were made, in words
+  std::vector<std::string> left_out;   ///< what may be walls and was not read or not taken, in words
 };
 
 /// Opens a raster (PNG, JPEG, TIFF, BMP), PDF, SVG or DXF drawing. Throws Error naming file and mend.

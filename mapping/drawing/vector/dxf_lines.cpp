@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,6 +15,7 @@
 
 #include "core/result.hpp"
 #include "mapping/drawing/vector/door_leaves.hpp"
+#include "mapping/dxf_text/dxf_text.hpp"
 
 namespace madori::mapping {
 namespace {
@@ -176,34 +176,6 @@ void add_feature(const OGRFeature& feature, std::map<std::string, std::size_t>& 
   }
 }
 
-/// Refuses what GDAL would read half (no EOF at the end) or never end on (zero bytes), and returns the first
-/// 256 KiB, which hold the header. Text that is valid UTF-8 is UTF-8 whatever code page the header names.
-std::string checked_header(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error(file.string(), "cannot be read", "check its permissions");
-  std::string header, tail, lines;
-  bool utf8 = true;
-  std::string chunk(1U << 18U, '\0');
-  while (stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || stream.gcount() > 0) {
-    const std::string_view text(chunk.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.find('\0') != std::string_view::npos)
-      throw Error(file.string(), "is a binary DXF or damaged", "save it again as ASCII DXF (R2000 or newer)");
-    if (header.empty()) header = text;
-    lines += text;
-    const std::size_t whole = lines.find_last_of("\r\n") + 1;
-    utf8 = utf8 && CPLIsUTF8(lines.data(), static_cast<int>(whole)) != 0;
-    lines.erase(0, whole);
-    tail += text.substr(text.size() - std::min<std::size_t>(text.size(), 64));
-    tail.erase(0, tail.size() - std::min<std::size_t>(tail.size(), 64));
-  }
-  tail.erase(tail.find_last_not_of(" \t\r\n\x1A") + 1);
-  if (!tail.ends_with("EOF"))
-    throw Error(file.string(), "is no DXF or is cut off", "copy it again, or save it again as ASCII DXF");
-  utf8 = utf8 && CPLIsUTF8(lines.data(), static_cast<int>(lines.size())) != 0;
-  CPLSetThreadLocalConfigOption("DXF_ENCODING", utf8 ? "UTF-8" : nullptr);
-  return header;
-}
-
 }  // namespace
 
 double DxfLine::length() const {
@@ -212,7 +184,11 @@ double DxfLine::length() const {
 
 DxfContent read_dxf_lines(const std::filesystem::path& file) {
   DxfContent content;
-  read_header_units(checked_header(file), content.units);
+  const DxfText text = read_dxf_text(file);
+  CPLSetThreadLocalConfigOption("DXF_ENCODING", text.utf8 ? "UTF-8" : nullptr);
+  content.units.insunits = text.insunits;
+  content.units.measurement = text.measurement;
+  content.unread = unread_notes(text);
   const Dataset dataset = open_dxf(file);
   CPLPushErrorHandler(CPLQuietErrorHandler);
   std::map<std::string, std::size_t> layers;

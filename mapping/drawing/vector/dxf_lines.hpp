@@ -37,6 +37,7 @@ struct DxfContent {
   std::vector<DoorSwing> swings;      ///< quarter arcs
   std::vector<DoorSwing> short_arcs;  ///< doors drawn ajar where a leaf hangs in them
   DxfUnitEvidence units;
+  std::vector<std::string> unread;  ///< what GDAL does not read, in words
 };
 
 /// All lines of a DXF's model space (of its layouts where that is empty), block inserts resolved, by

@@ -1,10 +1,8 @@
 #include "mapping/drawing/vector/dxf_units.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <sstream>
-#include <string_view>
 
 #include "core/median.hpp"
 
@@ -59,12 +57,6 @@ std::string note_of(const Unit& unit, const DxfUnitEvidence& evidence) {
   return note.str();
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
-  return text;
-}
-
 }  // namespace
 
 std::optional<DxfUnit> choose_unit(const DxfUnitEvidence& evidence) {
@@ -86,25 +78,6 @@ std::optional<DxfUnit> named_unit(const std::string& word) {
     if (word == unit.word)
       return DxfUnit{unit.metres, std::string("drawing units are ") + unit.name + ": --unit"};
   return std::nullopt;
-}
-
-void read_header_units(const std::string& text, DxfUnitEvidence& evidence) {
-  std::istringstream lines(text);
-  std::string line;
-  std::optional<int>* wanted = nullptr;
-  int until_value = 0;
-  while (std::getline(lines, line)) {
-    const std::string_view word = trimmed(line);
-    if (word == "ENDSEC") return;
-    if (word == "$INSUNITS" || word == "$MEASUREMENT") {
-      wanted = word == "$INSUNITS" ? &evidence.insunits : &evidence.measurement;
-      until_value = 2;  // the group code 70, then the value
-    } else if (wanted != nullptr && --until_value == 0) {
-      int value = 0;
-      if (std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc()) *wanted = value;
-      wanted = nullptr;
-    }
-  }
 }
 
 }  // namespace madori::mapping

@@ -28,7 +28,4 @@ struct DxfUnit {
 /// The unit that the user named: mm, cm, dm, m, in, ft, yd; nothing for another word.
 [[nodiscard]] std::optional<DxfUnit> named_unit(const std::string& word);
 
-/// Reads $INSUNITS and $MEASUREMENT of a text DXF's HEADER section into `evidence`.
-void read_header_units(const std::string& text, DxfUnitEvidence& evidence);
-
 }  // namespace madori::mapping

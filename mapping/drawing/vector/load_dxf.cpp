@@ -112,6 +112,24 @@ std::string layer_note(const std::vector<std::string>& layers, const std::set<st
   return "walls are taken from the layers: " + names;
 }
 
+/// Layers that were left out although their names say wall, with the metres (where these are known) that they
+/// hold.
+void note_doubtful_layers(const DxfContent& content, const std::vector<LayerMeaning>& meaning,
+                          double m_per_unit, std::vector<std::string>& notes) {
+  std::vector<double> length(content.layers.size());
+  for (const auto& line : content.lines) length[line.layer] += line.no_wall ? 0.0 : line.length();
+  for (std::size_t i = 0; i < length.size(); ++i) {
+    if (!meaning[i].says_wall || !(length[i] > 0)) continue;
+    std::ostringstream note;
+    note << "the layer " << content.layers[i];
+    if (m_per_unit > 0) note << " (" << std::lround(length[i] * m_per_unit) << " m of lines)";
+    note << " was not taken: its name says wall, but also something else - where it holds walls, name the "
+            "layers "
+            "with --layers";
+    notes.push_back(note.str());
+  }
+}
+
 /// The scale from the unit that is named or that explains the drawing, and a note on it.
 void set_scale(const DxfContent& content, const PlanOptions& options, double unit_per_px, Plan& plan) {
   const auto unit = options.unit.empty() ? choose_unit(content.units) : named_unit(options.unit);
@@ -129,8 +147,9 @@ void set_scale(const DxfContent& content, const PlanOptions& options, double uni
 
 Plan load_dxf(const std::filesystem::path& file, const PlanOptions& options) {
   DxfContent content = read_dxf_lines(file);
-  if (content.lines.empty())
-    throw Error(file.string(), "holds no lines", "export the model space, its external references bound");
+  std::string remedy;
+  for (const auto& note : content.unread) remedy += note + "; ";
+  if (content.lines.empty()) throw Error(file.string(), "holds no lines", remedy + "export the model space");
   const Bounds bounds = drawn_bounds(content.lines);
   content.units.extent = bounds.longer();
   if (!(bounds.longer() > 0)) throw Error(file.string(), "has no size", "check the drawing in a CAD viewer");
@@ -161,6 +180,8 @@ Plan load_dxf(const std::filesystem::path& file, const PlanOptions& options) {
   plan.picture = render(*plan.vectors, std::max(width, 1), std::max(height, 1));
   plan.notes.push_back(layer_note(content.layers, used));
   set_scale(content, options, unit_per_px, plan);
+  plan.left_out = std::move(content.unread);
+  note_doubtful_layers(content, meaning, plan.m_per_px.value_or(0.0) / unit_per_px, plan.left_out);
   if (plan.m_per_px) {
     std::ostringstream origin;
     origin.precision(10);

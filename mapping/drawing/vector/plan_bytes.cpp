@@ -82,7 +82,7 @@ void each_of(Bytes& bytes, Plan& plan) {
   bytes(picture.width_px), bytes(picture.height_px), bytes(picture.pixels), bytes(picture.dpi);
   bytes(picture.red_green), bytes(picture.yellow_blue);
   each_of(bytes, plan.vectors);
-  bytes(plan.m_per_px), bytes(plan.scale_method), bytes(plan.notes);
+  bytes(plan.m_per_px), bytes(plan.scale_method), bytes(plan.notes), bytes(plan.left_out);
 }
 
 }  // namespace

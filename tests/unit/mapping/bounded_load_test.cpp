@@ -38,6 +38,7 @@ TEST(BoundedLoad, APlanIsHandedOverWhole) {
   EXPECT_EQ(plan.m_per_px, direct.m_per_px);
   EXPECT_EQ(plan.scale_method, direct.scale_method);
   EXPECT_EQ(plan.notes, direct.notes);
+  EXPECT_EQ(plan.left_out, direct.left_out);
 }
 
 TEST(BoundedLoad, TimeAndMemoryAreBoundedAndSaid) {

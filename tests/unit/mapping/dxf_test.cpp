@@ -14,6 +14,7 @@
 #include "mapping/drawing/vector/dxf_layers.hpp"
 #include "mapping/drawing/vector/dxf_units.hpp"
 #include "mapping/drawing/vector/load_dxf.hpp"
+#include "mapping/dxf_text/dxf_text.hpp"
 #include "mapping/wall_map/wall.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -32,6 +33,22 @@ TEST(DxfLayers, NamesOfSeveralLanguagesAreUnderstood) {
        {"WALLS_HATCH", "Wandschraffur", "A-DIMS-1", "Bemaßung", "Shelves", "Doors/Windows", "A-WALL-OPENING"})
     EXPECT_EQ(layer_meaning(name).kind, LayerKind::NoWall) << name;
   EXPECT_EQ(layer_meaning("0").kind, LayerKind::Unknown);
+}
+
+/// The short words of what is no wall stand in many others.
+TEST(DxfLayers, AWordInsideAnotherOneSaysNothing) {
+  for (const char* name : {"INDOOR-WALL", "OUTDOOR WALL", "RESIDENTIAL-WALL", "A-WALL-INFILL",
+                           "Wand-Textilhalle", "WALL-DIMMED", "Bordered_walls", "BackdoorWall$0$INDOOR_WALL"})
+    EXPECT_EQ(layer_meaning(name).kind, LayerKind::Wall) << name;
+  for (const char* name : {"W_TRACKSIDE", "MISCELLANEOUS", "GROUNDPLANE", "Nachschublager", "Krankenhaus"})
+    EXPECT_EQ(layer_meaning(name).kind, LayerKind::Unknown) << name;
+  for (const char* name :
+       {"ANNTEXT", "WallText", "A-WALL-FILL", "Raumtext", "WALLDIMS", "WALL-DIM2", "WallDoors", "02_壁寸法",
+        "Innentüren", "WALL_NOTES", "A-WALL-IDEN", "Wall-Border"})
+    EXPECT_EQ(layer_meaning(name).kind, LayerKind::NoWall) << name;
+  EXPECT_EQ(layer_meaning("PalletRacks").reason, RejectReason::Furniture);
+  EXPECT_TRUE(layer_meaning("Brandwand_Fensterband").says_wall);
+  EXPECT_FALSE(layer_meaning("Fensterband").says_wall);
 }
 
 TEST(DxfUnits, InsunitsCountsWhereABuildingComesOut) {
@@ -99,15 +116,18 @@ TEST(DxfUnits, FeetAndInchesFiguresMeanInches) {
   EXPECT_DOUBLE_EQ(choose_unit(evidence).value().metres, 0.3048);
 }
 
+DxfText text_of(const std::string& content) {
+  const test::TemporaryFolder folder;
+  return read_dxf_text(folder.write("a.dxf", content + "0\nEOF\n"));
+}
+
 TEST(DxfUnits, ReadsTheHeaderOnly) {
-  DxfUnitEvidence evidence;
-  read_header_units(
-      "  0\r\nSECTION\r\n  2\r\nHEADER\r\n  9\r\n$INSUNITS\r\n 70\r\n     6\r\n  9\r\n$MEASUREMENT\r\n "
-      "70\r\n1\r\n  0\r\nENDSEC\r\n"
-      "  9\r\n$INSUNITS\r\n 70\r\n 1\r\n",
-      evidence);
-  EXPECT_EQ(evidence.insunits, 6);
-  EXPECT_EQ(evidence.measurement, 1);
+  const DxfText text = text_of(
+      "\xEF\xBB\xBF  0\r\nSECTION\r\n  2\r\nHEADER\r\n  9\r\n$INSUNITS\r\n 70\r\n     6\r\n  9\r\n"
+      "$MEASUREMENT\r\n 70\r\n1\r\n  0\r\nENDSEC\r\n"
+      "  9\r\n$INSUNITS\r\n 70\r\n 1\r\n");
+  EXPECT_EQ(text.insunits, 6);
+  EXPECT_EQ(text.measurement, 1);
 }
 
 TEST(LoadDxf, TheSampleFactoryComesOutExactly) {
@@ -217,6 +237,39 @@ TEST(LoadDxf, ALayoutCountsOnlyWhereTheModelIsEmpty) {
   const std::string room = dxf_line("WALL", 0, 0, 20, 0) + dxf_line("WALL", 0, 0, 0, 10);
   EXPECT_EQ(walls_and_others(dxf_section("ENTITIES", frame + room)), Counts(2, 0));
   EXPECT_EQ(walls_and_others(dxf_section("ENTITIES", frame)), Counts(1, 0));
+}
+
+/// A drawing of columns, beside `more` entities and these blocks.
+Plan columns_and(const std::string& more, const std::string& blocks = "") {
+  const test::TemporaryFolder folder;
+  const std::string columns = dxf_line("A-COLS", 0, 0, 20, 0) + dxf_line("A-COLS", 0, 0, 0, 10);
+  return load_dxf(folder.write("drawn.dxf", dxf_section("HEADER", "9\n$INSUNITS\n70\n6\n") +
+                                                dxf_section("BLOCKS", blocks) +
+                                                dxf_section("ENTITIES", columns + more) + "0\nEOF\n"),
+                  {});
+}
+
+/// GDAL skips the walls of AutoCAD Architecture, solids and what was not bound, without a word.
+TEST(LoadDxf, WhatIsNotReadIsNamed) {
+  const std::string wall = "0\nAEC_WALL\n8\nA-WALL\n", solid = "0\n3DSOLID\n100\nAcDbEntity\n8\nA-WALL\n";
+  EXPECT_THAT(
+      columns_and(wall + solid + wall).left_out,
+      ::testing::ElementsAre("1 3DSOLID was not read: explode them, or export to AutoCAD 2000 DXF",
+                             "2 AEC_WALL were not read: explode them, or export to AutoCAD 2000 DXF"));
+  const auto block = [](const std::string& flags, const std::string& content) {
+    return "0\nBLOCK\n8\n0\n2\nPLAN\n70\n" + flags + "\n10\n0\n20\n0\n1\nC:\\plans\\ground.dwg\n" + content +
+           "0\nENDBLK\n8\n0\n";
+  };
+  EXPECT_THAT(columns_and("", block("4", "")).left_out,
+              ::testing::ElementsAre(HasSubstr("ground.dwg was not read: bind it")));
+  EXPECT_THAT(columns_and("", block("0", "") + block("36", dxf_line("WALL", 0, 0, 1, 0))).left_out,
+              ::testing::IsEmpty());
+}
+
+TEST(LoadDxf, ALayerThatSaysWallAndSomethingElseIsNamed) {
+  const auto left_out = columns_and(dxf_line("Brandwand_Fensterband", 0, 5, 20, 5)).left_out;
+  ASSERT_EQ(left_out.size(), 1U);
+  EXPECT_THAT(left_out.front(), HasSubstr("the layer Brandwand_Fensterband (20 m of lines) was not taken"));
 }
 
 /// Files since R2007 are UTF-8 and name the code page of the computer all the same.
