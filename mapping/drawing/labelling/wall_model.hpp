@@ -14,9 +14,8 @@ struct Calibration {
 };
 
 /// Says of every edge of a drawing how probable it is that a wall was drawn there. Two forests judge: each
-/// edge by itself, then each in the light of all (D. Wolpert, "Stacked generalization", 1992). Either is the
-/// mean of several trainings (L. Breiman, "Bagging predictors", 1996), for a single one leans now here, now
-/// there. Trained by train_walls; docs/how-to/teach-a-drawing.md.
+/// edge by itself, then each in the light of all (D. Wolpert, "Stacked generalization", 1992). Trained by
+/// train_walls; docs/how-to/teach-a-drawing.md.
 class WallModel {
  public:
   WallModel(Forest first, Forest second, const Calibration& calibration)
