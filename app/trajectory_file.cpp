@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "app/number_table.hpp"
 #include "core/result.hpp"
@@ -12,9 +13,10 @@ namespace madori::app {
 std::string tum_line(Stamp stamp, const Transform2<Map, Base>& map_from_base) {
   const double half = 0.5 * map_from_base.yaw_rad();
   std::array<char, 160> line{};
-  const long long nanoseconds = stamp.time_since_epoch().count();
-  std::snprintf(line.data(), line.size(), "%lld.%06lld %.6f %.6f 0 0 0 %.9f %.9f\n",
-                nanoseconds / 1'000'000'000, nanoseconds % 1'000'000'000 / 1'000, map_from_base.x_m(),
+  const long long microseconds = stamp.time_since_epoch().count() / 1'000;
+  const long long size = std::llabs(microseconds);  // a remainder has a sign of its own
+  std::snprintf(line.data(), line.size(), "%s%lld.%06lld %.6f %.6f 0 0 0 %.9f %.9f\n",
+                microseconds < 0 ? "-" : "", size / 1'000'000, size % 1'000'000, map_from_base.x_m(),
                 map_from_base.y_m(), std::sin(half), std::cos(half));
   return line.data();
 }

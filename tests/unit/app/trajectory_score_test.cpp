@@ -142,5 +142,16 @@ TEST(TrajectoryFile, ADamagedLineIsNamed) {
   EXPECT_THROW((void)load_tum(folder.path() / "c.tum"), Error);
 }
 
+TEST(TrajectoryFile, KeepsTimesBefore1970) {
+  const test::TemporaryFolder folder;
+  std::string text;
+  for (const double time_s : {-20.5, -0.25, 0.0, 20.5}) text += tum_line(stamp_from_seconds(time_s), {});
+  const auto poses = load_tum(folder.write("a.tum", text));
+  ASSERT_EQ(poses.size(), 4U);
+  EXPECT_DOUBLE_EQ(to_seconds(poses[0].stamp), -20.5);
+  EXPECT_DOUBLE_EQ(to_seconds(poses[1].stamp), -0.25);
+  EXPECT_DOUBLE_EQ(to_seconds(poses[3].stamp), 20.5);
+}
+
 }  // namespace
 }  // namespace madori::app
