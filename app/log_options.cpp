@@ -44,8 +44,8 @@ sensors::LogOptions log_options(const mapping::Site& site, const LogArguments& a
   options.wheels = arguments.wheels;
   const mapping::VehicleRecord& vehicle = site.vehicle;
   options.geometry = {vehicle.wheel_radius_m, vehicle.wheel_radius_m, vehicle.half_wheel_separation_m};
-  options.bag = {arguments.scan_topic, arguments.cloud_topic, arguments.odometry_topic,
-                 mounted(log_lidars(site))};
+  options.bag = {
+      arguments.scan_topic, arguments.cloud_topic, arguments.odometry_topic, mounted(log_lidars(site)), {}};
   auto& lidars = options.bag.lidars;
   if (!arguments.lidar.empty()) keep_only(lidars, arguments.lidar);
   const auto spinning = std::ranges::find(lidars, false, &sensors::MountedLidar::planar);

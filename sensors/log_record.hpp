@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -52,6 +53,9 @@ using LogRecord = std::variant<OdometryReading, ScanRecord, CloudRecord>;
   if (const auto* cloud = std::get_if<CloudRecord>(&record)) return cloud->cloud.stamp;
   return std::get<OdometryReading>(record).stamp;
 }
+
+/// Told what was found out about a log, in words for people.
+using LogRemark = std::function<void(const std::string&)>;
 
 /// A log, read record by record; a log of any length needs the memory of a few records.
 class LogReader {

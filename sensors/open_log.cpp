@@ -8,12 +8,6 @@
 #include "sensors/time_order.hpp"
 
 namespace madori::sensors {
-namespace {
-
-constexpr auto kBagDisorder = std::chrono::milliseconds(300);
-
-}  // namespace
-
 std::unique_ptr<LogReader> open_log(const std::filesystem::path& file, const LogOptions& options) {
   const std::string extension = lower_extension(file);
   const bool capture = extension == ".pcap" || extension == ".pcapng";
@@ -25,17 +19,18 @@ std::unique_ptr<LogReader> open_log(const std::filesystem::path& file, const Log
     if (!options.deskew) return log;
     return std::make_unique<DeskewedReader>(std::move(log));
   };
+  LogRemark remark;
+  if (options.remark)
+    remark = [told = options.remark, file](const std::string& what) { told(file.string() + ": " + what); };
   const auto steady = [&](std::unique_ptr<LogReader> log) -> std::unique_ptr<LogReader> {
-    LogRemark remark;
-    if (options.remark)
-      remark = [told = options.remark, file](const std::string& what) { told(file.string() + ": " + what); };
-    return std::make_unique<SteadyTimeReader>(std::move(log), std::move(remark));
+    return std::make_unique<SteadyTimeReader>(std::move(log), remark);
   };
   if (capture) return deskewed(steady(pcap::open_vlp16_log(file, options)));
   if (extension == ".log" || extension == ".clf" || extension == ".carmen")
     return steady(std::make_unique<carmen::CarmenReader>(file));
   if (extension == ".bag") {
     BagOptions bag = options.bag;
+    bag.remark = remark;
     if (bag.lidars.empty())
       bag.lidars.push_back({"", "", options.lidar, false, options.base_from_lidar, options.lidar_height_m});
     return deskewed(

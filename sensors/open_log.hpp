@@ -18,7 +18,7 @@ struct LogOptions {
   std::size_t lidar = 0;                    ///< its place among the vehicle's
   bool deskew = true;                       ///< move a cloud's points to its stamp, where there is odometry
   BagOptions bag;                           ///< topics and lidars; where it names none, that from above
-  LogRemark remark;                         ///< may be empty
+  LogRemark remark;                         ///< may be empty; is told the file, too
 };
 
 /// Opens a log by its extension: .log, .clf, .carmen (CARMEN), .bag (ROS 1), .pcap, .pcapng (VLP-16, with

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,14 +10,11 @@
 
 namespace madori::sensors {
 
-/// Told once of what was found out about a log, in words for people.
-using LogRemark = std::function<void(const std::string&)>;
-
 /// Keeps the time of a log going on where a clock was set back. One record that is late among its own kind
 /// (the odometry, a scan's source) is a straggler and passes as it is; several that are late but run on among
 /// themselves are of a clock that was set: these, and all that follow of this kind, are moved on by one
 /// amount, so that they follow what came before. Kinds that were set together are moved by the same amount.
-/// The order of the records stays.
+/// The order of the records stays. The first set is told.
 class SteadyTimeReader final : public LogReader {
  public:
   SteadyTimeReader(std::unique_ptr<LogReader> source, LogRemark remark)

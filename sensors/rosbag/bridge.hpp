@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -68,8 +70,13 @@ class Input {
 
   /// Topics of these kinds.
   [[nodiscard]] std::vector<Topic> topics() const;
+  /// Types of messages that are not read.
+  [[nodiscard]] std::set<std::string> other_types() const;
   /// Reads these topics only, in the order of recording.
   void choose(const std::vector<std::string>& topics);
+  /// By chosen topic: the stamp in the header before the time of recording, ns, of up to `most` messages that
+  /// are spread over the bag. Of messages with a header only.
+  [[nodiscard]] std::map<std::string, std::vector<std::int64_t>> stamps_before_recording(std::size_t most);
 
   struct Sinks {
     std::function<void(const std::string& topic, const Scan&)> scan;

@@ -22,6 +22,20 @@ std::int64_t take_header(BagBytes& in, std::string& frame) {
   return stamp_ns;
 }
 
+/// What LaserScan and MultiEchoLaserScan have before their ranges.
+Scan take_sweep(BagBytes& in) {
+  Scan scan;
+  scan.stamp_ns = take_header(in, scan.frame);
+  scan.angle_min = in.number<float>();
+  (void)in.number<float>();  // angle_max
+  scan.angle_increment = in.number<float>();
+  scan.time_increment = in.number<float>();
+  (void)in.number<float>();  // scan_time
+  scan.range_min = in.number<float>();
+  scan.range_max = in.number<float>();
+  return scan;
+}
+
 Field take_field(BagBytes& in) {
   Field field;
   field.name = in.text();
@@ -41,18 +55,26 @@ std::optional<Kind> kind_of(const std::string& type, const std::string& md5sum) 
 
 Scan scan_from(Bytes message) {
   BagBytes in(message);
-  Scan scan;
-  scan.stamp_ns = take_header(in, scan.frame);
-  scan.angle_min = in.number<float>();
-  (void)in.number<float>();  // angle_max
-  scan.angle_increment = in.number<float>();
-  scan.time_increment = in.number<float>();
-  (void)in.number<float>();  // scan_time
-  scan.range_min = in.number<float>();
-  scan.range_max = in.number<float>();
+  Scan scan = take_sweep(in);
   scan.ranges = in.numbers<float>();
   scan.intensities = in.numbers<float>();
   return scan;
+}
+
+Scan first_echoes_from(Bytes message) {
+  BagBytes in(message);
+  Scan scan = take_sweep(in);
+  for (auto beams = in.number<std::uint32_t>(); beams > 0; --beams) {
+    const std::vector<float> echoes = in.numbers<float>();
+    scan.ranges.push_back(echoes.empty() ? 0.0F : echoes.front());
+  }
+  return scan;
+}
+
+std::int64_t header_stamp_ns(Bytes message) {
+  BagBytes in(message);
+  (void)in.number<std::uint32_t>();
+  return take_stamp_ns(in);
 }
 
 Cloud cloud_from(Bytes message) {

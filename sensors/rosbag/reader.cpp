@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/result.hpp"
 #include "sensors/rosbag/cloud_fields.hpp"
@@ -12,10 +13,6 @@ namespace {
 constexpr std::size_t kMaxBeams = 20'000;
 
 namespace bridge = rosbag_bridge;
-
-Stamp to_stamp(std::int64_t stamp_ns) {
-  return Stamp(Duration(stamp_ns));
-}
 
 /// The topic of this kind to read; empty where there is none.
 std::string choose(const std::vector<bridge::Topic>& topics, bridge::Kind kind, const std::string& wanted,
@@ -35,32 +32,46 @@ std::string choose(const std::vector<bridge::Topic>& topics, bridge::Kind kind, 
   throw Error(file, "has several topics of one kind: " + all, "name the one to use with " + option);
 }
 
-std::optional<OdometryReading> convert(const bridge::Pose& pose) {
+/// Where a topic's stamps lie before the times of recording, and how far the middle half of them spreads.
+struct ClockOfTopic {
+  Duration before{}, spread{};
+
+  explicit ClockOfTopic(std::vector<std::int64_t> all_ns) {
+    std::ranges::sort(all_ns);
+    const std::size_t n = all_ns.size();
+    before = Duration(all_ns[n / 2]);
+    spread = Duration(all_ns[n - 1 - n / 4] - all_ns[n / 4]);
+  }
+};
+
+std::optional<OdometryReading> convert(Stamp stamp, const bridge::Pose& pose) {
   const double ww = pose.qw * pose.qw, xx = pose.qx * pose.qx, yy = pose.qy * pose.qy, zz = pose.qz * pose.qz;
   const double yaw_rad =
       std::atan2(2.0 * (pose.qw * pose.qz + pose.qx * pose.qy), ww + xx - yy - zz);  // of any length
-  OdometryReading reading{to_stamp(pose.stamp_ns), {pose.x, pose.y, yaw_rad}};
+  OdometryReading reading{stamp, {pose.x, pose.y, yaw_rad}};
   if (!(ww + xx + yy + zz > 0.0) || !reading.odom_from_base.is_finite()) return std::nullopt;
   return reading;
 }
 
-std::optional<ScanRecord> convert(const std::string& topic, const bridge::Scan& in,
+/// A range_max of 0 or NaN and a range_min of NaN state none.
+std::optional<ScanRecord> convert(const std::string& topic, Stamp stamp, const bridge::Scan& in,
                                   const MountedLidar& lidar) {
   const bool sound = std::isfinite(in.angle_min) && std::isfinite(in.angle_increment) &&
-                     in.angle_increment != 0.0F && in.range_max > 0.0F && in.ranges.size() <= kMaxBeams;
+                     in.angle_increment != 0.0F && !(in.range_max < 0.0F) && in.ranges.size() <= kMaxBeams;
   if (!sound) return std::nullopt;
   ScanRecord record{topic, {}, lidar.base_from_lidar, {}, {}};
   LaserScan& scan = record.scan;
   scan.lidar = lidar.place;
-  scan.stamp = to_stamp(in.stamp_ns);
+  scan.stamp = stamp;
   if (in.time_increment > 0.0F && in.time_increment < 1.0F)
     scan.beam_period = duration_from_seconds(in.time_increment);
   scan.angle_min_rad = in.angle_min;
   scan.angle_step_rad = in.angle_increment;
-  scan.range_max_m = in.range_max;
+  const float range_max = in.range_max > 0.0F ? in.range_max : std::numeric_limits<float>::infinity();
+  scan.range_max_m = range_max;
   scan.ranges_m.reserve(in.ranges.size());
   for (const float range_m : in.ranges) {
-    const bool hit = range_m > 0.0F && range_m >= in.range_min && range_m < in.range_max;
+    const bool hit = range_m > 0.0F && !(range_m < in.range_min) && range_m < range_max;
     scan.ranges_m.push_back(hit ? range_m : LaserScan::kNoReturn);
   }
   if (in.intensities.size() == in.ranges.size()) scan.intensities = in.intensities;
@@ -86,13 +97,49 @@ BagReader::BagReader(const std::filesystem::path& file, BagOptions options)
       choose(topics, bridge::Kind::Odometry, options_.odometry_topic, "/odom", "--odometry-topic",
              file.string())};
   std::erase(chosen, "");
-  if (chosen.empty())
-    throw Error(file.string(), "holds no LaserScan, PointCloud2 or Odometry",
+  if (chosen.empty()) {
+    std::string others;
+    for (const std::string& type : input_->other_types()) others += (others.empty() ? ", but " : ", ") + type;
+    throw Error(file.string(), "holds no LaserScan, PointCloud2 or Odometry" + others,
                 "record the lidar and the odometry");
+  }
   input_->choose(chosen);
+  put_on_one_clock(chosen);
 }
 
 BagReader::~BagReader() = default;
+
+/// What is measured is recorded soon: topics whose stamps lie elsewhere before the times of recording were
+/// stamped by other clocks.
+void BagReader::put_on_one_clock(const std::vector<std::string>& topics) {
+  constexpr std::size_t kMessages = 25;
+  std::map<std::string, std::vector<std::int64_t>> before;
+  try {
+    before = input_->stamps_before_recording(kMessages);
+  } catch (const std::exception&) {
+    return;  // next() reports the damage when it comes to it
+  }
+  const std::string& first = topics.back();  // the odometry, where there is one
+  if (before[first].empty()) return;
+  const ClockOfTopic right(before[first]);
+  for (const std::string& topic : topics) {
+    if (topic == first || before[topic].empty()) continue;
+    const ClockOfTopic other(before[topic]);
+    const Duration by = right.before - other.before;
+    if (std::chrono::abs(by) <= kBagDisorder) continue;
+    const std::string clocks = topic + " and " + first + " are stamped by two clocks, " +
+                               std::to_string(to_seconds(std::chrono::abs(by))) + " s apart";
+    if (std::max(right.spread, other.spread) > kBagDisorder)
+      throw Error(file_.string(), clocks + " and more or less", "record with clocks that are kept together");
+    moved_[topic] = by;
+    if (options_.remark) options_.remark(clocks + ": all times are those of " + first);
+  }
+}
+
+Stamp BagReader::stamp_of_topic(const std::string& topic, std::int64_t stamp_ns) const {
+  const auto moved = moved_.find(topic);
+  return Stamp(Duration(stamp_ns) + (moved == moved_.end() ? Duration(0) : moved->second));
+}
 
 const MountedLidar& BagReader::lidar_of(bool planar, const std::string& topic, const std::string& frame) {
   const auto [found, fresh] = found_.try_emplace({topic, frame});
@@ -112,7 +159,7 @@ std::optional<LogRecord> BagReader::next() {
   };
   bridge::Input::Sinks sinks;
   sinks.scan = [&](const std::string& topic, const bridge::Scan& in) {
-    auto record = convert(topic, in, lidar_of(true, topic, in.frame));
+    auto record = convert(topic, stamp_of_topic(topic, in.stamp_ns), in, lidar_of(true, topic, in.frame));
     if (!record) refuse(topic, in.stamp_ns, "the scan's angles or limits are no numbers");
     ready_.emplace_back(std::move(*record));
   };
@@ -122,10 +169,11 @@ std::optional<LogRecord> BagReader::next() {
     const MountedLidar& lidar = lidar_of(false, topic, in.frame);
     CloudRecord record{topic, std::move(cloud).value(), lidar.base_from_lidar, lidar.height_m};
     record.cloud.lidar = lidar.place;
+    if (const auto moved = moved_.find(topic); moved != moved_.end()) record.cloud.stamp += moved->second;
     ready_.emplace_back(std::move(record));
   };
   sinks.odometry = [&](const std::string& topic, const bridge::Pose& in) {
-    const auto reading = convert(in);
+    const auto reading = convert(stamp_of_topic(topic, in.stamp_ns), in);
     if (!reading) refuse(topic, in.stamp_ns, "the pose is no number, or has no orientation");
     ready_.emplace_back(*reading);
   };

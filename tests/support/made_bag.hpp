@@ -44,7 +44,8 @@ struct MadeMessage {
   std::string bytes;
 };
 
-/// A bag of one chunk, with a topic "/0", "/1" ... a type; `compression` is "none" or "bz2".
+/// A bag of one chunk, with a topic "/0", "/1" ... for each type of which it has messages; `compression` is
+/// "none" or "bz2".
 inline std::string made_bag(const std::vector<MadeMessage>& messages, const std::string& compression) {
   using namespace sensors::rosbag_bridge;
   const auto field32 = [](const char* name, std::size_t value) {
@@ -59,7 +60,10 @@ inline std::string made_bag(const std::vector<MadeMessage>& messages, const std:
     of_type[type] += time + number_bytes(static_cast<std::uint32_t>(chunk.size()));
     chunk += bag_record({op(2), field32("conn=", type), "time=" + time}, bytes);
   }
+  std::size_t topics = 0;
   for (std::size_t type = 0; type < of_type.size(); ++type) {
+    if (of_type[type].empty()) continue;
+    ++topics;
     const std::string topic = "topic=/" + std::to_string(type);
     const std::string says = bag_record({std::string("type=") + kMessageTypes[type].name,
                                          std::string("md5sum=") + kMessageTypes[type].md5sum},
@@ -74,15 +78,14 @@ inline std::string made_bag(const std::vector<MadeMessage>& messages, const std:
       bag_record({op(5), "compression=" + compression, field32("size=", chunk.size())}, packed) + index;
   const std::string first = "#ROSBAG V2.0\n";
   const auto head = [&](std::uint64_t index_at) {
-    return first + bag_record({op(3), "index_pos=" + number_bytes(index_at),
-                               field32("conn_count=", of_type.size()), field32("chunk_count=", 1)},
+    return first + bag_record({op(3), "index_pos=" + number_bytes(index_at), field32("conn_count=", topics),
+                               field32("chunk_count=", 1)},
                               "");
   };
   const std::uint64_t begin = head(0).size();
   return head(begin + body.size()) + body + connections +
-         bag_record({op(6), field32("ver=", 1), "chunk_pos=" + number_bytes(begin),
-                     field32("count=", of_type.size())},
-                    "");
+         bag_record(
+             {op(6), field32("ver=", 1), "chunk_pos=" + number_bytes(begin), field32("count=", topics)}, "");
 }
 
 }  // namespace madori::test

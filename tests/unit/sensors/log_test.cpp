@@ -118,6 +118,13 @@ TEST(Bag, RefusesWhatIsNone) {
   const test::TemporaryFolder folder;
   EXPECT_THAT(error_of(folder.write("a.bag", "no bag at all")), HasSubstr("no readable ROS 1 bag"));
   EXPECT_THAT(error_of(folder.write("b.bag", "")), HasSubstr("no readable ROS 1 bag"));
+  const auto file = folder.path() / "c.bag";
+  {
+    BagWriter writer(file);
+    writer.write("/cmd_vel", VelocityCommand{}, stamp_from_seconds(1.0));
+    writer.close();
+  }
+  EXPECT_THAT(error_of(file), HasSubstr("or Odometry, but geometry_msgs/Twist"));
 }
 
 std::string std_string(const std::string& text) {
@@ -182,6 +189,77 @@ TEST(Bag, WhatLiesOutsideIsRefusedWithTheReason) {
   EXPECT_THAT(said(first_bytes, 0xFFFFFFFFU), HasSubstr("outside its record"));
   for (std::size_t length = 0; length < bag.size(); length += 7)
     EXPECT_THAT(texts_of(folder.write("a.bag", bag.substr(0, length))), Not(HasSubstr("second"))) << length;
+}
+
+/// Scans at 5 Hz, wheels at 10 Hz, the scans' clock ahead by `ahead_s` and by `drift` of the time.
+std::filesystem::path bag_of_two_clocks(const test::TemporaryFolder& folder, double ahead_s, double drift) {
+  const auto at = [](double seconds) { return stamp_from_seconds(1'700'000'000.0 + seconds); };
+  BagWriter writer(folder.path() / "clocks.bag");
+  for (int i = 0; i < 100; ++i) {
+    const double time_s = 0.1 * i;
+    writer.write("/wheels", OdometryReading{at(time_s), {}});
+    if (i % 2 == 0) writer.write("/laser", sample_scan(at(time_s * (1.0 + drift) + ahead_s)), at(time_s));
+  }
+  writer.close();
+  return folder.path() / "clocks.bag";
+}
+
+TEST(Bag, TopicsOfTwoClocksArePutOnThatOfTheOdometry) {
+  const test::TemporaryFolder folder;
+  for (const double ahead_s : {5.0, -5.0, -1'699'999'900.0, 0.1}) {
+    LogOptions options;
+    std::string told;
+    options.remark = [&](const std::string& what) { told += what; };
+    const auto log = open_log(bag_of_two_clocks(folder, ahead_s, 0.0), options);
+    const bool corrected = std::abs(ahead_s) > 1.0;
+    EXPECT_EQ(told.find("/laser and /wheels are stamped by two clocks") != std::string::npos, corrected)
+        << ahead_s;
+    int scans = 0;
+    while (const auto record = log->next()) {
+      if (!std::holds_alternative<ScanRecord>(*record)) continue;
+      const double right_s = 1'700'000'000.0 + 0.2 * scans++ + (corrected ? 0.0 : ahead_s);
+      EXPECT_NEAR(to_seconds(stamp_of(*record)), right_s, 1e-6) << ahead_s;
+    }
+    EXPECT_EQ(scans, 50);
+  }
+  EXPECT_THAT(error_of(bag_of_two_clocks(folder, 5.0, 0.5)), HasSubstr("and more or less"));
+}
+
+std::string laser_message(float range_min, float range_max, const std::vector<std::vector<float>>& echoes,
+                          bool multi) {
+  const auto numbers = [](const std::vector<float>& values) {
+    std::string bytes = test::number_bytes(static_cast<std::uint32_t>(values.size()));
+    for (const float value : values) bytes += test::number_bytes(value);
+    return bytes;
+  };
+  std::string bytes =
+      test::number_bytes(0U) + test::number_bytes(1U) + test::number_bytes(0U) + std_string("laser");
+  for (const float value : {-1.0F, 1.0F, 0.5F, 0.0F, 0.1F, range_min, range_max})
+    bytes += test::number_bytes(value);
+  bytes += test::number_bytes(static_cast<std::uint32_t>(echoes.size()));
+  for (const auto& beam : echoes) bytes += multi ? numbers(beam) : test::number_bytes(beam.front());
+  return bytes + test::number_bytes(0U);
+}
+
+TEST(Bag, LimitsThatAreNotStatedAreNone) {
+  const test::TemporaryFolder folder;
+  for (const auto& [low, high] :
+       {std::pair(0.1F, 0.0F), std::pair(std::nanf(""), 30.0F), std::pair(0.1F, std::nanf(""))}) {
+    const auto file = folder.write(
+        "a.bag", test::made_bag({{0, laser_message(low, high, {{1.0F}, {0.0F}, {2.5F}}, false)}}, "none"));
+    const auto scan = std::get<ScanRecord>(open_log(file)->next().value()).scan;
+    EXPECT_EQ(scan.ranges_m, (std::vector<float>{1.0F, LaserScan::kNoReturn, 2.5F}));
+  }
+}
+
+TEST(Bag, OfSeveralEchoesTheFirstCounts) {
+  const test::TemporaryFolder folder;
+  const std::size_t type = std::size(rosbag_bridge::kMessageTypes) - 1;
+  const auto file = folder.write(
+      "a.bag",
+      test::made_bag({{type, laser_message(0.1F, 30.0F, {{1.0F, 2.0F}, {}, {2.5F}}, true)}}, "none"));
+  const auto scan = std::get<ScanRecord>(open_log(file)->next().value()).scan;
+  EXPECT_EQ(scan.ranges_m, (std::vector<float>{1.0F, LaserScan::kNoReturn, 2.5F}));
 }
 
 TEST(PointCloud2, RefusesRowsAndFieldsOutsideItsData) {
