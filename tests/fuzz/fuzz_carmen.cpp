@@ -15,8 +15,9 @@ void require(bool good) {
 
 void check(const sensors::LogRecord& record) {
   if (const auto* scan = std::get_if<sensors::ScanRecord>(&record)) {
-    require(scan->odom_from_base && scan->odom_from_base->is_finite() &&
-            std::isfinite(scan->scan.angle_min_rad));
+    require(!scan->odom_from_base || scan->odom_from_base->is_finite());
+    require(std::isfinite(scan->scan.angle_min_rad) && std::isfinite(scan->scan.angle_step_rad) &&
+            scan->base_from_lidar.is_finite());
     for (const float range_m : scan->scan.ranges_m) require(range_m > 0.0F);
   } else {
     require(std::get<OdometryReading>(record).odom_from_base.is_finite());
@@ -27,9 +28,11 @@ void check(const sensors::LogRecord& record) {
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   std::string_view text(reinterpret_cast<const char*>(data), size);
+  sensors::carmen::LogParams params;
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
-    const auto parsed = sensors::carmen::parse_line(line);
+    params.take(line);
+    const auto parsed = sensors::carmen::parse_line(line, params);
     if (parsed && parsed.value()) check(parsed.value()->record);
     text.remove_prefix(std::min(line.size() + 1, text.size()));
   }
