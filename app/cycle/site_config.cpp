@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/lidars.hpp"
-#include "core/result.hpp"
 #include "mapping/site/file_identity.hpp"
 #include "mapping/site/site_transaction.hpp"
 #include "planning/route_graph/route_csv.hpp"
@@ -98,14 +97,14 @@ CycleConfig config_for_mapping(const mapping::Site& setup, const std::filesystem
 }
 
 SiteForDriving load_for_driving(const std::filesystem::path& folder) {
-  constexpr int kMostTries = 100;  // a save in between is rare, and asks for one more
-  for (int tries = 0; tries < kMostTries; ++tries) {
-    mapping::recover_site(folder);
-    const auto before = mapping::site_identity(folder);
-    auto loaded = load_as_it_is(folder);
-    if (!mapping::is_being_changed(folder) && mapping::site_identity(folder) == before) return loaded;
-  }
-  throw Error(folder.string(), "is being changed all the time", "try again");
+  mapping::SiteIdentity before;
+  const auto read = [&] {
+    before = mapping::site_identity(folder);
+    return load_as_it_is(folder);
+  };
+  return mapping::read_unchanged(folder, read, [&](const SiteForDriving& /*loaded*/) {
+    return mapping::site_identity(folder) == before;
+  });
 }
 
 void take_routes(planning::RouteGraph routes, CycleConfig& config) {

@@ -64,15 +64,13 @@ std::vector<TarStream::Entry> site_snapshot(const fs::path& site) {
   if (!has_site(site)) throw Error(site.string(), "is no site folder (no site.yaml)", "name a site");
   if (!fs::exists(site / "walls.csv"))
     throw Error(site.string(), "has no walls.csv, without which it is no site", "import its drawing again");
-  constexpr int kMostTries = 100;  // a save in between is rare, and asks for one more
-  for (int tries = 0; tries < kMostTries; ++tries) {
-    mapping::recover_site(site);
+  const auto read = [&] {
     auto entries = site_entries(site);
     for (auto& entry : entries)
       if (is_replaced(entry.name)) entry.held = HeldFile::open(entry.file);
-    if (!mapping::is_being_changed(site) && are_still(entries, site)) return entries;
-  }
-  throw Error(site.string(), "is being changed all the time", "try again");
+    return entries;
+  };
+  return mapping::read_unchanged(site, read, [&](const auto& entries) { return are_still(entries, site); });
 }
 
 }  // namespace madori::hmi

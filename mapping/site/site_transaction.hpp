@@ -67,4 +67,18 @@ class SiteTransaction {
 /// Finishes a change that was committed but cut short. Cheap when there is nothing to do.
 void recover_site(const std::filesystem::path& site);
 
+/// What read() gives of files that are all of one state of the site: anew as long as `still`(that) is false,
+/// or a change is under way, for a save in between is rare, and asks for one more. Throws Error, also that of
+/// who changes the site all the time.
+template <class Read, class Still>
+auto read_unchanged(const std::filesystem::path& site, const Read& read, const Still& still) {
+  constexpr int kMostTries = 100;
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    recover_site(site);
+    auto found = read();
+    if (!is_being_changed(site) && still(found)) return found;
+  }
+  throw Error(site.string(), "is being changed all the time", "try again");
+}
+
 }  // namespace madori::mapping
