@@ -36,14 +36,12 @@ class MountingRun {
   void stop() { stop_ = true; }
   [[nodiscard]] MountingView view() const;
   /// It moves the vehicle.
-  [[nodiscard]] bool drives() const { return is(MountingView::State::Driving); }
-  [[nodiscard]] bool computes() const { return is(MountingView::State::Computing); }
+  [[nodiscard]] bool drives() const {
+    const std::scoped_lock lock(mutex_);
+    return view_.state == MountingView::State::Driving;
+  }
 
  private:
-  [[nodiscard]] bool is(MountingView::State state) const {
-    const std::scoped_lock lock(mutex_);
-    return view_.state == state;
-  }
   void look_after_answer();
 
   std::vector<mapping::SensorRecord> sensors_;

@@ -68,8 +68,8 @@ class SiteTransaction {
 void recover_site(const std::filesystem::path& site);
 
 /// What read() gives of files that are all of one state of the site: anew as long as `still`(that) is false,
-/// or a change is under way, for a save in between is rare, and asks for one more. Throws Error, also that of
-/// who changes the site all the time.
+/// or a change is under way, for a save in between is rare, and asks for one more. Throws what read() throws,
+/// and Error where the site is being changed all the time.
 template <class Read, class Still>
 auto read_unchanged(const std::filesystem::path& site, const Read& read, const Still& still) {
   constexpr int kMostTries = 100;

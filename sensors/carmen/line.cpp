@@ -32,29 +32,22 @@ class Words {
   }
 
   double number(double largest = kLargestRead) {
-    const std::string_view text = word();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    good_ = good_ && error == std::errc() && end == text.data() + text.size() && std::abs(value) <= largest;
+    const auto value = taken<double>();
+    good_ = good_ && std::abs(value) <= largest;
     return good_ ? value : 0.0;
   }
 
   /// nan and inf, which converters of other logs write, are no returns.
   double range() {
-    const std::string_view text = word();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    good_ = good_ && error == std::errc() && end == text.data() + text.size() &&
-            (!std::isfinite(value) || std::abs(value) <= kLargestRead);
-    return good_ && std::isfinite(value) ? value : 0.0;
+    const auto value = taken<double>();
+    const bool finite = std::isfinite(value);
+    good_ = good_ && (!finite || std::abs(value) <= kLargestRead);
+    return good_ && finite ? value : 0.0;
   }
 
   int count(int smallest, int largest) {
-    const std::string_view text = word();
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    good_ = good_ && error == std::errc() && end == text.data() + text.size() && value >= smallest &&
-            value <= largest;
+    const int value = taken<int>();
+    good_ = good_ && value >= smallest && value <= largest;
     return good_ ? value : 0;
   }
 
@@ -73,6 +66,16 @@ class Words {
   [[nodiscard]] bool good() const { return good_; }
 
  private:
+  /// The next word, all of it, as a number; it may be nan or inf.
+  template <class Number>
+  Number taken() {
+    const std::string_view text = word();
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    good_ = good_ && error == std::errc() && end == text.data() + text.size();
+    return value;
+  }
+
   std::string_view rest_;
   bool good_ = true;
 };
